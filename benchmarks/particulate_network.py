@@ -21,8 +21,7 @@ from typing import Any
 import numpy as np
 import torch  # noqa: TID253
 
-from asset_factory.factory.models.network.precision import product_dtype
-from asset_factory.factory.models.network.shape import NetworkShape
+from asset_factory.factory.models.network.shape import NetworkShape, product_dtype
 from asset_factory.factory.models.network.streaming import CHUNK
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 from asset_factory.factory.models.particulate.model import Model, PointCloud

@@ -21,7 +21,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.models.particulate import sampling
 from asset_factory.factory.models.particulate.components import component_features
-from asset_factory.factory.models.particulate.sharp import sharp_edges
+from asset_factory.factory.models.particulate.sampling import sharp_edges
 from asset_factory.factory.models.particulate.surface import Surface
 from asset_factory.learn.objects import CATEGORIES, MixtureSettings, training_object
 from asset_factory.learn.samples.sample import DrawSettings, draw

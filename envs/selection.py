@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.registry.entry import SPLITS, TEST_SHARE, Split, split_of
 from asset_factory.factory.registry.report_file import read_report
-from asset_factory.factory.registry.split import SPLITS, TEST_SHARE, Split, split_of
 
 from .assets import OpenableJoint, RegisteredAsset, listed
 

@@ -13,8 +13,7 @@ from .articulate.standing import standing_hypotheses
 from .articulate.terms import with_terms
 from .config import BuildConfig
 from .errors import InputRejected, Unjudged
-from .export.bundle import with_manifest_of
-from .export.model import write_input, write_model
+from .export.bundle import with_manifest_of, write_input, write_model
 from .intake.intake import Intake
 from .intake.source import Source
 from .manufacture.stage import with_targets

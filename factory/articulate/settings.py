@@ -6,8 +6,7 @@ from importlib.util import find_spec
 
 from ..config import ParticulateConfig
 from ..errors import ConfigError
-from ..models.network.precision import Precision
-from ..models.network.shape import read_shape
+from ..models.network.shape import Precision, read_shape
 from ..models.partfield.shape import read_partfield_shape
 from ..models.particulate.components import COMPONENT_FEATURES
 from ..models.particulate.decoding import DecodeRules, TreeOver

@@ -118,10 +118,8 @@ def run(command: Build) -> int:
     summary = Summary(tuple(results), JobState.INTERRUPTED if stopped else job.state, left)
     _write_summary(command.output / SUMMARY, summary.to_dict())
     if summary.state is JobState.INTERRUPTED:
-        complain(
-            f"factory: interrupted; what was finished is registered, {left} inputs are left; "
-            "the same command goes on with them"
-        )
+        done = f"what was finished is registered, {left} inputs are left"
+        complain(f"factory: interrupted; {done}; the same command goes on with them")
         return stopped or Exit.INTERRUPTED
     _show(summary, command)
     page = report_after(command.output, command.workers) if not command.no_report else None
@@ -143,10 +141,8 @@ def _show(summary: Summary, command: Build) -> None:
     elif not command.quiet:
         console.print_results(summary, command.output)
         if summary.left:
-            say(
-                f"{summary.left} inputs are left ({summary.state.replace('_', ' ')}); "
-                "the same command goes on with them."
-            )
+            left = f"{summary.left} inputs are left ({summary.state.replace('_', ' ')})"
+            say(f"{left}; the same command goes on with them.")
 
 
 def _write_summary(path: Path, summary: dict[str, Any]) -> None:
@@ -164,11 +160,9 @@ def wanted_inputs(command: Build) -> tuple[Path, ...]:
     from ..jobs.budget import modified_since, parse_since
 
     inputs = find_inputs(local_inputs(command.input, command.output))
-    return (
-        inputs
-        if command.since is None
-        else tuple(modified_since(inputs, parse_since(command.since)))
-    )
+    if command.since is None:
+        return inputs
+    return tuple(modified_since(inputs, parse_since(command.since)))
 
 
 def _nothing_found(command: Build) -> str:
@@ -187,10 +181,8 @@ def passed_over(command: Build) -> Iterator[str]:
 
     links = links_out([mirror_of(place, command.output) for place in command.input])
     if links:
-        yield (
-            f"passed over {len(links)} links that lead out of the input folder, such as "
-            f"{links[0]}; name them with --input to have them built"
-        )
+        passed = f"passed over {len(links)} links that lead out of the input folder"
+        yield f"{passed}, such as {links[0]}; name them with --input to have them built"
 
 
 def idle_retries(command: Build) -> Iterator[str]:
@@ -212,9 +204,8 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
 
     config = build_config(command)
     if command.executor not in EXECUTORS:
-        raise ConfigError(
-            f"--executor: no executor {command.executor!r}; there are {', '.join(EXECUTORS)}"
-        )
+        known = ", ".join(EXECUTORS)
+        raise ConfigError(f"--executor: no executor {command.executor!r}; there are {known}")
     if command.executor != "ray" and (command.ray_address != "local" or command.ray_exchange):
         raise ConfigError("--ray-address and --ray-exchange want --executor ray")
     workers = command.workers
@@ -230,18 +221,16 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
         executor = LocalExecutor(workers or 1, config.retries)
     max_s = None if command.max_hours is None else 3600.0 * command.max_hours
     budget = Budget(command.limit, max_s, command.retry_rejected, command.repair)
-    return Job(
-        inputs, command.output, config, executor, budget, one_network=command.executor == "local"
-    )
+    here = command.executor == "local"
+    return Job(inputs, command.output, config, executor, budget, one_network=here)
 
 
 def build_config(command: Build) -> BuildConfig:
     """Return the configuration that the flags ask for."""
     from ..intake.mirror import mirror_of
 
-    config = with_repairs(
-        input_config(command.loading, here=command.executor == "local"), command.repairs
-    )
+    config = input_config(command.loading, here=command.executor == "local")
+    config = with_repairs(config, command.repairs)
     folders = (mirror_of(place, command.output).absolute() for place in command.input)
     given = (*(str(folder) for folder in folders if folder.is_dir()), *config.intake.given)
     interior = config.solids.interior and not command.no_interior

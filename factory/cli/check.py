@@ -23,15 +23,8 @@ from ..presets import load_config
 from ..runtime.store import write_json, write_whole
 from ..runtime.terminal import complain, printable, say
 from . import console
-from .baseline import read_baseline, without_known, write_baseline
-from .check_formats import FORMATS, PAGE, total
-from .flags import (
-    DEFAULT_SIMULATORS,
-    RootFlags,
-    require_files,
-    simulators_named,
-    workers_fitting,
-)
+from .check_formats import FORMATS, PAGE, read_baseline, total, without_known, write_baseline
+from .flags import DEFAULT_SIMULATORS, RootFlags, require_files, simulators_named, workers_fitting
 
 if TYPE_CHECKING:
     from asset_factory.sim_checks.config import CheckConfig
@@ -134,9 +127,8 @@ def _forms(said: str) -> tuple[str, dict[str, Path]]:
     names = ("text", "json", *FORMATS)
     wrong = {*printed, *written} - set(names) or ({"text"} & set(written))
     if wrong or len(printed) > 1:
-        raise ConfigError(
-            f"--format must be one of {', '.join(names)}, or FORMAT=FILE, not {said!r}"
-        )
+        known = ", ".join(names)
+        raise ConfigError(f"--format must be one of {known}, or FORMAT=FILE, not {said!r}")
     return next(iter(printed), "text"), {form: Path(file) for form, file in written.items()}
 
 
@@ -153,9 +145,8 @@ def _print_new(path: Path, report: Report, seen: set[Hashable], *, verbose: bool
 def _name_of(path: Path) -> str:
     """Return a path as the working directory has it, with forward slashes."""
     here = Path.cwd()
-    return (
-        path.resolve().relative_to(here) if path.resolve().is_relative_to(here) else path
-    ).as_posix()
+    real = path.resolve()
+    return (real.relative_to(here) if real.is_relative_to(here) else path).as_posix()
 
 
 @contextmanager
@@ -221,9 +212,8 @@ def _described(paths: Sequence[Path]) -> list[tuple[Path, str | None]]:
         elif path.is_file():
             found.append((path, None))
         else:
-            raise ConfigError(
-                f"{path}: no such file; want a URDF, MJCF or USD file, or a folder of them"
-            )
+            want = "want a URDF, MJCF or USD file, or a folder of them"
+            raise ConfigError(f"{path}: no such file; {want}")
     if not found:
         where = f"in {', '.join(map(str, paths))}" if paths else "given"
         raise ConfigError(f"no URDF, MJCF or USD file {where}; want at least one")

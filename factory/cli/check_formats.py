@@ -1,25 +1,32 @@
-"""Reports of ``factory check`` in the forms that other tools read."""
+"""Reports of ``factory check`` in the forms that other tools read, and findings that are known."""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 from xml.etree import ElementTree as ET
 
 import asset_factory
 from asset_factory.sim_checks import Finding, Report, Severity, Status
 from asset_factory.sim_checks.grouping import group_findings
 
+from ..errors import ConfigError
 from ..reasons import meaning_of
+from ..runtime.store import write_json
 from ..runtime.terminal import one_line, printable
 
 #: Where each code is explained, in the project's documentation.
 PAGE = "docs/reasons.md"
 SARIF = "https://json.schemastore.org/sarif-2.1.0.json"
 Checked = Sequence[tuple[str, Report]]
+#: Of the form of a baseline, and the most that is read of one [bytes].
+VERSION = 1
+_MAX_BYTES = 64_000_000
 
 
 def page_of(code: str) -> str:
@@ -57,7 +64,7 @@ def as_sarif(checked: Checked) -> str:
 def _sarif_result(file: str, finding: Finding, lines: Sequence[str]) -> dict[str, Any]:
     place = {
         "physicalLocation": {
-            "artifactLocation": {"uri": _uri(file)},
+            "artifactLocation": {"uri": quote(file)},
             "region": {"startLine": _line(finding, lines)},
         },
         "logicalLocations": [{"name": name, "kind": "member"} for name in _names(finding)],
@@ -105,10 +112,9 @@ def as_markdown(checked: Checked) -> str:
             lines += ["| | code | times | the worst |", "|---|---|---|---|"]
         for group in group_findings(report.findings):
             code = group[0].code
-            lines.append(
-                f"| {group[0].severity} | [{code}]({page_of(code)}) | {len(group)} "
-                f"| {_cell(_told(group[0]))} |"
-            )
+            linked = f"[{code}]({page_of(code)})"
+            worst = _cell(_told(group[0]))
+            lines.append(f"| {group[0].severity} | {linked} | {len(group)} | {worst} |")
     return "\n".join(lines)
 
 
@@ -129,9 +135,8 @@ def as_github(checked: Checked) -> str:
             title = f"title={_property(worst.code)}"
             order = list(Severity).index(worst.severity)
             told.append((order, f"::{words[worst.severity]} {place},{title}::{text}"))
-    return "\n".join(
-        [text for _, text in sorted(told, key=lambda each: each[0])] + [total(checked)]
-    )
+    ordered = [text for _, text in sorted(told, key=lambda each: each[0])]
+    return "\n".join([*ordered, total(checked)])
 
 
 def total(checked: Checked, told: Sequence[Finding] | None = None) -> str:
@@ -140,13 +145,8 @@ def total(checked: Checked, told: Sequence[Finding] | None = None) -> str:
     if told is None:
         told = [each for _, report in checked for each in report.findings]
     findings = [each.severity for each in told]
-    files = ", ".join(
-        (
-            f"{statuses.count(Status.PASSED)} passed",
-            f"{statuses.count(Status.REJECTED)} rejected",
-            f"{statuses.count(Status.UNJUDGED)} could not be validated",
-        )
-    )
+    words = {Status.UNJUDGED: "could not be validated"}
+    files = ", ".join(f"{statuses.count(each)} {words.get(each, each)}" for each in Status)
     found = ", ".join(_counted(findings.count(each), each) for each in Severity)
     return f"{_counted(len(checked), 'file')}: {files}; {found}"
 
@@ -174,20 +174,10 @@ def _line(finding: Finding, lines: Sequence[str]) -> int:
     """Return the line that first names what a finding is about; 1 where none does."""
     for name in _names(finding):
         said = re.compile(rf"""\bname\s*=\s*["']{re.escape(name)}["']""")
-        found = next(_matching(said, lines), 0)
-        if found:
-            return found
+        for number, line in enumerate(lines, 1):
+            if said.search(line):
+                return number
     return 1
-
-
-def _matching(said: re.Pattern[str], lines: Sequence[str]) -> Iterator[int]:
-    return (number for number, line in enumerate(lines, 1) if said.search(line))
-
-
-def _uri(file: str) -> str:
-    from urllib.parse import quote
-
-    return quote(file)
 
 
 def _data(text: str) -> str:
@@ -211,3 +201,50 @@ FORMATS: Mapping[str, Callable[[Checked], str]] = {
     "markdown": as_markdown,
     "github": as_github,
 }
+
+
+def write_baseline(path: Path, checked: Sequence[tuple[str, Report]]) -> None:
+    """Write every error and warning as known, without figures: those vary between versions."""
+    known = {
+        _place(file, finding): _plain(file, finding)
+        for file, report in checked
+        for finding in report.findings
+        if finding.severity is not Severity.NOTE
+    }
+    findings = [known[key] for key in sorted(known, key=str)]
+    write_json(path, {"version": VERSION, "findings": findings})
+
+
+def read_baseline(path: Path) -> frozenset[Hashable]:
+    """Return what is known, for :func:`without_known`. Raises ConfigError if it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            data = json.loads(file.read(_MAX_BYTES))
+        if data["version"] != VERSION:
+            raise ValueError(f"version {data['version']!r}, want {VERSION}")
+        return frozenset(
+            (each["file"], each["code"], each["simulator"], *map(tuple, each["at"]))
+            for each in data["findings"]
+        )
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
+        why = error.strerror if isinstance(error, OSError) else "not written by factory check"
+        advice = f"--write-baseline {path} writes one"
+        raise ConfigError(f"{path}: no baseline ({why}); {advice}") from error
+
+
+def without_known(file: str, report: Report, known: frozenset[Hashable]) -> Report:
+    """Return a report with the findings that are new: of another code, or at another place."""
+    new = (each for each in report.findings if _place(file, each) not in known)
+    return replace(report, findings=tuple(new))
+
+
+def _plain(file: str, finding: Finding) -> dict[str, Any]:
+    """Return a finding's place as JSON data."""
+    _, code, simulator, *at = _place(file, finding)
+    return {"file": file, "code": code, "simulator": simulator, "at": [list(each) for each in at]}
+
+
+def _place(file: str, finding: Finding) -> tuple[Any, ...]:
+    """Return what a finding is known by: its file, code and simulator, and its links and joints."""
+    at = (tuple(sorted(names)) for names in (finding.parts, finding.named_joints))
+    return file, finding.code, finding.simulator, *at

@@ -60,12 +60,7 @@ def follow(
     What was known from before is counted, not told one by one; rate and time left are those of the
     rest.
 
-    Args:
-        results: as a job gives them.
-        collected: is given each, so that an interruption loses none.
-        total: how many there will be.
-        under_way: says what workers are at.
-        quiet: show nothing.
+    ``collected`` is given each, so that an interruption loses none.
     """
     console = Terminal(stderr=True, quiet=quiet)
     if console.is_terminal:
@@ -128,13 +123,8 @@ def _follow_on_terminal(
     total: int,
     under_way: Callable[[], tuple[UnderWay, ...]],
 ) -> None:
-    columns = (
-        BarColumn(bar_width=20),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        _TimeLeft(),
-        _Stages(under_way),
-    )
+    amounts = (BarColumn(bar_width=20), MofNCompleteColumn())
+    columns = (*amounts, TimeElapsedColumn(), _TimeLeft(), _Stages(under_way))
     with Progress(*columns, console=console) as progress:
         task = progress.add_task("building", total=total)
         for result in results:
@@ -204,25 +194,19 @@ def print_prediction(data: dict[str, Any]) -> None:
     """Print what :func:`~asset_factory.factory.articulate.predict.predict` says of an input."""
     console = terminal()
     if "rejected" in data:
-        console.print(
-            f"rejected: {data['rejected']['code']}: {data['rejected']['message']}", markup=False
-        )
+        rejected = data["rejected"]
+        console.print(f"rejected: {rejected['code']}: {rejected['message']}", markup=False)
         return
     parts = Table("part", "faces", "confidence")
     for part in data["parts"]:
         parts.add_row(escape(part["name"]), str(part["faces"]), _or_dash(part["confidence"]))
     joints = Table("joint", "type", "parent", "child", "axis", "origin [m]", "limits", "confidence")
     for joint in data["joints"]:
-        joints.add_row(
-            escape(joint["name"]),
-            joint["type"],
-            escape(joint["parent"]),
-            escape(joint["child"]),
-            " ".join(f"{value:.3f}" for value in joint["axis"]),
-            " ".join(f"{value:.3f}" for value in joint["origin"]),
-            f"{joint['lower']:.3f} to {joint['upper']:.3f} {joint['unit']}",
-            _or_dash(joint["confidence"]),
-        )
+        ends = (escape(joint["parent"]), escape(joint["child"]))
+        line = (" ".join(f"{x:.3f}" for x in joint[name]) for name in ("axis", "origin"))
+        limits = f"{joint['lower']:.3f} to {joint['upper']:.3f} {joint['unit']}"
+        told = (*ends, *line, limits, _or_dash(joint["confidence"]))
+        joints.add_row(escape(joint["name"]), joint["type"], *told)
     console.print(parts, joints)
     for note in data["notes"]:
         console.print(note, markup=False, soft_wrap=True)
@@ -237,18 +221,13 @@ def print_report(
 ) -> None:
     """Print one checked file: its verdict and findings, all of them or the worst of each code.
 
-    Args:
-        report: of the file.
-        findings: those to tell, where others were told of the same asset; all of them by default.
-        verbose: whether to print each.
+    ``findings`` are those to tell where others were told of the same asset; all by default.
     """
     console = terminal()
     verdict = report.status
     engines = ", ".join(report.simulators) or "no simulator"
-    heading = (
-        f"[{STATUS_STYLE[verdict]}]{verdict}[/] {escape(report.description)} [dim]({engines})[/]"
-    )
-    console.print(heading, soft_wrap=True)
+    coloured = f"[{STATUS_STYLE[verdict]}]{verdict}[/]"
+    console.print(f"{coloured} {escape(report.description)} [dim]({engines})[/]", soft_wrap=True)
     told = report.findings if findings is None else findings
     for group in group_findings(told):
         for finding in group if verbose else group[:1]:
@@ -315,12 +294,8 @@ def print_weights(info: WeightsInfo) -> None:
     """Print what a checkpoint holds."""
     console = terminal()
     console.print(f"{info.file}: {info.network}", markup=False, soft_wrap=True)
-    numbers = {
-        "tensors": info.tensors,
-        "parameters": f"{info.parameters:,}",
-        "types": ", ".join(info.dtypes),
-    }
-    for name, value in {**info.details, **numbers}.items():
+    numbers = {"tensors": info.tensors, "parameters": f"{info.parameters:,}"}
+    for name, value in {**info.details, **numbers, "types": ", ".join(info.dtypes)}.items():
         console.print(f"  {name}: {value}", markup=False, soft_wrap=True)
     console.print(info.terms, markup=False, soft_wrap=True)
 

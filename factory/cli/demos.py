@@ -17,12 +17,8 @@ if TYPE_CHECKING:
 
 #: Control modes that joint targets can be converted to, and the solver's own.
 CONTROL_MODES = (
-    "pd_joint_pos",
-    "pd_joint_delta_pos",
-    "pd_joint_target_delta_pos",
-    "pd_ee_delta_pose",
-    "pd_ee_target_delta_pose",
-    "pd_ee_pose",
+    *("pd_joint_pos", "pd_joint_delta_pos", "pd_joint_target_delta_pos"),
+    *("pd_ee_delta_pose", "pd_ee_target_delta_pose", "pd_ee_pose"),
 )
 
 
@@ -87,9 +83,8 @@ def run(command: Demos) -> int:
 
     settings = _settings(command)
     assets = _wanted(command)
-    shards = make_shards(
-        assets, range(command.seed, command.seed + command.per_joint), command.shard_size
-    )
+    seeds = range(command.seed, command.seed + command.per_joint)
+    shards = make_shards(assets, seeds, command.shard_size)
     require_writable(command.to, "--to")
     with hold(command.to, settings, shards):
         making = Making(str(command.output), command.to, settings, command.workers, command.timeout)
@@ -111,9 +106,8 @@ def _settings(command: Demos) -> Settings:
 
     check_effort(command, ("per_joint", "shard_size", "workers", "tries"))
     if command.control_mode not in CONTROL_MODES:
-        raise ConfigError(
-            f"--control-mode: no {command.control_mode!r}; want one of {', '.join(CONTROL_MODES)}"
-        )
+        known = ", ".join(CONTROL_MODES)
+        raise ConfigError(f"--control-mode: no {command.control_mode!r}; want one of {known}")
     if command.robot == "fetch" and command.control_mode == "pd_ee_pose":
         raise ConfigError("--control-mode: Fetch has no 'pd_ee_pose'; want pd_ee_delta_pose")
     require_maniskill("demonstrations want", "h5py")
@@ -123,18 +117,10 @@ def _settings(command: Demos) -> Settings:
         parse_obs_mode_to_struct(command.obs_mode)
     except AssertionError as error:
         # It would be told at the first episode.
-        raise ConfigError(
-            f"--obs-mode: no {command.obs_mode!r}; want state, state_dict, none, "
-            "or pictures such as rgb+depth"
-        ) from error
-    return Settings(
-        command.task,
-        command.robot,
-        command.obs_mode,
-        command.control_mode,
-        command.tries,
-        command.keep_failures,
-    )
+        want = "want state, state_dict, none, or pictures such as rgb+depth"
+        raise ConfigError(f"--obs-mode: no {command.obs_mode!r}; {want}") from error
+    modes = (command.obs_mode, command.control_mode)
+    return Settings(command.task, command.robot, *modes, command.tries, command.keep_failures)
 
 
 def _wanted(command: Demos) -> list[RegisteredAsset]:
@@ -153,9 +139,5 @@ def _wanted(command: Demos) -> list[RegisteredAsset]:
             raise ConfigError(f"--where: none of these assets has {command.where}")
     assets = named(assets, ids, command.output)
     task = getattr(envs, next(task.class_name for task in TASKS if task.id == command.task))
-    wanted = Wanted(
-        joint=command.joint,
-        joint_types=task.joint_types,
-        min_lever=task.min_lever,
-    )
+    wanted = Wanted(joint=command.joint, joint_types=task.joint_types, min_lever=task.min_lever)
     return list(select(assets, wanted).values())

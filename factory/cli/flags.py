@@ -14,12 +14,7 @@ import tyro
 from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.read.roots import ReadOptions, ros_package_path
 from asset_factory.sim_checks.read.xacro import parse_arguments
-from asset_factory.sim_checks.simulators.catalog import (
-    SIMULATORS,
-    USUAL,
-    install_line,
-    installed,
-)
+from asset_factory.sim_checks.simulators.catalog import SIMULATORS, USUAL, install_line, installed
 
 from ..articulate.catalog import ARTICULATORS
 from ..config import REPAIR_KINDS, BuildConfig, ParticulateConfig
@@ -157,10 +152,8 @@ def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
 
     config = load_config(flags.config)
     if flags.articulator not in ARTICULATORS:
-        raise ConfigError(
-            f"--articulator: no articulator {flags.articulator!r}; "
-            f"there are {', '.join(ARTICULATORS)}"
-        )
+        known = ", ".join(ARTICULATORS)
+        raise ConfigError(f"--articulator: no articulator {flags.articulator!r}; there are {known}")
     if flags.height is not None and not flags.height > 0.0:
         raise ConfigError(f"--height must be more than 0, not {flags.height:g} m")
     up = flags.up if flags.up == "auto" else parse_up(flags.up)
@@ -173,11 +166,8 @@ def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
         allow_outside=config.intake.allow_outside or flags.roots.allow_outside,
         arguments=(*config.intake.arguments, *flags.roots.arguments()),
     )
-    asked = ("checkpoint", "features", "points", "samples", "device")
-    given: dict[str, Any] = {
-        name: getattr(flags, name) for name in asked if getattr(flags, name) is not None
-    }
-    particulate = replace(config.particulate, **{**given, **_published(flags)})
+    network = given(flags, "checkpoint", "features", "points", "samples", "device")
+    particulate = replace(config.particulate, **{**network, **_published(flags)})
     particulate = on_device(particulate, here=here)
     require_usable(particulate, needed=flags.articulator == "particulate")
     vlm = replace(config.vlm, url=flags.vlm_url or config.vlm.url)
@@ -186,6 +176,12 @@ def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
     return replace(
         config, articulator=flags.articulator, intake=intake, particulate=particulate, vlm=vlm
     )
+
+
+def given(flags: object, *names: str) -> dict[str, Any]:
+    """Return those of the flags that were given, by name."""
+    asked = {name: getattr(flags, name) for name in names}
+    return {name: value for name, value in asked.items() if value is not None}
 
 
 def on_device(config: ParticulateConfig, *, here: bool = True) -> ParticulateConfig:
@@ -226,16 +222,13 @@ def simulators_named(names: str) -> tuple[str, ...]:
     chosen = tuple(dict.fromkeys(name.strip() for name in said if name.strip()))
     unknown = [name for name in chosen if name not in SIMULATORS]
     if unknown:
-        raise ConfigError(
-            f"--sim: no simulator {unknown[0]!r}; there are {', '.join(SIMULATORS)}, or 'all'"
-        )
+        known = ", ".join(SIMULATORS)
+        raise ConfigError(f"--sim: no simulator {unknown[0]!r}; there are {known}, or 'all'")
     missing = [name for name in chosen if not installed(name)]
     if missing:
         there = ", ".join(name for name in SIMULATORS if installed(name)) or "none"
-        raise ConfigError(
-            f"--sim: {missing[0]} is not installed: {install_line(missing[0])}; "
-            f"of the others there is {there}"
-        )
+        advice = f"{install_line(missing[0])}; of the others there is {there}"
+        raise ConfigError(f"--sim: {missing[0]} is not installed: {advice}")
     return chosen
 
 
@@ -259,9 +252,7 @@ def formats_asked(names: str) -> tuple[str, ...]:
 def workers_fitting(asked: int | None, each: int) -> int:
     """Return how many workers to start: ``--workers``, or fewer (said) if memory is short.
 
-    Args:
-        asked: ``None``: as many as there are processors.
-        each: what one may need [bytes].
+    As many as there are processors are asked for by default; one may need ``each`` [bytes].
 
     Raises:
         ConfigError: fewer than one is asked for.
@@ -307,9 +298,8 @@ def require_writable(folder: Path, flag: str) -> None:
         with TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        raise ConfigError(
-            f"{flag}: {folder}: {error.strerror}; want a folder that can be written to"
-        ) from error
+        why = f"{error.strerror}; want a folder that can be written to"
+        raise ConfigError(f"{flag}: {folder}: {why}") from error
 
 
 def require_files(*paths: Path | None) -> None:
@@ -342,10 +332,9 @@ def require_page(port: int) -> None:
 def check_effort(command: Any, counts: Sequence[str]) -> None:
     """Raise ConfigError unless flags in ``counts`` are at least 1, and seed and timeout valid."""
     for name in counts:
-        if getattr(command, name) < 1:
-            raise ConfigError(
-                f"--{name.replace('_', '-')} must be at least 1, not {getattr(command, name)}"
-            )
+        count = getattr(command, name)
+        if count < 1:
+            raise ConfigError(f"--{name.replace('_', '-')} must be at least 1, not {count}")
     if command.seed < 0:
         raise ConfigError(f"--seed must be 0 or more, not {command.seed}")
     if not command.timeout > 0.0:

@@ -9,7 +9,7 @@ from ..registry import Registry
 from ..registry.cleaning import collect_garbage
 from ..runtime.terminal import say
 from .flags import OfRegistry
-from .registry_printing import print_freed, size
+from .registry import print_freed, size
 
 _GB = 1e9
 _DAY_S = 86_400.0

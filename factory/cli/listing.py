@@ -42,11 +42,10 @@ def run(command: List) -> int:
     limit = command.limit if command.limit is not None else 0 if command.json else TABLE_ROWS
     # One more than asked for says whether there are more.
     more = limit + 1 if limit else None
-    found = (
-        superseded(registry.root)
-        if command.superseded
-        else registry.select(filters, limit=more, after=command.after)
-    )
+    if command.superseded:
+        found = superseded(registry.root)
+    else:
+        found = registry.select(filters, limit=more, after=command.after)
     entries = found[: limit or None]
     if command.json:
         say(json.dumps([asdict(entry) for entry in entries], indent=2))

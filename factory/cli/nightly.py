@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..runtime.terminal import say
-from .flags import on_device, simulators_named, with_repairs
+from .flags import given, on_device, simulators_named, with_repairs
 from .report import report_after
 
 if TYPE_CHECKING:
@@ -84,21 +84,16 @@ def night_config(command: Nightly) -> NightConfig:
     config = settings.NightConfig()
     if command.config is not None:
         config = settings.load_night(command.config)
-    asked = {name: getattr(command, name) for name in ("sim", "workers", "executor", "ray_address")}
-    budget = {name: getattr(command, name) for name in ("max_hours", "limit")}
     config = replace(
         config,
-        **{name: value for name, value in asked.items() if value is not None},
+        **given(command, "sim", "workers", "executor", "ray_address"),
         inputs=tuple(settings.place_from(each, here) for each in command.input) or config.inputs,
         output=(command.output or config.output).absolute(),
-        budget=replace(
-            config.budget, **{name: value for name, value in budget.items() if value is not None}
-        ),
+        budget=replace(config.budget, **given(command, "max_hours", "limit")),
     )
     settings.require_possible(config)
     build = replace(config.build, simulators=simulators_named(config.sim))
-    build = replace(
-        build, particulate=on_device(build.particulate, here=config.executor == "local")
-    )
+    network = on_device(build.particulate, here=config.executor == "local")
+    build = replace(build, particulate=network)
     config = replace(config, build=with_repairs(build, command.repairs))
     return settings.with_licenses(config)

@@ -3,33 +3,53 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from itertools import chain
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import tyro
+from rich.table import Table
 from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit
 from ..registry import Registry
-from ..registry.diff import diff
+from ..registry.cleaning import Freed
+from ..registry.diff import Diff, EntryChange, diff
+from ..registry.entry import SPLITS, Entry
 from ..registry.rebuild import rebuild
 from ..registry.sources import entries_of
-from ..registry.split import SPLITS
-from ..registry.verify import verify
+from ..registry.verify import Problem, verify
 from ..runtime.remote import is_url, shown
-from ..runtime.terminal import say
+from ..runtime.terminal import Terminal, one_line, say
 from .flags import AssetId, AssetIds, OfPassed, OfRegistry, Printed
-from .registry_printing import print_diff, print_problems, print_rebuilt, size
 
 _GB = 1e9
+#: Lines of one kind that are shown before the rest is only counted.
+SHOWN = 50
+_UNITS = ("B", "kB", "MB", "GB", "TB")
+
+
+def _retag(output: Path, asset_id: str, change: Callable[[set[str]], set[str]]) -> int:
+    registry = Registry(output)
+    entry = registry.named(asset_id)
+    entry = registry.note(entry.id, tags=tuple(change(set(entry.tags))))
+    say(f"{entry.id}: {', '.join(entry.tags) or 'no tags'}")
+    return Exit.OK
 
 
 @dataclass(frozen=True)
 class Rebuild(OfRegistry):
     """Rebuild the database from the folders, where it was deleted or is damaged too."""
+
+    def run(self) -> int:
+        """Print how many rows there are now, and which folders have none."""
+        rebuilt = rebuild(self.output)
+        _lines("unreadable", rebuilt.unreadable)
+        say(f"{rebuilt.entries} entries; {len(rebuilt.unreadable)} folders could not be read")
+        return Exit.OK
 
 
 @dataclass(frozen=True)
@@ -42,6 +62,17 @@ class Verify(Printed, OfRegistry):
     ids: AssetIds = ()
     """Only these assets."""
 
+    def run(self) -> int:
+        """Print what is not as it was published."""
+        registry = Registry(self.output)
+        ids = [registry.named(asset_id).id for asset_id in self.ids]
+        problems = verify(registry, ids or None)
+        if self.json:
+            say(json.dumps([asdict(problem) for problem in problems], indent=2))
+        else:
+            print_problems(problems, len(ids) or registry.count())
+        return Exit.REJECTED if problems else Exit.OK
+
 
 @dataclass(frozen=True)
 class Difference(Printed):
@@ -53,6 +84,15 @@ class Difference(Printed):
     """The same, later."""
     strict: bool = False
     """Exit with 1 when something newly failed or is gone."""
+
+    def run(self) -> int:
+        """Print what differs."""
+        found = diff(entries_of(self.before), entries_of(self.after))
+        if self.json:
+            say(json.dumps(found.to_dict(), indent=2))
+        else:
+            print_diff(found)
+        return Exit.REJECTED if self.strict and (found.newly_failed or found.gone) else Exit.OK
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,9 +107,8 @@ class Handing(OfPassed):
         from ..registry.export import LAYOUTS, contents
 
         if self.layout not in LAYOUTS:
-            raise ConfigError(
-                f"--layout: no layout {self.layout!r}; there are {', '.join(LAYOUTS)}"
-            )
+            known = ", ".join(LAYOUTS)
+            raise ConfigError(f"--layout: no layout {self.layout!r}; there are {known}")
         entries = self.entries()
         first = next(entries, None)
         if first is None:
@@ -85,6 +124,14 @@ class Export(Handing):
     target: Positional[str]
     """A new folder, a file (.tar, .tar.gz), or a URL of either that fsspec understands."""
 
+    def run(self) -> int:
+        """Write the export."""
+        from ..registry.export import write_export
+
+        written = write_export(self.files(), self.target)
+        say(f"{shown(self.target)}: {written.files} files, {size(written.bytes)}")
+        return Exit.OK
+
 
 @dataclass(frozen=True)
 class Sync(Handing):
@@ -98,6 +145,19 @@ class Sync(Handing):
 
     url: Positional[str]
     """URL of a folder, as fsspec understands it: s3://, gs://, hf://, file://."""
+
+    def run(self) -> int:
+        """Bring the copy up to date."""
+        from ..registry.sync import sync
+
+        files = self.files()
+        if not is_url(self.url):
+            want = "want e.g. s3://bucket/assets or file:///copy"
+            raise ConfigError(f"{self.url}: is no URL, {want}")
+        synced = sync(files, self.url)
+        sent = f"{synced.sent} sent ({size(synced.bytes)}), {synced.removed} removed"
+        say(f"{shown(self.url)}: {synced.files} files, {sent}")
+        return Exit.OK
 
 
 @dataclass(frozen=True)
@@ -115,6 +175,23 @@ class Import:
     max_gb: float = 200.0
     """Refuse an export of more than this [GB]."""
 
+    def run(self) -> int:
+        """Register the assets."""
+        from ..registry.imports import ImportLimits, import_export
+
+        if not self.max_gb > 0.0:
+            raise ConfigError(f"--max-gb must be more than 0, not {self.max_gb:g}")
+        if not self.source.exists():
+            advice = "`factory registry export` writes one"
+            raise ConfigError(f"{self.source}: no such file or folder; {advice}")
+        registry = Registry(self.output, create=True)
+        limits = ImportLimits(total_bytes=int(self.max_gb * _GB))
+        imported = import_export(
+            registry, self.source, replace=self.replace, trusted=self.trust, limits=limits
+        )
+        say(f"{len(imported.published)} assets imported, {len(imported.same)} were there already")
+        return Exit.OK
+
 
 @dataclass(frozen=True)
 class Tag(OfRegistry):
@@ -124,6 +201,10 @@ class Tag(OfRegistry):
     """As `factory list` prints it."""
     tags: Positional[tuple[str, ...]]
     """Letters, digits, and ._:- within."""
+
+    def run(self) -> int:
+        """Add the tags."""
+        return _retag(self.output, self.id, lambda tags: tags | set(self.tags))
 
 
 @dataclass(frozen=True)
@@ -135,10 +216,26 @@ class Untag(OfRegistry):
     tags: Positional[tuple[str, ...]] = ()
     """Tags to take; those that it does not have are ignored."""
 
+    def run(self) -> int:
+        """Take the tags."""
+        return _retag(self.output, self.id, lambda tags: tags - set(self.tags or tags))
+
 
 @dataclass(frozen=True)
 class SplitCommand(Printed, OfPassed):
     """List the assets for training and those for testing, one id a line."""
+
+    def run(self) -> int:
+        """Print the ids."""
+        chosen: dict[str, list[str]] = {name: [] for name in SPLITS}
+        for entry in self.entries():
+            chosen[entry.split].append(entry.id)
+        if self.json:
+            say(json.dumps(chosen, indent=2))
+        for name, ids in chosen.items() if not self.json else ():
+            for asset_id in ids:
+                say(f"{name}\t{asset_id}")
+        return Exit.OK
 
 
 @dataclass(frozen=True)
@@ -160,109 +257,72 @@ class RegistryCommand:
 
 def run(command: RegistryCommand) -> int:
     """Do one of them; returns the exit code."""
-    actions: dict[type, Callable[[Any], int]] = {
-        Rebuild: _rebuild,
-        Verify: _verify,
-        Difference: _diff,
-        Export: _export,
-        Sync: _sync,
-        Import: _import,
-        Tag: _tag,
-        Untag: _untag,
-        SplitCommand: _split,
-    }
-    return actions[type(command.action)](command.action)
+    return command.action.run()
 
 
-def _rebuild(command: Rebuild) -> int:
-    print_rebuilt(rebuild(command.output))
-    return Exit.OK
+def size(number: float) -> str:
+    """Return a number of bytes as people say it."""
+    unit = 0
+    while number >= 1000 and unit < len(_UNITS) - 1:
+        number = number / 1000
+        unit = unit + 1
+    return f"{number:.3g} {_UNITS[unit]}"
 
 
-def _verify(command: Verify) -> int:
-    registry = Registry(command.output)
-    ids = [registry.named(asset_id).id for asset_id in command.ids]
-    problems = verify(registry, ids or None)
-    if command.json:
-        say(json.dumps([asdict(problem) for problem in problems], indent=2))
-    else:
-        print_problems(problems, len(ids) or registry.count())
-    return Exit.REJECTED if problems else Exit.OK
+def print_problems(problems: Sequence[Problem], assets: int) -> None:
+    """Print what is not as it was published."""
+    for kind, _ in Counter(problem.kind for problem in problems).most_common():
+        _lines(kind, [problem.message for problem in problems if problem.kind == kind])
+    wrong = {problem.id for problem in problems}
+    say(f"{assets} entries: {len(wrong)} are not as they were published")
 
 
-def _diff(command: Difference) -> int:
-    found = diff(entries_of(command.before), entries_of(command.after))
-    if command.json:
-        say(json.dumps(found.to_dict(), indent=2))
-    else:
-        print_diff(found)
-    return Exit.REJECTED if command.strict and (found.newly_failed or found.gone) else Exit.OK
+def print_freed(freed: Freed) -> None:
+    """Print what was removed."""
+    table = Table("what", "files", "size")
+    for name in ("staging", "unfinished", "cache"):
+        removed = getattr(freed, name)
+        table.add_row(name, str(removed.files), size(removed.bytes))
+    Terminal().print(table)
+    say(f"freed {size(freed.bytes)}")
 
 
-def _export(command: Export) -> int:
-    from ..registry.export import write_export
-
-    written = write_export(command.files(), command.target)
-    say(f"{shown(command.target)}: {written.files} files, {size(written.bytes)}")
-    return Exit.OK
-
-
-def _sync(command: Sync) -> int:
-    from ..registry.sync import sync
-
-    files = command.files()
-    if not is_url(command.url):
-        raise ConfigError(f"{command.url}: is no URL, want e.g. s3://bucket/assets or file:///copy")
-    synced = sync(files, command.url)
-    sent = f"{synced.sent} sent ({size(synced.bytes)}), {synced.removed} removed"
-    say(f"{shown(command.url)}: {synced.files} files, {sent}")
-    return Exit.OK
-
-
-def _import(command: Import) -> int:
-    from ..registry.imports import ImportLimits, import_export
-
-    if not command.max_gb > 0.0:
-        raise ConfigError(f"--max-gb must be more than 0, not {command.max_gb:g}")
-    if not command.source.exists():
-        raise ConfigError(
-            f"{command.source}: no such file or folder; `factory registry export` writes one"
-        )
-    registry = Registry(command.output, create=True)
-    limits = ImportLimits(total_bytes=int(command.max_gb * _GB))
-    imported = import_export(
-        registry, command.source, replace=command.replace, trusted=command.trust, limits=limits
+def print_diff(diff: Diff) -> None:
+    """Print which assets are new, gone, better, worse or otherwise changed."""
+    _lines("new", [_verdict(entry) for entry in diff.new])
+    _lines("gone", [_verdict(entry) for entry in diff.gone])
+    _lines(
+        "newly passed", [f"{each.after.id}: was {_why(each.before)}" for each in diff.newly_passed]
     )
-    say(f"{len(imported.published)} assets imported, {len(imported.same)} were there already")
-    return Exit.OK
+    _lines("newly failed", [f"{each.after.id}: {_why(each.after)}" for each in diff.newly_failed])
+    _lines("changed", [f"{each.after.id}: {_columns(each)}" for each in diff.changed])
+    groups = ("new", "gone", "newly_passed", "newly_failed", "changed")
+    counts = [f"{len(getattr(diff, name))} {name.replace('_', ' ')}" for name in groups]
+    say(", ".join([*counts, f"{diff.same} the same"]))
 
 
-def _tag(command: Tag) -> int:
-    return _retag(command.output, command.id, lambda tags: tags | set(command.tags))
+def _lines(kind: str, sentences: Sequence[str]) -> None:
+    for sentence in sentences[:SHOWN]:
+        say(one_line(f"{kind}: {sentence}"))
+    if len(sentences) > SHOWN:
+        say(f"{kind}: and {len(sentences) - SHOWN} more; --json has all")
 
 
-def _untag(command: Untag) -> int:
-    return _retag(
-        command.output, command.id, lambda tags: tags - set(command.tags) if command.tags else set()
+def _verdict(entry: Entry) -> str:
+    return f"{entry.id}: {entry.status}" + (f", {_why(entry)}" if entry.reason else "")
+
+
+def _why(entry: Entry) -> str:
+    return f"{entry.reason or entry.status}" + (f": {entry.message}" if entry.message else "")
+
+
+def _columns(change: EntryChange) -> str:
+    return ", ".join(
+        f"{name} {_shown(getattr(change.before, name))} -> {_shown(getattr(change.after, name))}"
+        for name in change.columns
     )
 
 
-def _retag(output: Path, asset_id: str, change: Callable[[set[str]], set[str]]) -> int:
-    registry = Registry(output)
-    entry = registry.named(asset_id)
-    entry = registry.note(entry.id, tags=tuple(change(set(entry.tags))))
-    say(f"{entry.id}: {', '.join(entry.tags) or 'no tags'}")
-    return Exit.OK
-
-
-def _split(command: SplitCommand) -> int:
-    chosen: dict[str, list[str]] = {name: [] for name in SPLITS}
-    for entry in command.entries():
-        chosen[entry.split].append(entry.id)
-    if command.json:
-        say(json.dumps(chosen, indent=2))
-    else:
-        for name, ids in chosen.items():
-            for asset_id in ids:
-                say(f"{name}\t{asset_id}")
-    return Exit.OK
+def _shown(value: object) -> str:
+    text = ",".join(map(str, value)) if isinstance(value, tuple) else str(value)
+    return text or "none"

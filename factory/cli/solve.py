@@ -109,9 +109,8 @@ def _require_sound(command: Solve) -> None:
     from ..jobs.pages import missing_library
 
     if command.robot not in (*ROBOTS, "any"):
-        raise ConfigError(
-            f"--robot: no robot {command.robot!r}; want one of {', '.join((*ROBOTS, 'any'))}"
-        )
+        known = ", ".join((*ROBOTS, "any"))
+        raise ConfigError(f"--robot: no robot {command.robot!r}; want one of {known}")
     check_effort(command, ("workers", "tries"))
     require_maniskill("solving wants")
     if command.video and (missing := missing_library()) is not None:
@@ -129,9 +128,8 @@ def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, Reg
         wanted = {id: asset for id, asset in wanted.items() if _joints(asset, command)}
         if not wanted:
             names = sorted({joint.name for asset in assets.values() for joint in asset.openable})
-            raise RegistryError(
-                f"no joint {command.joint!r} in {command.output}; there are {listed(names)}"
-            )
+            there = f"there are {listed(names)}"
+            raise RegistryError(f"no joint {command.joint!r} in {command.output}; {there}")
     return wanted
 
 
@@ -147,10 +145,8 @@ def _attempts(command: Solve, missing: list[tuple[str, str]], robot: str) -> Ite
     from ..jobs import LocalExecutor
     from ..jobs.executor import Call
 
-    tasks = [
-        SolveTask(str(command.output), id, joint, robot, command.seed, command.tries)
-        for id, joint in missing
-    ]
+    how = (robot, command.seed, command.tries)
+    tasks = [SolveTask(str(command.output), id, joint, *how) for id, joint in missing]
     calls = [Call(f"{task.asset_id} {task.joint}", {"task": task}) for task in tasks]
     limits = Limits(wall_s=command.timeout)
     for call, outcome in LocalExecutor(command.workers, retries=0).run(attempted, calls, limits):

@@ -36,7 +36,7 @@ class ViewFile:
 
 def run(command: ViewFile) -> int:
     """Serve or save the page; returns the exit code."""
-    from ..report.site.dropped import MOST_BYTES, DroppedFiles
+    from ..report.site.alone import MOST_BYTES, DroppedFiles
     from ..report.site.server import serve
 
     require_page(command.port)
@@ -45,9 +45,8 @@ def run(command: ViewFile) -> int:
         registry = Registry(command.output)
         file = registry.folder(registry.named(str(file)))
     if not file.exists():
-        raise ConfigError(
-            f"{file}: no such file; want a URDF, an MJCF, a mesh, or --output of an id"
-        )
+        want = "want a URDF, an MJCF, a mesh, or --output of an id"
+        raise ConfigError(f"{file}: no such file; {want}")
     require_files(command.save)
     html = _drawn(file, live=command.save is None)
     if html is None:

@@ -55,14 +55,9 @@ class Camera:
         local = (points - self.eye) @ self.axes.T
         depth = np.maximum(-local[:, 2], 1e-9)
         scale = self.height / (2.0 * self.spread * depth)
-        return np.stack(
-            [
-                self.width / 2.0 + local[:, 0] * scale,
-                self.height / 2.0 - local[:, 1] * scale,
-                depth,
-            ],
-            axis=1,
-        )
+        column = self.width / 2.0 + local[:, 0] * scale
+        row = self.height / 2.0 - local[:, 1] * scale
+        return np.stack([column, row, depth], axis=1)
 
 
 def box_corners(surfaces: Sequence[SceneSurface]) -> FloatArray:
@@ -75,9 +70,6 @@ def box_corners(surfaces: Sequence[SceneSurface]) -> FloatArray:
 
 class Viewpoint:
     """In front of what opens, to the side from which its inside is seen, and above.
-
-    Args:
-        scene: to look at.
 
     Attributes:
         axes: right, up and backward directions of every camera there, as rows, shape [3, 3].
@@ -131,14 +123,12 @@ class Viewpoint:
         opened = self._scene.opened(1.0)
         ajar = {name: value + AJAR * (opened[name] - value) for name, value in rest.items()}
         poses = [self._placed(values) for values in (rest, ajar, opened)]
-        moved = [
-            index for index, box in enumerate(poses[0]) if not np.allclose(box, poses[2][index])
-        ]
+        pairs = enumerate(zip(poses[0], poses[2], strict=True))
+        moved = [index for index, (box, end) in pairs if not np.allclose(box, end)]
         if not moved:
             return _FRONTS[0], 1.0
-        start, first, end = (
-            np.mean([pose[index] for index in moved], axis=(0, 1)) for pose in poses
-        )
+        of_moved = ([pose[index] for index in moved] for pose in poses)
+        start, first, end = (np.mean(boxes, axis=(0, 1)) for boxes in of_moved)
         step = first - start
         forward = step[:2] if step[2] <= np.hypot(*step[:2]) else (start - end)[:2]
         whole = np.concatenate(poses[0])[:, :2]

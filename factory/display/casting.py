@@ -62,12 +62,7 @@ def lengths(rows: FloatRows) -> FloatRows:
 
 
 class LinkCaster:
-    """The surfaces of one link, ready to be met.
-
-    Args:
-        index: of the link.
-        surfaces: its own.
-    """
+    """The surfaces of one link, ready to be met."""
 
     def __init__(self, index: int, surfaces: Sequence[SceneSurface]) -> None:
         self.index = index
@@ -126,12 +121,7 @@ class LinkCaster:
 
 
 class Caster:
-    """A scene's surfaces of one kind, ready to be met in any pose.
-
-    Args:
-        scene: its links and joints.
-        surfaces: of its links: visuals or hulls.
-    """
+    """A scene's surfaces of one kind, ready to be met in any pose."""
 
     def __init__(self, scene: SceneGraph, surfaces: Sequence[SceneSurface]) -> None:
         self.scene = scene
@@ -153,11 +143,8 @@ class Caster:
     ) -> Hits:
         """Return what the middle of every pixel meets.
 
-        Args:
-            camera: which picture.
-            values: joint values [rad] or [m].
-            known: what other links look like in this pose already.
-            moving: the links to cast; ``None``: all.
+        ``values`` are those of joints [rad] or [m]; ``known`` is what other links look like in this
+        pose already, and only ``moving`` ones are cast then.
         """
         poses = self.scene.poses(values)
         hits = known.copy() if known is not None else Hits.none(camera.width * camera.height)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -32,9 +33,8 @@ PLAIN = ((0.62, 0.61, 0.58, 1.0), (0.30, 0.42, 0.55, 1.0), (0.55, 0.36, 0.28, 1.
 def scene_of_file(path: Path) -> SceneGraph:
     """Return what a file shows.
 
-    Args:
-        path: a URDF, an MJCF, or a mesh in any format that is read; what it refers to lies in its
-            folder or below.
+    It is a URDF, an MJCF, or a mesh in any format that is read; what it refers to lies in its
+    folder or below.
 
     Raises:
         InputRejected: it cannot be shown, with a reason code.
@@ -61,21 +61,15 @@ def scene_of_description(description: Description, tree: Tree) -> SceneGraph:
         limits = sweep_range(joint) if joint.kind != "continuous" else None
         low, high = limits or (0.0, UNLIMITED.get(joint.kind, 0.0))
         mimic = tree.mimics.get(joint.name)
-        joints.append(
-            SceneJoint(
-                joint.name,
-                joint.kind if moves else "fixed",
-                place[joint.parent],
-                place[joint.child],
-                joint.origin,
-                unit_axis(joint),
-                low if moves else 0.0,
-                high if moves else 0.0,
-                mimic.leader if mimic else "",
-                mimic.multiplier if mimic else 1.0,
-                mimic.offset if mimic else 0.0,
-            )
-        )
+        kind = joint.kind if moves else "fixed"
+        ends = (place[joint.parent], place[joint.child])
+        frame = (joint.origin, unit_axis(joint))
+        span = (low, high) if moves else (0.0, 0.0)
+        made = SceneJoint(joint.name, kind, *ends, *frame, *span)
+        if mimic:
+            made = replace(made, leader=mimic.leader, multiplier=mimic.multiplier)
+            made = replace(made, offset=mimic.offset)
+        joints.append(made)
     looks = _FileColors(description.path.parent)
     visuals = []
     hulls = []
@@ -97,12 +91,7 @@ class _FileColors:
         self._images: dict[Texture, bytes | None] = {}
 
     def surfaces(
-        self,
-        file: str | None,
-        vertices: FloatArray,
-        faces: IntArray,
-        link: int,
-        plain: Color,
+        self, file: str | None, vertices: FloatArray, faces: IntArray, link: int, plain: Color
     ) -> list[SceneSurface]:
         """Return a shape's triangles, by the materials that its file gives them."""
         visual = self._visual(file)

@@ -150,8 +150,7 @@ def gltf_materials(
         entries.append({"name": material.name, "pbrMetallicRoughness": surface})
     document: dict[str, Any] = {"materials": entries}
     if different:
-        document["images"] = [
-            {"bufferView": buffer.view(image), "mimeType": "image/png"} for image in different
-        ]
+        views = [buffer.view(image) for image in different]
+        document["images"] = [{"bufferView": view, "mimeType": "image/png"} for view in views]
         document["textures"] = [{"source": i, "sampler": 0} for i in range(len(different))]
     return document

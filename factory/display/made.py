@@ -20,9 +20,7 @@ MAX_TEXTURE = 1024
 def scene_of(asset: Asset, before: Asset | None = None) -> SceneGraph:
     """Return an asset's scene: links in the order of parts, frames as in its URDF.
 
-    Args:
-        asset: what became of an input.
-        before: what it was before repairs, whose other hulls are shown too.
+    ``before`` is what it was before repairs, whose other hulls are shown too.
     """
     articulation = asset.articulation
     hulls = [
@@ -50,18 +48,9 @@ def scene_of_articulation(name: str, articulation: Articulation) -> SceneGraph:
         endless = joint.kind is JointKind.CONTINUOUS
         lower = 0.0 if endless else joint.lower
         upper = UNLIMITED["continuous"] if endless else joint.upper
-        joints.append(
-            SceneJoint(
-                joint.name,
-                str(joint.kind),
-                joint.parent,
-                joint.child,
-                origin,
-                joint.axis,
-                lower,
-                upper,
-            )
-        )
+        ends = (joint.parent, joint.child)
+        kind = str(joint.kind)
+        joints.append(SceneJoint(joint.name, kind, *ends, origin, joint.axis, lower, upper))
     names = tuple(part.name for part in articulation.parts)
     return SceneGraph(name, names, tuple(joints), tuple(visuals))
 

@@ -64,12 +64,7 @@ class Fault:
 
 
 def pictures_of(scene: SceneGraph, fault: Fault | None = None) -> Pictures:
-    """Return all pictures of a scene: the same scene gives the same bytes.
-
-    Args:
-        scene: to draw.
-        fault: what the picture of a rejected asset points at.
-    """
+    """Return all pictures of a scene: the same scene gives the same bytes."""
     look = Coloring(Caster(scene, scene.visuals or scene.hulls))
     hulls = Caster(scene, scene.hulls)
     view = Viewpoint(scene)

@@ -170,11 +170,7 @@ class SceneGraph:
         return poses
 
     def opened(self, amount: float) -> dict[str, float]:
-        """Return the values of all free joints; the first ones start earlier.
-
-        Args:
-            amount: 0: all are closed; 1: all are open.
-        """
+        """Return free joints' values, closed at 0 and open at 1; the first ones start earlier."""
         free = [joint for joint in self.movable if not joint.leader]
         found = {}
         for number, joint in enumerate(free):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -76,13 +77,8 @@ def shaded(
 ) -> npt.NDArray[np.uint8]:
     """Return the picture, sRGB with alpha, shape [height, width, 4].
 
-    Args:
-        look: the ray hits, and their colours.
-        camera: which picture.
-        values: the pose.
-        hits: of the middles of all pixels.
-        under: the same picture without the links that move.
-        rays: per pixel where shapes end.
+    ``hits`` are of the middles of all pixels, and ``under`` is the same picture without the links
+    that move; so many ``rays`` are cast per pixel where shapes end.
     """
     painted = paint(look, camera, values, hits, under, rays)
     factor = _corners(hits, (camera.height, camera.width)).reshape(-1)
@@ -170,20 +166,13 @@ def _light(camera: Camera, normal: FloatRows) -> FloatRows:
     backward *= scale
     direct = np.maximum(direct * scale, 0.0)
     sky = 0.5 + 0.5 * height * scale
-    return np.asarray(
-        KEY_LIGHT * direct
-        + GROUND_LIGHT
-        + (SKY_LIGHT - GROUND_LIGHT) * sky
-        + 0.12 * np.abs(backward),
-        dtype=np.float32,
-    )
+    thrown = KEY_LIGHT * direct + GROUND_LIGHT + (SKY_LIGHT - GROUND_LIGHT) * sky
+    return np.asarray(thrown + 0.12 * np.abs(backward), dtype=np.float32)
 
 
 def _albedo(surface: SceneSurface, faces: npt.NDArray[np.int32], weights: FloatRows) -> FloatRows:
     plain = np.array(surface.color[:3], dtype=np.float32)
-    texels = (
-        _texels(surface.image) if surface.image is not None and surface.uv is not None else None
-    )
+    texels = None if surface.image is None else _texels(surface.image)
     if texels is None or surface.uv is None:
         return np.broadcast_to(plain, (len(faces), 3))
     uv = np.einsum("ij,ijk->ik", weights, surface.uv[faces])
@@ -193,28 +182,20 @@ def _albedo(surface: SceneSurface, faces: npt.NDArray[np.int32], weights: FloatR
     return np.asarray(texels[row, column] * plain, dtype=np.float32)
 
 
+@lru_cache(maxsize=16)
 def _texels(image: bytes) -> FloatRows | None:
-    """Return the linear RGB of an image, shape [height, width, 3]."""
-    known = _TEXELS.get(image)
-    if known is None:
-        from PIL import Image
+    """Return the linear RGB of an image, shape [height, width, 3]; ``None``: it is broken."""
+    from PIL import Image
 
-        try:
-            with Image.open(io.BytesIO(image), formats=("PNG", "JPEG")) as opened:
-                opened.draft("RGB", (512, 512))
-                small = opened.convert("RGB")
-                small.thumbnail((512, 512), Image.Resampling.BILINEAR)
-                shown = np.asarray(small)
-        except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
-            return None
-        known = linear_of(np.arange(256) / 255.0).astype(np.float32)[shown]
-        while len(_TEXELS) > 16:
-            del _TEXELS[next(iter(_TEXELS))]
-        _TEXELS[image] = known
-    return known
-
-
-_TEXELS: dict[bytes, FloatRows] = {}
+    try:
+        with Image.open(io.BytesIO(image), formats=("PNG", "JPEG")) as opened:
+            opened.draft("RGB", (512, 512))
+            small = opened.convert("RGB")
+            small.thumbnail((512, 512), Image.Resampling.BILINEAR)
+            shown = np.asarray(small)
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        return None
+    return np.asarray(linear_of(np.arange(256) / 255.0).astype(np.float32)[shown])
 
 
 def _borders(hits: Hits, shape: tuple[int, int]) -> npt.NDArray[np.bool_]:

@@ -36,10 +36,7 @@ def contact_sheet(cells: Sequence[SheetCell]) -> bytes:
     shown = cells[:MOST]
     columns = max(1, min(COLUMNS, len(shown)))
     rows = max(1, -(-len(shown) // columns))
-    size = (
-        GAP + columns * (CELL_WIDTH + GAP),
-        GAP + rows * (CELL_HEIGHT + CAPTION + GAP),
-    )
+    size = (GAP + columns * (CELL_WIDTH + GAP), GAP + rows * (CELL_HEIGHT + CAPTION + GAP))
     sheet = Image.new("RGB", size, GROUND)
     draw = ImageDraw.Draw(sheet)
     for number, cell in enumerate(shown):
@@ -58,11 +55,9 @@ def _draw(
         with Image.open(io.BytesIO(cell.picture), formats=("WEBP",)) as opened:
             picture = opened.convert("RGBA")
         picture.thumbnail((CELL_WIDTH, CELL_HEIGHT), Image.Resampling.BOX)
-        place = (
-            left + (CELL_WIDTH - picture.width) // 2,
-            top + (CELL_HEIGHT - picture.height) // 2,
-        )
-        sheet.paste(picture, place, picture)
+        across = left + (CELL_WIDTH - picture.width) // 2
+        down = top + (CELL_HEIGHT - picture.height) // 2
+        sheet.paste(picture, (across, down), picture)
     color = VERDICTS.get(cell.verdict, DIM)
     middle = top + CELL_HEIGHT + 9
     draw.ellipse((left + 2, middle - 4, left + 10, middle + 4), fill=color)

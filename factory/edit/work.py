@@ -16,9 +16,8 @@ from ..articulate.stated import StatedArticulator
 from ..articulate.stated.articulator import seen_from
 from ..articulate.stated.placing import SeenMesh
 from ..config import BuildConfig
-from ..display.glb import glb_of
+from ..display.glb import glb_of, read_model, scene_from
 from ..display.made import scene_of_articulation, scene_of_mesh
-from ..display.stored import read_model, scene_from
 from ..errors import ConfigError, InputRejected
 from ..export.manifest import Manifest
 from ..intake.intake import Intake

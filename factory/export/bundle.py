@@ -1,4 +1,4 @@
-"""Asset -> Bundle: one folder of URDF, MJCF, meshes, manifest; same bytes for the same asset."""
+"""Asset -> Bundle: one folder of URDF, MJCF, meshes, manifest, and its model for pages."""
 
 from __future__ import annotations
 
@@ -7,12 +7,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..asset import Asset
+from ..display.glb import glb_of
+from ..display.made import scene_of, scene_of_mesh
 from ..intake.intake import Provenance
-from ..runtime.layout import MANIFEST, MESHES, MJCF, URDF
+from ..mesh import Mesh
+from ..runtime.layout import MANIFEST, MESHES, MJCF, MODEL, URDF
 from .described import manifest_of
 from .formats import formats_named
 from .links import Layout, lay_out
 from .manifest import Manifest
+from .text import write_text
 
 
 @dataclass(frozen=True)
@@ -45,13 +49,8 @@ def export_bundle(
     Link frames have the object frame's axes and their origin at the joint's; joint value 0 is the
     input pose and ``lower`` is closed.
 
-    Args:
-        asset: what to write.
-        provenance: where it came from.
-        folder: made if need be; an earlier bundle in it is replaced.
-        excluded_pairs: names of parts that MuJoCo must not collide, because they overlap on
-            purpose.
-        formats: names of further ones, see :data:`.formats.FORMATS`.
+    An earlier bundle in the folder is replaced. MuJoCo collides no ``excluded_pairs`` of parts,
+    which overlap on purpose. ``formats`` are names of further ones in :data:`.formats.FORMATS`.
 
     Raises:
         ConfigError: a format that is not there, or that cannot be written here.
@@ -65,23 +64,28 @@ def export_bundle(
     manifest = manifest_of(layout, provenance)
     for each in chosen:
         each.write(layout, folder / each.file)
-    _write_manifest(manifest, folder)
+    write_text(folder / MANIFEST, manifest.to_json())
     return Bundle(folder, folder / URDF, folder / MJCF, manifest, layout)
 
 
 def with_manifest_of(bundle: Bundle, asset: Asset, provenance: Provenance) -> Bundle:
-    """Return a bundle whose ``asset.json`` is written anew, of the same asset with other targets.
-
-    Args:
-        bundle: all that descriptions and meshes say stays.
-        asset: the bundle's, but for its targets.
-        provenance: where it came from.
-    """
+    """Return a bundle with a new ``asset.json``, of the same asset with other targets."""
     layout = replace(bundle.layout, asset=asset)
     manifest = manifest_of(layout, provenance)
-    _write_manifest(manifest, bundle.folder)
+    write_text(bundle.folder / MANIFEST, manifest.to_json())
     return replace(bundle, manifest=manifest, layout=layout)
 
 
-def _write_manifest(manifest: Manifest, folder: Path) -> None:
-    (folder / MANIFEST).write_text(manifest.to_json(), encoding="utf-8", newline="\n")
+def write_input(mesh: Mesh, folder: Path) -> Path:
+    """Write ``view.glb`` of an input that became no asset; returns its new folder."""
+    folder.mkdir()
+    (folder / MODEL).write_bytes(glb_of(scene_of_mesh("input", mesh)))
+    return folder
+
+
+def write_model(asset: Asset, folder: Path, before: Asset | None = None) -> None:
+    """Write ``view.glb`` into a bundle's folder: the same bytes for the same asset.
+
+    ``before`` is what the asset was before repairs, if there were any.
+    """
+    (folder / MODEL).write_bytes(glb_of(scene_of(asset, before)))

@@ -100,11 +100,9 @@ def hull_aspect(hull: Hull) -> float:
 
 
 def _surface(surface: InnerSurface) -> ManifestSurface:
-    lengths = (
-        None if length is None else rounded(length)
-        for length in (surface.thickness_m, surface.depth_m)
-    )
-    return ManifestSurface(surface.part, surface.kind, surface.rule, *lengths)
+    lengths = (surface.thickness_m, surface.depth_m)
+    told = (None if length is None else rounded(length) for length in lengths)
+    return ManifestSurface(surface.part, surface.kind, surface.rule, *told)
 
 
 def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ManifestJoint:

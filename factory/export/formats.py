@@ -13,6 +13,7 @@ from .glb import write_glb_asset
 from .links import Layout
 from .mjcf import mjcf_text
 from .sdf import sdf_text
+from .text import write_text
 from .urdf import urdf_text
 from .usd import write_usd
 
@@ -40,7 +41,7 @@ def as_text(text: Callable[[Layout], str]) -> Callable[[Layout, Path], None]:
     """Return a writer of what a function says of a layout."""
 
     def write(layout: Layout, file: Path) -> None:
-        file.write_text(text(layout), encoding="utf-8", newline="\n")
+        write_text(file, text(layout))
 
     return write
 
@@ -68,8 +69,6 @@ def formats_named(names: tuple[str, ...]) -> tuple[Format, ...]:
     chosen = tuple(each for each in FORMATS if each.name in asked)
     for each in chosen:
         if each.needs and find_spec(each.needs) is None:
-            raise ConfigError(
-                f"formats: {each.name} needs {each.needs}, which is not installed; "
-                f"pip install '{each.comes_with}'"
-            )
+            lacking = f"{each.name} needs {each.needs}, which is not installed"
+            raise ConfigError(f"formats: {lacking}; pip install '{each.comes_with}'")
     return chosen

@@ -28,12 +28,7 @@ KEY_STEP = np.pi / 8.0
 
 
 def write_glb_asset(layout: Layout, file: Path) -> None:
-    """Write the whole asset as one GLB; textures of the bundle are embedded.
-
-    Args:
-        layout: its textures lie below the file's folder.
-        file: to write.
-    """
+    """Write the whole asset as one GLB; textures of the bundle are embedded."""
     buffer = Buffer()
     pieces = [piece for link in layout.links for piece in link.visuals]
     number = {piece.name: index for index, piece in enumerate(pieces)}
@@ -51,10 +46,8 @@ def write_glb_asset(layout: Layout, file: Path) -> None:
             node["mesh"] = len(meshes)
             meshes.append({"primitives": primitives})
         nodes.append(node)
-    images = tuple(
-        None if piece.texture is None else (file.parent / piece.texture).read_bytes()
-        for piece in pieces
-    )
+    files = (None if piece.texture is None else file.parent / piece.texture for piece in pieces)
+    images = tuple(each if each is None else each.read_bytes() for each in files)
     document = {
         "scene": 0,
         "scenes": [{"nodes": [0]}],

@@ -14,8 +14,8 @@ from ..mesh import FloatArray
 from ..runtime.numbers import DIGITS
 from .meshes import hull_obj
 from .resistance import Resistance, joint_resistances, resistance_notes
-from .textures import TextureFolder
-from .visuals import VISUAL_FOLDER, VisualPiece, write_visuals
+from .text import write_text
+from .visuals import VISUAL_FOLDER, TextureFolder, VisualPiece, write_visuals
 
 COLLISION_FOLDER = Path("meshes/collision")
 #: MuJoCo wants ``A + B >= C`` without tolerance; a flat plate sits exactly on that border.
@@ -80,10 +80,8 @@ def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], .
     textures = TextureFolder(folder / VISUAL_FOLDER)
     visuals = write_visuals(asset, folder, textures)
     names = tuple(part.name for part in asset.articulation.parts)
-    links = tuple(
-        LinkFiles(name, visuals[part], _write_hulls(asset, part, folder))
-        for part, name in enumerate(names)
-    )
+    hulls = (_write_hulls(asset, part, folder) for part in range(len(names)))
+    links = tuple(map(LinkFiles, names, visuals, hulls))
     resistances = joint_resistances(asset)
     notes = (*textures.notes, *resistance_notes(asset, resistances))
     return Layout(asset, links, resistances, _pairs(asset, names, excluded_pairs), notes)
@@ -114,7 +112,7 @@ def _write_hulls(asset: Asset, part: int, folder: Path) -> tuple[Path, ...]:
     files = []
     for index, hull in enumerate(asset.bodies[part].hulls):
         file = COLLISION_FOLDER / f"{name}_{index:03d}.obj"
-        (folder / file).write_text(hull_obj(hull, origin), encoding="utf-8", newline="\n")
+        write_text(folder / file, hull_obj(hull, origin))
         files.append(file)
     return tuple(files)
 
@@ -126,9 +124,7 @@ def _pairs(
     for pair in pairs:
         for name in pair:
             if name not in link_of:
-                raise ValueError(
-                    f"excluded pair {pair}: no part {name!r}; there are {sorted(link_of)}"
-                )
-    return tuple(
-        sorted({(min(a, b), max(a, b)) for a, b in ((link_of[p], link_of[q]) for p, q in pairs)})
-    )
+                known = sorted(link_of)
+                raise ValueError(f"excluded pair {pair}: no part {name!r}; there are {known}")
+    linked = ((link_of[first], link_of[second]) for first, second in pairs)
+    return tuple(sorted({(min(pair), max(pair)) for pair in linked}))

@@ -31,21 +31,14 @@ def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> s
     """
     vertices = mesh.vertices - origin
     if 0 < len(vertices) < FEWEST_VERTICES:
-        vertices = np.concatenate(
-            [vertices, np.repeat(vertices[:1], FEWEST_VERTICES - len(vertices), axis=0)]
-        )
+        more = np.repeat(vertices[:1], FEWEST_VERTICES - len(vertices), axis=0)
+        vertices = np.concatenate([vertices, more])
     uv, uv_index = _corner_table(mesh.corner_uv, np.zeros(2))
     normals, normal_index = _corner_table(filled_normals(mesh), np.zeros(3))
-    return _lines(
-        [
-            f"mtllib {library}",
-            *vectors("v", vertices),
-            *vectors("vt", uv, DECIMALS_UNIT),
-            *vectors("vn", normals, DECIMALS_UNIT),
-            f"usemtl {material}",
-            *_faces(mesh.faces, uv_index, normal_index),
-        ]
-    )
+    rows = [*vectors("v", vertices), *vectors("vt", uv, DECIMALS_UNIT)]
+    rows += vectors("vn", normals, DECIMALS_UNIT)
+    faces = _faces(mesh.faces, uv_index, normal_index)
+    return _lines([f"mtllib {library}", *rows, f"usemtl {material}", *faces])
 
 
 def material_mtl(material: Material, name: str, texture: str | None) -> str:
@@ -84,10 +77,8 @@ def filled_normals(mesh: Mesh) -> FloatArray:
     corners = mesh.vertices[mesh.faces]
     cross = doubled_normals(corners)
     length = np.linalg.norm(cross, axis=1, keepdims=True)
-    flat = np.where(length > 0.0, cross / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0])[
-        :, None, :
-    ]
-    flat = np.broadcast_to(flat, (len(mesh.faces), 3, 3))
+    unit = np.where(length > 0.0, cross / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0])
+    flat = np.broadcast_to(unit[:, None, :], (len(mesh.faces), 3, 3))
     if mesh.corner_normals is None:
         return flat
     given = np.isfinite(mesh.corner_normals).all(axis=-1, keepdims=True)

@@ -10,6 +10,7 @@ MuJoCo's joint friction is a soft constraint: what it should hold creeps in prop
 
 from __future__ import annotations
 
+from pathlib import Path
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
@@ -36,14 +37,8 @@ Look = tuple[tuple[float, float, float, float], str | None]
 def mjcf_text(layout: Layout) -> str:
     """Return the whole document; file names are relative to the bundle's folder."""
     root = Element("mujoco", model=layout.asset.name)
-    SubElement(
-        root,
-        "compiler",
-        angle="radian",
-        autolimits="true",
-        meshdir=MESH_FOLDER,
-        texturedir=MESH_FOLDER,
-    )
+    compiler = SubElement(root, "compiler", angle="radian", autolimits="true")
+    compiler.attrib |= {"meshdir": MESH_FOLDER, "texturedir": MESH_FOLDER}
     root.append(_defaults())
     looks = _looks(layout)
     root.append(_assets(layout, looks))
@@ -92,13 +87,11 @@ def _looks(layout: Layout) -> dict[Look, str]:
 
 
 def _look(piece: VisualPiece) -> Look:
-    return piece.material.color, None if piece.texture is None else _inside(
-        piece.texture.as_posix()
-    )
+    return piece.material.color, None if piece.texture is None else _inside(piece.texture)
 
 
-def _inside(path: str) -> str:
-    return path.removeprefix(f"{MESH_FOLDER}/")
+def _inside(path: Path) -> str:
+    return path.as_posix().removeprefix(f"{MESH_FOLDER}/")
 
 
 def _assets(layout: Layout, looks: dict[Look, str]) -> ElementTree.Element:
@@ -106,17 +99,14 @@ def _assets(layout: Layout, looks: dict[Look, str]) -> ElementTree.Element:
     for image in dict.fromkeys(texture for _, texture in looks if texture is not None):
         SubElement(assets, "texture", name=image, type="2d", file=image)
     for (color, texture), name in looks.items():
-        attributes = {} if texture is None else {"texture": texture}
-        SubElement(
-            assets,
-            "material",
-            {"name": name, **attributes, "rgba": _display(color), "specular": "0.1"},
-        )
+        textured = {} if texture is None else {"texture": texture}
+        words = {"name": name, **textured, "rgba": _display(color), "specular": "0.1"}
+        SubElement(assets, "material", words)
     for files in layout.links:
         for piece in files.visuals:
-            _mesh_asset(assets, "visual", _inside(piece.file.as_posix()))
+            _mesh_asset(assets, "visual", _inside(piece.file))
         for file in files.collisions:
-            _mesh_asset(assets, "collision", _inside(file.as_posix()))
+            _mesh_asset(assets, "collision", _inside(file))
     return assets
 
 
@@ -152,23 +142,18 @@ def _body(layout: Layout, part: int, looks: dict[Look, str]) -> ElementTree.Elem
 
 def _geoms(body: ElementTree.Element, files: LinkFiles, looks: dict[Look, str]) -> None:
     for piece in files.visuals:
-        mesh = _inside(piece.file.as_posix()).removesuffix(".obj")
-        SubElement(
-            body,
-            "geom",
-            {"name": piece.name, "class": "visual", "mesh": mesh, "material": looks[_look(piece)]},
-        )
+        mesh = _inside(piece.file).removesuffix(".obj")
+        words = {"name": piece.name, "class": "visual", "mesh": mesh}
+        SubElement(body, "geom", {**words, "material": looks[_look(piece)]})
     for file in files.collisions:
-        mesh = _inside(file.as_posix()).removesuffix(".obj")
-        SubElement(
-            body, "geom", {"name": f"collision_{file.stem}", "class": "collision", "mesh": mesh}
-        )
+        mesh = _inside(file).removesuffix(".obj")
+        words = {"name": f"collision_{file.stem}", "class": "collision", "mesh": mesh}
+        SubElement(body, "geom", words)
 
 
 def _joint(joint: Joint, resistance: Resistance) -> ElementTree.Element:
-    element = Element(
-        "joint", name=joint.name, type="hinge" if joint.turns else "slide", axis=vector(joint.axis)
-    )
+    kind = "hinge" if joint.turns else "slide"
+    element = Element("joint", name=joint.name, type=kind, axis=vector(joint.axis))
     if joint.kind is not JointKind.CONTINUOUS:
         element.set("range", f"{number(joint.lower)} {number(joint.upper)}")
     element.set("damping", scientific([resistance.damping]))

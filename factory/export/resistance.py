@@ -97,11 +97,9 @@ def resistance_notes(asset: Asset, resistances: tuple[Resistance, ...]) -> tuple
             ("damping", joint.damping, resistance.damping),
         ):
             if joint.movable and stated is not None and written < stated:
-                notes.append(
-                    f"joint {joint.name!r}: {word} {stated:.3g} is more than an arm can pull or an "
-                    "engine integrate; "
-                    f"{written:.3g} was written"
-                )
+                more = "is more than an arm can pull or an engine integrate"
+                said = f"{word} {stated:.3g} {more}; {written:.3g} was written"
+                notes.append(f"joint {joint.name!r}: {said}")
     return tuple(notes)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from pathlib import Path
 from xml.etree import ElementTree
 
 from ..mesh import FloatArray
@@ -33,6 +34,11 @@ def vectors(word: str, rows: FloatArray, decimals: int = DECIMALS) -> list[str]:
 def scientific(values: Iterable[float]) -> str:
     """Return several :func:`magnitude` as text, with spaces between."""
     return " ".join(repr(magnitude(value)).removesuffix(".0") for value in values)
+
+
+def write_text(file: Path, text: str) -> None:
+    """Write a file of the same bytes on every system."""
+    file.write_text(text, encoding="utf-8", newline="\n")
 
 
 def xml_text(root: ElementTree.Element) -> str:

@@ -31,12 +31,7 @@ ROUGHNESS = 0.7
 
 
 def write_usd(layout: Layout, file: Path) -> None:
-    """Write the whole asset as one binary layer; textures stay beside it in the bundle.
-
-    Args:
-        layout: of the asset.
-        file: ends in ``.usd``; textures are named relative to it.
-    """
+    """Write the whole asset as one binary layer; textures stay beside it in the bundle."""
     from pxr import Kind, Tf, Usd, UsdGeom, UsdPhysics
 
     stage = Usd.Stage.CreateInMemory()
@@ -49,10 +44,8 @@ def write_usd(layout: Layout, file: Path) -> None:
     Usd.ModelAPI(root).SetKind(Kind.Tokens.component)
     UsdPhysics.ArticulationRootAPI.Apply(root)
     looks = _Looks(stage, f"/{name}/looks")
-    links = [
-        _link(stage, f"/{name}/{Tf.MakeValidIdentifier(files.name)}", layout, part, looks)
-        for part, files in enumerate(layout.links)
-    ]
+    paths = (f"/{name}/{Tf.MakeValidIdentifier(files.name)}" for files in layout.links)
+    links = [_link(stage, path, layout, part, looks) for part, path in enumerate(paths)]
     _filter(layout, links)
     _fasten(stage, f"/{name}/joints/world_joint", links[0])
     for joint, resistance in zip(layout.asset.articulation.joints, layout.resistances, strict=True):
@@ -117,9 +110,8 @@ def _visual(
     if shape.corner_uv is not None:
         uv = np.nan_to_num(shape.corner_uv.reshape(-1, 2)).astype(np.float32)
         kind = Sdf.ValueTypeNames.TexCoord2fArray
-        primvars.CreatePrimvar("st", kind, UsdGeom.Tokens.faceVarying).Set(
-            Vt.Vec2fArray.FromNumpy(uv)
-        )
+        coordinates = primvars.CreatePrimvar("st", kind, UsdGeom.Tokens.faceVarying)
+        coordinates.Set(Vt.Vec2fArray.FromNumpy(uv))
     api = UsdShade.MaterialBindingAPI.Apply(mesh.GetPrim())
     api.Bind(looks.material(piece))
 
@@ -216,18 +208,14 @@ def _couple(prim: Usd.Prim, leader: str, ratio: float) -> None:
 
     target = prim.GetPath().GetParentPath().AppendChild(Tf.MakeValidIdentifier(leader))
     words = (
-        ("NewtonMimicAPI", "newton:mimicJoint", "newton:mimicCoef1", ratio),
-        (
-            "PhysxMimicJointAPI:rotX",
-            "physxMimicJoint:rotX:referenceJoint",
-            "physxMimicJoint:rotX:gearing",
-            -ratio,
-        ),
+        ("NewtonMimicAPI", "newton", "mimicJoint", "mimicCoef1", ratio),
+        ("PhysxMimicJointAPI:rotX", "physxMimicJoint:rotX", "referenceJoint", "gearing", -ratio),
     )
-    for schema, relation, attribute, value in words:
+    for schema, space, relation, attribute, value in words:
         prim.AddAppliedSchema(schema)
-        prim.CreateRelationship(relation, custom=False).SetTargets([target])
-        prim.CreateAttribute(attribute, Sdf.ValueTypeNames.Float, custom=False).Set(value)
+        prim.CreateRelationship(f"{space}:{relation}", custom=False).SetTargets([target])
+        kind = Sdf.ValueTypeNames.Float
+        prim.CreateAttribute(f"{space}:{attribute}", kind, custom=False).Set(value)
 
 
 def _x_to(axis: FloatArray) -> Rotation:

@@ -1,16 +1,74 @@
-"""Visual geometry: each part's faces, split into pieces of one material, handles apart."""
+"""Visual geometry: each part's faces by material, handles apart, and their textures as PNG."""
 
 from __future__ import annotations
 
+import hashlib
+import io
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 from ..asset import Asset
-from ..mesh import IntArray, Material, Mesh
+from ..mesh import IntArray, Material, Mesh, Texture
 from .meshes import material_mtl, visual_obj
-from .textures import TextureFolder
+from .text import write_text
+
+#: Pixel layouts that every simulator's PNG reader takes as they are.
+PLAIN_MODES = frozenset({"L", "RGB", "RGBA"})
+
+
+class TextureFolder:
+    """Writes each image once and remembers where.
+
+    MuJoCo reads no JPEG, so everything becomes PNG: one file serves all simulators.
+
+    Attributes:
+        notes: a sentence per image that could not be decoded; its material stays a plain colour.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._names: dict[Texture, str | None] = {}
+        self.notes: list[str] = []
+
+    def file_name(self, material: Material) -> str | None:
+        """Return the PNG of ``material``, written on first use; ``None`` for a plain colour."""
+        texture = material.texture
+        if texture is None:
+            return None
+        if texture not in self._names:
+            self._names[texture] = self._write(texture, material.name)
+        return self._names[texture]
+
+    def _write(self, texture: Texture, material: str) -> str | None:
+        try:
+            data = png_bytes(texture)
+        except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+            broken = f"texture of material {material!r} cannot be decoded ({error})"
+            self.notes.append(f"{broken}; its plain colour is used")
+            return None
+        name = f"texture_{hashlib.sha256(data).hexdigest()[:16]}.png"
+        (self._folder / name).write_bytes(data)
+        return name
+
+
+def png_bytes(texture: Texture) -> bytes:
+    """Return the image as an 8-bit PNG; a PNG that already is one keeps its bytes.
+
+    Raises:
+        OSError, ValueError, SyntaxError: Pillow cannot decode it.
+    """
+    with Image.open(io.BytesIO(texture.data)) as image:
+        image.load()
+        if image.format == "PNG" and image.mode in PLAIN_MODES:
+            return texture.data
+        transparent = image.mode in ("RGBA", "LA", "PA") or "transparency" in image.info
+        buffer = io.BytesIO()
+        image.convert("RGBA" if transparent else "RGB").save(buffer, format="PNG", compress_level=6)
+    return buffer.getvalue()
+
 
 VISUAL_FOLDER = Path("meshes/visual")
 
@@ -39,9 +97,8 @@ def write_visuals(
     asset: Asset, folder: Path, textures: TextureFolder
 ) -> tuple[tuple[VisualPiece, ...], ...]:
     """Write OBJ, MTL and textures of every part below ``folder``; one tuple of pieces per part."""
-    return tuple(
-        _write_part(asset, part, folder, textures) for part in range(len(asset.articulation.parts))
-    )
+    parts = range(len(asset.articulation.parts))
+    return tuple(_write_part(asset, part, folder, textures) for part in parts)
 
 
 def _write_part(
@@ -57,21 +114,11 @@ def _write_part(
         material = mesh.materials[0]
         texture = textures.file_name(material)
         file = VISUAL_FOLDER / f"{stem}.obj"
-        (folder / file).write_text(
-            visual_obj(mesh, origin, f"{stem}.mtl", stem), encoding="utf-8", newline="\n"
-        )
-        library = material_mtl(material, stem, texture)
-        (folder / file.with_suffix(".mtl")).write_text(library, encoding="utf-8", newline="\n")
-        visual_name = f"handle_{stem}" if is_handle else f"visual_{stem}"
-        pieces.append(
-            VisualPiece(
-                visual_name,
-                file,
-                mesh,
-                material,
-                None if texture is None else VISUAL_FOLDER / texture,
-            )
-        )
+        write_text(folder / file, visual_obj(mesh, origin, f"{stem}.mtl", stem))
+        write_text(folder / file.with_suffix(".mtl"), material_mtl(material, stem, texture))
+        name_shown = f"handle_{stem}" if is_handle else f"visual_{stem}"
+        image = None if texture is None else VISUAL_FOLDER / texture
+        pieces.append(VisualPiece(name_shown, file, mesh, material, image))
     return tuple(pieces)
 
 

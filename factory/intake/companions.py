@@ -26,14 +26,8 @@ _BESIDE = (
 )
 #: These name no files.
 _LEAVES = frozenset({".stl", ".off", *_BESIDE}) - {".mtl", ".json", ".toml", ".xml", ".urdf"}
-_SUFFIX = re.compile(
-    "|".join(
-        re.escape(each)
-        for each in sorted({*_BESIDE, *(form.suffix for form in FORMATS)}, key=len, reverse=True)
-    ).encode()
-    + rb"(?![A-Za-z0-9_])",
-    re.IGNORECASE,
-)
+_ENDS = "|".join(map(re.escape, sorted({*_BESIDE, *(form.suffix for form in FORMATS)})))
+_SUFFIX = re.compile(rf"(?:{_ENDS})(?![A-Za-z0-9_])".encode(), re.IGNORECASE)
 #: Before a name, unless a file is called strangely.
 _BEFORE = re.compile(rb"[\x00-\x1f\"'<>@|=]")
 _SCHEME = re.compile(r"^.*(://|file:)")

@@ -41,10 +41,8 @@ def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
     found: dict[Path, Path] = {}
     for path in paths:
         if not path.exists():
-            raise ConfigError(
-                f"input {path}: does not exist, want a mesh, a URDF or MJCF file, "
-                "or a folder of them"
-            )
+            want = "want a mesh, a URDF or MJCF file, or a folder of them"
+            raise ConfigError(f"input {path}: does not exist, {want}")
         for candidate in _inputs_below(path) if path.is_dir() else [path]:
             found.setdefault(candidate.resolve(), candidate)
     return tuple(found.values())
@@ -56,11 +54,8 @@ def is_description(path: Path) -> bool:
     Of xacro files those called ``*.urdf.xacro``: others hold macros for them.
     """
     suffix = path.suffix.lower()
-    return (
-        suffix == ".urdf"
-        or path.name.lower().endswith(".urdf.xacro")
-        or (suffix == ".xml" and _root_tag(path) == "mujoco")
-    )
+    urdf = suffix == ".urdf" or path.name.lower().endswith(".urdf.xacro")
+    return urdf or (suffix == ".xml" and _root_tag(path) == "mujoco")
 
 
 def links_out(paths: Sequence[Path]) -> tuple[Path, ...]:
@@ -71,12 +66,9 @@ def links_out(paths: Sequence[Path]) -> tuple[Path, ...]:
         for current, subfolders, names in os.walk(folder):
             subfolders[:] = [name for name in subfolders if not name.startswith(".")]
             there = (Path(current) / name for name in sorted([*subfolders, *names]))
-            found += [each for each in there if each.is_symlink() and not _followed(each, real)]
+            links = (each for each in there if each.is_symlink())
+            found += [x for x in links if not Path(os.path.realpath(x)).is_relative_to(real)]
     return tuple(found)
-
-
-def _followed(link: Path, real: Path) -> bool:
-    return Path(os.path.realpath(link)).is_relative_to(real)
 
 
 def _inputs_below(folder: Path) -> Iterator[Path]:
@@ -88,9 +80,8 @@ def _inputs_below(folder: Path) -> Iterator[Path]:
         here = Path(current)
         there = frozenset(subfolders)
         made = REGISTERED if DATABASE in names else ()
-        subfolders[:] = sorted(
-            name for name in subfolders if not name.startswith(".") and name not in made
-        )
+        looked_into = (name for name in subfolders if name not in made)
+        subfolders[:] = sorted(name for name in looked_into if not name.startswith("."))
         candidates = [here / name for name in sorted(names) if not name.startswith(".")]
         candidates = [c for c in candidates if c.is_file() and inside(c, real)]
         descriptions = [c for c in candidates if is_description(c)]
@@ -130,13 +121,7 @@ def _taken(reference: str, subfolders: frozenset[str]) -> tuple[str, str]:
 
 
 def _taken_elsewhere(reference: str, here: Path, package: Path | None) -> set[Path]:
-    """Return what lies beside a description's folder and belongs to it: a folder, or a file's stem.
-
-    Args:
-        reference: of a file.
-        here: the description's folder.
-        package: the root of its package, links followed.
-    """
+    """Return what belongs to a description beside its folder: a folder, or a file's stem."""
     scheme, _, rest = reference.replace("\\", "/").rpartition("://")
     words = [word for word in rest.split("/") if word not in ("", ".")]
     up = words.count("..")

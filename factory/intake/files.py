@@ -75,9 +75,8 @@ class InputFiles:
             # Not what is written to it meanwhile: it may grow without end.
             data = file.read(size)
         if data.startswith(_LFS_POINTER):
-            raise unreadable(
-                path.name, "is a Git LFS pointer, not the file itself; run git lfs pull"
-            )
+            pointer = "is a Git LFS pointer, not the file itself; run git lfs pull"
+            raise unreadable(path.name, pointer)
         self._bytes += len(data)
         self._digests.append(digest_bytes(data))
         self.log.note(path, self._digests[-1])
@@ -93,9 +92,8 @@ class InputFiles:
         limit = self.limits.max_texture_pixels
         require_at_most(f"texture {name}", pixels, limit, "pixels")
         self._pixels += max(pixels, _PIXELS_OF_SMALLEST)
-        require_at_most(
-            f"all textures up to {name}", self._pixels, _LARGEST_TEXTURES * limit, "pixels"
-        )
+        most = _LARGEST_TEXTURES * limit
+        require_at_most(f"all textures up to {name}", self._pixels, most, "pixels")
 
     def find(self, reference: str, base: Path) -> Path:
         """Return where ``reference``, as written in a file in folder ``base``, leads.
@@ -127,8 +125,6 @@ def is_there(path: Path) -> bool:
 
 
 def _external(reference: str, why: str) -> InputRejected:
-    return InputRejected(
-        "external_reference",
-        f"reference {reference.strip()[:160]!r} {why}; "
-        "put the file beside the input and name it relatively",
-    )
+    advice = "put the file beside the input and name it relatively"
+    said = f"reference {reference.strip()[:160]!r} {why}; {advice}"
+    return InputRejected("external_reference", said)

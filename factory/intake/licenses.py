@@ -24,25 +24,19 @@ def is_allowed(license: str | None, allowed: Sequence[str]) -> bool:
     # A name may have brackets, which mean something else in a pattern; and a pattern must not match
     # a second license.
     parts = [part.strip() for part in stated.casefold().split(";") if part.strip()]
-    return stated.casefold() in names or (
-        bool(parts) and all(_matches(part, names) for part in parts)
-    )
+    each = all(any(fnmatchcase(p, name) or p == name for name in names) for p in parts)
+    return stated.casefold() in names or (bool(parts) and each)
 
 
 def combined(license: str | None, others: Iterable[str]) -> str | None:
     """Return the terms of several licenses at once, ``;`` between them.
 
-    Args:
-        license: of an input; ``None`` where nobody says.
-        others: that come in addition; none: the first one stays as it is.
+    Without ``others`` the first one stays as it is; ``None`` is that of an input of which nobody
+    says.
     """
     stated = [part.strip() for part in (license or UNKNOWN).split(";")]
     added = sorted(set(others) - set(stated))
     return "; ".join([*stated, *added]) if added else license
-
-
-def _matches(stated: str, names: Sequence[str]) -> bool:
-    return any(stated == name or fnmatchcase(stated, name) for name in names)
 
 
 def _stated(license: str | None) -> str:
@@ -68,11 +62,10 @@ def require_allowed(
     if is_allowed(license, allowed):
         return
     stated = _stated(license)
-    said = (
-        f"its license is {stated[:_LETTERS_SAID]!r}"
-        if stated
-        else "nobody says under which license it stands"
-    )
-    advice = "" if stated else "; name it in its sidecar, or allow 'unknown'"
+    said = f"its license is {stated[:_LETTERS_SAID]!r}"
+    advice = ""
+    if not stated:
+        said = "nobody says under which license it stands"
+        advice = "; name it in its sidecar, or allow 'unknown'"
     message = f"{what}: {said}, and the configuration allows only {', '.join(allowed)}{advice}"
     raise InputRejected("license_disallowed", message, digest=digest)

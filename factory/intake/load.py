@@ -27,12 +27,9 @@ DESCRIPTION_SUFFIXES = frozenset({".urdf", ".xml", XACRO}) | USD_SUFFIXES
 
 
 def load(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
-    """Load one input.
+    """Load a mesh file, a URDF, also as xacro, an MJCF or a USD layer.
 
-    Args:
-        path: a mesh file, a URDF, also as xacro, an MJCF, or a USD layer.
-        config: up axis, size and limits.
-        log: of the files that are read; filled also where it raises.
+    ``log`` of the files that are read is filled also where it raises.
 
     Raises:
         InputRejected: with a reason code.

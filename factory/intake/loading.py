@@ -23,10 +23,9 @@ from .licenses import require_allowed
 from .limits import require_sensible_size, unreadable
 from .naming import safe_name, well_formed
 from .orientation import rotation_to_z_up
-from .placing import check_config, given_scale, given_up
 from .reads import ReadLog
 from .sidecar import Sidecar, read_sidecar
-from .sizes import scale_by_size, scale_of_unit_cube
+from .sizes import check_config, given_scale, given_up, scale_by_size, scale_of_unit_cube
 from .stated import read_stated
 
 _MOST_NOTES = 32
@@ -64,11 +63,8 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig, log: ReadLog | Non
     The file's own face order is: glTF by node, depth first, then primitive; everything else as in
     the file, polygons fanned.
 
-    Args:
-        path: in one of ``FORMATS``, below ``root``.
-        root: nothing outside this folder is read.
-        limits: ``max_bytes``, ``max_faces`` and ``max_texture_pixels`` are obeyed.
-        log: of the files that are read.
+    It is in one of ``FORMATS``, and nothing outside ``root`` is read; ``max_bytes``, ``max_faces``
+    and ``max_texture_pixels`` of the limits are obeyed.
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``empty``, ``too_large``, ``not_finite``,
@@ -76,9 +72,8 @@ def load_visual(path: Path, root: Path, limits: IntakeConfig, log: ReadLog | Non
     """
     files = InputFiles(root, limits, log)
     if not inside(path, root.resolve()):
-        raise InputRejected(
-            "external_reference", f"{path.name}: lies outside the folder of its description"
-        )
+        outside = f"{path.name}: lies outside the folder of its description"
+        raise InputRejected("external_reference", outside)
     return _load(path, files)
 
 
@@ -87,11 +82,8 @@ def load_mesh(
 ) -> Intake:
     """Read one mesh file with its sidecar; turn it z up and bring it to metres. Its origin stays.
 
-    Args:
-        path: as in :func:`load_visual`; what it refers to lies in its folder or below.
-        config: up axis, height and limits.
-        log: of the files that are read.
-        stated: whether the parts that are stated beside it are read.
+    What it refers to lies in its folder or below. ``stated`` says whether the parts that are stated
+    beside it are read.
 
     Raises:
         InputRejected: as :func:`load_visual`, or ``bad_sidecar``, ``absurd_size``,
@@ -103,9 +95,8 @@ def load_mesh(
     visual = _load(path, files)
     sidecar = read_sidecar(path, files)
     parts = read_stated(path, files) if stated else None
-    require_allowed(
-        path.name, sidecar.license or visual.license, config.allowed_licenses, files.digest
-    )
+    license = sidecar.license or visual.license
+    require_allowed(path.name, license, config.allowed_licenses, files.digest)
     notes = list(visual.notes)
     form = format_of(path)
     said = ("y", "format") if form is not None and form.y_up else ("z", "default")
@@ -123,16 +114,11 @@ def load_mesh(
     )
     if scale.note:
         notes.append(scale.note)
-    if (
-        up_source == "format"
-        and not scale.plausible
-        and scale_by_size(visual.mesh.extents, category).plausible
-    ):
-        notes.append(
-            f"With the input's z axis up its height would be {visual.mesh.extents[2]:.4g}, "
-            "a plausible size: "
-            "if the file breaks glTF's rule that y is up, set up to z."
-        )
+    doubted = up_source == "format" and not scale.plausible
+    if doubted and scale_by_size(visual.mesh.extents, category).plausible:
+        height = f"its height would be {visual.mesh.extents[2]:.4g}, a plausible size"
+        advice = "if the file breaks glTF's rule that y is up, set up to z."
+        notes.append(f"With the input's z axis up {height}: {advice}")
     require_sensible_size(path.name, mesh.bounds * scale.factor)
     if scale.factor != 1.0:
         transform[:3, :3] *= scale.factor
@@ -151,7 +137,7 @@ def load_mesh(
             scale=scale.factor,
             scale_source=scale.source,
             density=sidecar.density,
-            license=sidecar.license or visual.license,
+            license=license,
             dropped_degenerate=visual.dropped_degenerate,
             dropped_non_finite=visual.dropped_non_finite,
             notes=tuple(notes),
@@ -184,11 +170,8 @@ def _load(path: Path, files: InputFiles) -> Visual:
 def _few(notes: tuple[str, ...]) -> tuple[str, ...]:
     """Keep the first of a file's complaints: nobody reads of a thousand missing textures."""
     short = tuple(note[:_LONGEST_NOTE] for note in notes[:_MOST_NOTES])
-    return (
-        short
-        if len(notes) <= _MOST_NOTES
-        else (*short, f"{len(notes) - _MOST_NOTES} more notes of this kind.")
-    )
+    more = len(notes) - len(short)
+    return (*short, f"{more} more notes of this kind.") if more else short
 
 
 def _read(reader: Reader, path: Path, files: InputFiles) -> Soup:
@@ -219,7 +202,6 @@ def _said(error: Exception) -> str:
 def _choose_category(path: Path, sidecar: Sidecar, notes: list[str]) -> str | None:
     category = category_of(path, sidecar.category)
     if category is not None and not sidecar.category:
-        notes.append(
-            f"The category {category} was guessed from the name {path.parent.name}/{path.name}."
-        )
+        name = f"{path.parent.name}/{path.name}"
+        notes.append(f"The category {category} was guessed from the name {name}.")
     return category

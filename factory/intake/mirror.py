@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
-from typing import IO, Any
+from typing import Any
 from urllib.parse import urlsplit
 
 from filelock import FileLock
@@ -32,9 +32,8 @@ def local_inputs(places: Sequence[Path | str], output: Path) -> tuple[Path, ...]
     A copy that was cut off goes on with the missing files. Each file is put in place whole; files
     gone from the URL go here too.
 
-    Args:
-        places: files and folders, by path or by a URL that fsspec understands.
-        output: the registry's folder; copies lie in it.
+    Places are paths or URLs that fsspec understands; copies lie in the registry's folder,
+    ``output``.
 
     Raises:
         ConfigError: a URL cannot be read; the sentence names no secret.
@@ -75,10 +74,8 @@ def _fetch(url: str, mirror: Path) -> None:
     root = path.rpartition("/")[0] if single else path
     wanted = dict(_listed(system, path, root, single=single))
     if not wanted:
-        raise ConfigError(
-            f"input {shown(url)}: nothing there, want a mesh, a URDF or MJCF file, "
-            "or a folder of them"
-        )
+        want = "want a mesh, a URDF or MJCF file, or a folder of them"
+        raise ConfigError(f"input {shown(url)}: nothing there, {want}")
     folder = mirror.parent if single else mirror
     folder.mkdir(parents=True, exist_ok=True)
     known = _known(folder)
@@ -94,7 +91,7 @@ def _fetch(url: str, mirror: Path) -> None:
         try:
             for name, copy in zip(missing, copies, strict=True):
                 copy.result()
-                _note(journal, name, wanted[name])
+                journal.write(json.dumps([name, *wanted[name]]) + "\n")
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
@@ -156,10 +153,6 @@ def _is_there(
     if known.get(name) != listed or not path.is_file():
         return False
     return listed[0] in (_UNKNOWN, path.stat().st_size)
-
-
-def _note(journal: IO[str], name: str, listed: tuple[int, str]) -> None:
-    journal.write(json.dumps([name, *listed]) + "\n")
 
 
 def _drop_others(folder: Path, wanted: frozenset[str]) -> None:

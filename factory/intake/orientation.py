@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from types import MappingProxyType
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -10,16 +10,14 @@ from ..errors import ConfigError
 from ..mesh import FloatArray
 
 # Rows give the new x, y and z; the same convention as the Particulate release's ``up_dir``.
-_ROTATIONS = MappingProxyType(
-    {
-        "x": ((0, 0, -1), (0, 1, 0), (1, 0, 0)),
-        "-x": ((0, 0, 1), (0, 1, 0), (-1, 0, 0)),
-        "y": ((1, 0, 0), (0, 0, -1), (0, 1, 0)),
-        "-y": ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
-        "z": ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
-        "-z": ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
-    }
-)
+_ROTATIONS: Mapping[str, tuple[tuple[int, ...], ...]] = {
+    "x": ((0, 0, -1), (0, 1, 0), (1, 0, 0)),
+    "-x": ((0, 0, 1), (0, 1, 0), (-1, 0, 0)),
+    "y": ((1, 0, 0), (0, 0, -1), (0, 1, 0)),
+    "-y": ((1, 0, 0), (0, 0, 1), (0, -1, 0)),
+    "z": ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+    "-z": ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
+}
 UP_AXES = tuple(_ROTATIONS)
 
 

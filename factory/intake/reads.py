@@ -63,11 +63,9 @@ def unchanged(source: Path, reads: Mapping[str, str]) -> bool:
 
 
 def digest_now(source: Path, name: str) -> str:
-    """Return what one file of an input is now.
+    """Return what one file of an input, by its path relative to the input's folder, is now.
 
-    Args:
-        source: the input, which may itself be a link to anywhere.
-        name: path relative to its folder, as in :data:`Reads`.
+    The input itself may be a link to anywhere.
     """
     return OUTSIDE if leads_out(source, name) else content_digest(source.parent / name)
 

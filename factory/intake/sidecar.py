@@ -79,9 +79,8 @@ def read_beside(path: Path, files: InputFiles, most_bytes: int) -> bytes:
         raise bad_sidecar(path, f"is {path.stat().st_size} bytes, want at most {most_bytes}")
     if not inside(path, path.parent.resolve()):
         files.log.note_link_out(path, path.parent)
-        raise InputRejected(
-            "external_reference", f"{path.name}: is a link that leads outside the input's folder"
-        )
+        outside = f"{path.name}: is a link that leads outside the input's folder"
+        raise InputRejected("external_reference", outside)
     return files.read(path)
 
 
@@ -98,9 +97,8 @@ def _parse(path: Path, files: InputFiles) -> Sidecar:
         raise bad_sidecar(path, f"is not TOML: {error}") from error
     unknown = sorted(set(values) - set(KNOWN_KEYS))
     if unknown:
-        raise bad_sidecar(
-            path, f"does not know {', '.join(unknown)[:160]}; known are {', '.join(KNOWN_KEYS)}"
-        )
+        known = f"known are {', '.join(KNOWN_KEYS)}"
+        raise bad_sidecar(path, f"does not know {', '.join(unknown)[:160]}; {known}")
     if "height" in values and "scale" in values:
         raise bad_sidecar(path, "has both height and scale, want at most one")
     for key in _TEXTS:
@@ -148,10 +146,8 @@ def _positive(path: Path, key: str, value: object) -> float | None:
         or not isinstance(value, int | float)
         or not _LEAST <= value <= _MOST
     ):
-        raise bad_sidecar(
-            path,
-            f"{key} must be a positive number, {_LEAST:g} to {_MOST:g}, not {repr(value)[:80]}",
-        )
+        want = f"a positive number, {_LEAST:g} to {_MOST:g}"
+        raise bad_sidecar(path, f"{key} must be {want}, not {repr(value)[:80]}")
     return float(value)
 
 

@@ -1,11 +1,15 @@
-"""The factor that makes a mesh's units metres, by the real sizes of its category."""
+"""The axis up and the factor to metres: as somebody says, else by real sizes of a category."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..config import IntakeConfig
+from ..errors import ConfigError, InputRejected
 from ..mesh import FloatArray
 from .categories import UNKNOWN, Category, category_table
+from .orientation import parse_up
+from .sidecar import Sidecar
 
 UNITS = ((0.001, "millimetres", 1.0), (0.01, "centimetres", 1.0), (0.0254, "inches", 2.0))
 """Factors tried when a size is implausible in metres, and how much better than others each fits."""
@@ -65,34 +69,23 @@ def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
         extents: of the mesh, z up, input units, shape [3].
         category: as from :func:`normalised` or :func:`guess_category`.
     """
-    size = category_table().get(category) if category else None
-    if size is None:
-        size = UNKNOWN
-        source = "guess"
-    else:
-        source = "category"
+    known = category_table().get(category) if category else None
+    size = known or UNKNOWN
+    source = "guess" if known is None else "category"
     what, value = _measured(extents, size)
     plausible = f"{size.least:g} to {size.most:g} m is plausible for {_article(size.name)}"
     if size.least <= value <= size.most:
-        return Scale(
-            1.0,
-            "as_is",
-            f"The input was taken to be in metres: its {what} is {value:.4g}, and {plausible}.",
-        )
+        said = f"its {what} is {value:.4g}, and {plausible}."
+        return Scale(1.0, "as_is", f"The input was taken to be in metres: {said}")
     expected = size.typical if source == "category" else _UNKNOWN_EXTENT_IN_UNITS
     unit = _best_unit(value, size, expected)
     if unit is not None:
         factor, name = unit
-        note = (
-            f"The input was taken to be in {name}: "
-            f"its {what} is {value:.4g}, so {value * factor:.4g} m"
-        )
-        return Scale(factor, source, f"{note}; {plausible}.")
+        said = f"its {what} is {value:.4g}, so {value * factor:.4g} m; {plausible}."
+        return Scale(factor, source, f"The input was taken to be in {name}: {said}")
     factor = size.typical / value
-    note = (
-        f"The input was scaled by {factor:.6g} to a {what} of {size.typical:g} m: "
-        f"its own is {value:.4g}"
-    )
+    said = f"scaled by {factor:.6g} to a {what} of {size.typical:g} m"
+    note = f"The input was {said}: its own is {value:.4g}"
     return Scale(factor, source, f"{note}, which no known unit makes likely ({plausible}).", False)
 
 
@@ -117,3 +110,42 @@ def _best_unit(value: float, size: Category, expected: float) -> tuple[float, st
 def _article(category: str) -> str:
     words = category.replace("_", " ")
     return f"an {words}" if words[0] in "aeiou" else f"a {words}"
+
+
+def check_config(config: IntakeConfig) -> None:
+    """Refuse settings that cannot be. Raises ConfigError: of the up axis or the height."""
+    if config.up != "auto":
+        parse_up(config.up)
+    if config.height is not None and not 0.0 < config.height < float("inf"):
+        raise ConfigError(f"height {config.height}: want a positive number of metres")
+
+
+def given_up(config: IntakeConfig, sidecar: Sidecar) -> tuple[str, str] | None:
+    """Return the up axis and who says so; ``None`` if nobody does."""
+    if config.up != "auto":
+        return parse_up(config.up), "option"
+    return (sidecar.up, "sidecar") if sidecar.up is not None else None
+
+
+def given_scale(
+    extents: FloatArray, config: IntakeConfig, sidecar: Sidecar, name: str
+) -> Scale | None:
+    """Return the factor to metres that follows from a height or scale; ``None`` if nobody says.
+
+    Args:
+        extents: of the mesh, z up, input units, shape [3].
+        config: its height wins over the sidecar's.
+        sidecar: of the input.
+        name: of the file, which opens the sentence.
+
+    Raises:
+        InputRejected: ``zero_size``: there is no height to scale.
+    """
+    height = config.height if config.height is not None else sidecar.height
+    if height is None:
+        return None if sidecar.scale is None else Scale(sidecar.scale, "sidecar")
+    if not extents[2] > 0.0:
+        why = f"has no height to scale to {height:g} m; give a scale instead"
+        raise InputRejected("zero_size", f"{name}: {why}")
+    source = "option" if config.height is not None else "sidecar"
+    return Scale(height / float(extents[2]), source)

@@ -28,8 +28,6 @@ class Source:
     """A mesh, URDF or MJCF file, and what it refers to.
 
     Args:
-        path: of the file.
-        config: how it is read.
         place: where it lies for whoever registers it, if that is elsewhere; folder and file are
             called the same.
 
@@ -77,11 +75,9 @@ class Source:
                 return intake
         self.digest = ""
         self.keyed = False
-        message = (
-            f"{self.path.name}: somebody wrote its files each of the {MOST_READINGS} times that "
-            "they were read; "
-            "build it again when they are at rest"
-        )
+        when = f"each of the {MOST_READINGS} times that they were read"
+        advice = "build it again when they are at rest"
+        message = f"{self.path.name}: somebody wrote its files {when}; {advice}"
         raise InputRejected("input_changed", message, value=float(MOST_READINGS), unit="readings")
 
     def with_up(self, up: str) -> Source:
@@ -131,13 +127,7 @@ def _unjudged(error: OSError) -> Unjudged:
 
 
 def loaded_key(path: Path, reads: Reads, config: BuildConfig) -> str:
-    """Return the key of what loading gives: an input's files, its name, and how it is read.
-
-    Args:
-        path: the input.
-        reads: every file it was made of.
-        config: of intake.
-    """
+    """Return the key of what loading gives: an input's files, its name, and how it is read."""
     # The same files are another input under another name, for that becomes the asset's; their
     # folder only matters as far as it tells the category.
     names = [safe_name(path), path.suffix.lower(), _category(path.stem, path.parent.name)]

@@ -24,15 +24,7 @@ def run_builds(
     workers: int = 1,
     budget: Budget | None = None,
 ) -> Iterator[Result]:
-    """Build every input on this machine; yield results as they come.
-
-    Args:
-        inputs: files, as :func:`~asset_factory.factory.intake.find_inputs` lists them.
-        output: the registry's folder.
-        config: of every stage.
-        workers: how many at once.
-        budget: how much is done.
-    """
+    """Build every input on this machine; yield results as they come."""
     # Geometry libraries load only to build.
     from .job import Job
 

@@ -46,9 +46,8 @@ class Budget:
 
     def wants_again(self, entry: Entry) -> bool:
         """Tell whether a known input is built all the same, for its verdict."""
-        return entry.status is not Status.PASSED and (
-            entry.reason in self.retry or ANY in self.retry
-        )
+        asked = entry.reason in self.retry or ANY in self.retry
+        return asked and entry.status is not Status.PASSED
 
 
 def parse_since(text: str, now: float | None = None) -> float:
@@ -75,10 +74,8 @@ def parse_since(text: str, now: float | None = None) -> float:
     try:
         return Path(text).stat().st_mtime
     except OSError as error:
-        raise ConfigError(
-            "--since must be seconds ago, a date such as 2026-11-21, or a file that is there, "
-            f"not {text!r}"
-        ) from error
+        want = "seconds ago, a date such as 2026-11-21, or a file that is there"
+        raise ConfigError(f"--since must be {want}, not {text!r}") from error
 
 
 def modified_since(inputs: Iterable[Path], since: float) -> Iterator[Path]:

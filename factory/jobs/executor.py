@@ -52,10 +52,7 @@ class Executor(Protocol):
         than :data:`AHEAD` times the workers ahead: a million of them need no more memory than ten.
         Closing the iterator kills running builds.
 
-        Args:
-            function: importable by name; its results must pickle.
-            calls: what to do; may be lazy.
-            limits: of each call.
+        The function is importable by name, and its results pickle; calls may be lazy.
 
         Returns:
             Every call once, a failed one with the failed outcome of its last try, and one that was

@@ -23,6 +23,7 @@ from ..models.service import Address, ModelService
 from ..registry import Entry, Registry
 from ..registry.aside import InputNow, keep_current
 from ..registry.claims import Claim, claim
+from ..registry.logged import Log
 from ..registry.product import Product
 from ..registry.registration import register, register_failure
 from ..registry.result import Result, known_result
@@ -33,17 +34,13 @@ from ..runtime.store import Store
 from .budget import Budget
 from .executor import Call, Executor, UnderWay
 from .local import LocalExecutor
-from .log import Log
 from .probe import KnownReads, Probe, known_of
 from .signals import undisturbed
 from .worker import build_here
 
 #: Imported once per job instead of once per child.
 COMMON_MODULES = (
-    "scipy.spatial",
-    "trimesh",
-    "manifold3d",
-    "fcl",
+    *("scipy.spatial", "trimesh", "manifold3d", "fcl"),
     "asset_factory.factory.jobs.worker",
 )
 SAPIEN_MODULE = "asset_factory.sim_checks.simulators.warm"
@@ -79,9 +76,6 @@ class Job:
     Args:
         inputs: files, as :func:`~..mesh.find_inputs` lists them; each once.
         output: the registry's folder; made if it is not there.
-        config: of every stage.
-        executor: who makes the calls.
-        budget: how much is done.
         one_network: whether all workers ask one network, which takes an executor on this machine.
 
     Attributes:
@@ -170,9 +164,8 @@ class Job:
 
     def _build(self, waiting: list[Probe]) -> Iterator[Result]:
         preload(modules_for(self._config))
-        limits = Limits(
-            wall_s=self._config.asset_wall_s, memory_bytes=self._config.asset_memory_bytes
-        )
+        config = self._config
+        limits = Limits(wall_s=config.asset_wall_s, memory_bytes=config.asset_memory_bytes)
         with ExitStack() as stack:
             stack.callback(self._release_all)
             log = Log(self._output)
@@ -225,10 +218,8 @@ class Job:
             # build again.
             probe = self._known_reads.renewed(seen)
             entry = probe.known(self._registry)
-            again = (
-                entry is not None and self._wants_again(entry) and probe.claim not in self._built
-            )
-            if entry is not None and not again:
+            fresh = probe.claim not in self._built
+            if entry is not None and not (self._wants_again(entry) and fresh):
                 held.release()
                 self._meanwhile.append(known_result(str(probe.given), entry))
                 continue
@@ -286,12 +277,11 @@ class Job:
     def _registered(self, probe: Probe, outcome: Outcome[Product]) -> Result:
         product = outcome.value
         if product is None:
-            failed = register_failure(
-                self._registry, probe.source, probe.reads, self._config, outcome
-            )
-            return replace(failed, input=str(probe.given))
-        self._known_reads.note(probe.source, product.reads)
-        result = register(self._registry, product, outcome.tries)
+            made_of = (probe.source, probe.reads)
+            result = register_failure(self._registry, *made_of, self._config, outcome)
+        else:
+            self._known_reads.note(probe.source, product.reads)
+            result = register(self._registry, product, outcome.tries)
         return replace(result, input=str(probe.given))
 
     @contextmanager

@@ -99,9 +99,8 @@ class _WorkerPool(Generic[T]):
     def ask(self, call: Call) -> None:
         if len(self._members) < self._most:
             child = WarmChild(*self._settings)
-            thread = Thread(
-                target=self._serve, args=(child,), name=f"build-{len(self._members)}", daemon=True
-            )
+            name = f"build-{len(self._members)}"
+            thread = Thread(target=self._serve, args=(child,), name=name, daemon=True)
             self._members.append((thread, child))
             thread.start()
         self._todo.put(call)
@@ -192,6 +191,5 @@ def tried(
 
 def worth_another_try(outcome: Outcome[T]) -> bool:
     """Tell whether an outcome may have been bad luck: a crash, a hang, a moment without memory."""
-    return outcome.failure in (Failure.CRASHED, Failure.TIMEOUT) or isinstance(
-        outcome.error, MemoryError
-    )
+    ended = outcome.failure in (Failure.CRASHED, Failure.TIMEOUT)
+    return ended or isinstance(outcome.error, MemoryError)

@@ -22,20 +22,15 @@ PROC = Path("/proc")
 def workers_for(asked: int | None, each: int) -> tuple[int, str | None]:
     """Return how many workers to start, and a sentence where they are fewer than was asked for.
 
-    Args:
-        asked: by whoever started the command; ``None``: as many as there are processors.
-        each: what one worker may need [bytes].
+    As many as there are processors are wanted unless ``asked`` says; one may need ``each`` [bytes].
     """
     wanted = asked or processors()
     free = free_memory()
     room = wanted if free is None else max(1, free // each)
     if room >= wanted:
         return wanted, None
-    sentence = (
-        f"{room} of {wanted} workers start: {_gib(free or 0)} of memory are free, "
-        f"and one may need {_gib(each)}"
-    )
-    return room, sentence
+    short = f"{_gib(free or 0)} of memory are free, and one may need {_gib(each)}"
+    return room, f"{room} of {wanted} workers start: {short}"
 
 
 def free_memory(proc: Path = PROC, groups: Path = GROUPS) -> int | None:

@@ -46,12 +46,9 @@ def missing_library() -> str | None:
 def draw_pages(
     registry: Registry, workers: int, progress: Callable[[int, int], None] | None = None
 ) -> PagesDrawn:
-    """Write or renew the site of a registry.
+    """Write or renew the site of a registry, which others may use meanwhile.
 
-    Args:
-        registry: others may use it meanwhile.
-        workers: pages drawn at once.
-        progress: told how many are done, of how many.
+    ``progress`` is told how many pages are done, of how many.
 
     Raises:
         ConfigError: a library is missing.

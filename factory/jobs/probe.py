@@ -60,7 +60,6 @@ class KnownReads:
 
     Args:
         folder: losing it costs time only.
-        config: with which inputs are built.
     """
 
     def __init__(self, folder: Path, config: BuildConfig) -> None:
@@ -103,11 +102,8 @@ class KnownReads:
             noted = json.loads(self._path(source, digest).read_text())
         except (OSError, ValueError):
             noted = None
-        if (
-            isinstance(noted, list)
-            and source.name in noted
-            and all(isinstance(name, str) for name in noted)
-        ):
+        names = isinstance(noted, list) and all(isinstance(name, str) for name in noted)
+        if names and source.name in noted:
             return sorted(noted)
         return sorted({source.name, *(path.name for path in sidecar_paths(source))})
 

@@ -30,15 +30,9 @@ def build_here(
 ) -> Product:
     """Make one input in this process, which somebody else may kill.
 
-    Args:
-        source: a mesh, URDF or MJCF file.
-        staging: a folder of its own; what an earlier try left in it is removed.
-        config: of every stage.
-        cache: where results of expensive stages are kept; ``None``: nowhere.
-        address: of the job's network, if it has one.
-        place: where the input lies for whoever registers it, if that is elsewhere.
-        weights: where checkpoints lie on this machine, if not where the configuration says.
-        engines: simulators that may run at once; verdicts do not depend on it.
+    What an earlier try left in ``staging`` is removed. ``place`` is where the input lies for
+    whoever registers it, and ``weights`` are where checkpoints lie here, if that is elsewhere. So
+    many ``engines`` may run at once; verdicts do not depend on it.
 
     Returns:
         The product, for the registry.

@@ -52,12 +52,7 @@ class Perceptron:
 
     @classmethod
     def read(cls, stored: Arrays, name: str, inputs: Sequence[str]) -> Perceptron:
-        """Return one of the networks of a file.
-
-        Args:
-            stored: the file.
-            name: of the network in it.
-            inputs: names of the numbers that it will be given, in order.
+        """Return a network of a file, which is given the numbers called ``inputs``, in their order.
 
         Raises:
             ConfigError: it was fitted to other numbers.
@@ -65,9 +60,8 @@ class Perceptron:
         known = json.loads(stored.metadata.get(f"{name}.inputs", "[]"))
         if known != list(inputs):
             wrong = sorted(set(known) ^ set(inputs)) or "another order"
-            raise ConfigError(
-                f"{stored.file.name}: {name} was fitted to other numbers: {wrong}; fit it again"
-            )
+            fitted = f"{name} was fitted to other numbers: {wrong}; fit it again"
+            raise ConfigError(f"{stored.file.name}: {fitted}")
         given = {each.name: stored.arrays.get(f"{name}.{each.name}") for each in fields(cls)}
         return cls(**given)  # type: ignore[arg-type]
 

@@ -34,11 +34,7 @@ class Arrays:
 
 @cache
 def load_shipped(file: str) -> Arrays:
-    """Return a file of ``configs/weights``.
-
-    Raises:
-        ConfigError: it is damaged.
-    """
+    """Return a file of ``configs/weights``. Raises ConfigError: it is damaged."""
     return load_arrays(Path(str(resources.files("asset_factory") / "configs" / FOLDER / file)))
 
 

@@ -14,8 +14,7 @@ is one rename from the staging folder, then one row: a reader sees a whole asset
 """
 
 from ..runtime.store import write_json
-from .entry import Entry
+from .entry import Entry, Split, split_of
 from .registry import Registry
-from .split import Split, split_of
 
 __all__ = ["Entry", "Registry", "Split", "split_of", "write_json"]

@@ -58,19 +58,13 @@ def keep_current(registry: Registry, inputs: Sequence[InputNow]) -> tuple[str, .
             query = "SELECT id FROM inputs WHERE place = ? AND digest = ?"
             before = connection.execute(query, key).fetchone()
             if before != (each.id,):
-                connection.execute(
-                    "INSERT OR REPLACE INTO inputs VALUES (?, ?, ?)", (*key, each.id)
-                )
+                insertion = "INSERT OR REPLACE INTO inputs VALUES (?, ?, ?)"
+                connection.execute(insertion, (*key, each.id))
                 left += before or ()
-        unused = [
-            old
-            for old in left
-            # The same file elsewhere may be that asset still.
-            if not any(
-                os.path.exists(place)
-                for (place,) in connection.execute("SELECT place FROM inputs WHERE id = ?", (old,))
-            )
-        ]
+        # The same file elsewhere may be that asset still.
+        query = "SELECT place FROM inputs WHERE id = ?"
+        places = {old: connection.execute(query, (old,)).fetchall() for old in left}
+        unused = [old for old in left if not any(os.path.exists(each) for (each,) in places[old])]
         connection.execute("COMMIT")
     there = tuple(old for old in unused if registry.find(old) is not None)
     for old in there:

@@ -1,14 +1,18 @@
-"""Who works on what: locks by name, so that two jobs on one registry do nothing twice."""
+"""Who works on what: claims by name, so that no two jobs do the same, and folders in use."""
 
 from __future__ import annotations
 
 import errno
+import os
+import shutil
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from filelock import FileLock, Timeout
+from filelock import FileLock, Timeout, lock_descriptor
+
+from asset_factory.sim_checks.processes import scratch
 
 #: How often to ask again for what somebody else has [s].
 WAIT_S = 0.02
@@ -33,9 +37,7 @@ class Claim:
 def claim(folder: Path, name: str) -> Claim | None:
     """Return the right to do the work of that name; ``None`` while somebody else has it.
 
-    Args:
-        folder: that all jobs share; made if need be.
-        name: of the work; a file name.
+    ``folder`` is shared by all jobs, and made if need be.
     """
     folder.mkdir(parents=True, exist_ok=True)
     # Not by the mere existence of a file, which would outlive a killed process.
@@ -71,3 +73,28 @@ def drop_abandoned(folder: Path) -> int:
             held.release()
             count += 1
     return count
+
+
+@contextmanager
+def held_folder(parent: Path) -> Iterator[Path]:
+    """Make a folder in ``parent``, locked while the process lives, removed afterwards."""
+    parent.mkdir(parents=True, exist_ok=True)
+    folder, descriptor = scratch.held_folder(parent)
+    folder.chmod(0o755)
+    try:
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+        os.close(descriptor)
+
+
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Yield the right to do what only one process may do at a time in a folder; waits for it."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        with suppress(OSError):
+            lock_descriptor(descriptor)
+        yield
+    finally:
+        os.close(descriptor)

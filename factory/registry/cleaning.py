@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
@@ -51,50 +52,37 @@ def collect_garbage(
     """
     sweep()
     drop_abandoned(root / CLAIMS)
-    staging = _remove_staging(root / STAGING)
-    unfinished = _remove_unfinished(root)
+    made = root / STAGING
+    staging = _remove_abandoned(sorted(made.iterdir()) if made.is_dir() else ())
+    pattern = f"{WRITING_PREFIX}*"
+    flat = (folder.glob(pattern) for folder in (root, root / NOTES))
+    deep = (folder.rglob(pattern) for folder in (root / CACHE, root / INPUTS))
+    unfinished = _remove_abandoned(chain(*flat, *deep))
     store = Store(root / CACHE)
     trimmed = store.trim(older_than_s=older_than_s, keep_bytes=keep_bytes)
     return Freed(staging, unfinished, trimmed, store.size())
 
 
-def _remove_staging(staging: Path) -> Trimmed:
+def _remove_abandoned(paths: Iterable[Path]) -> Trimmed:
+    """Remove files and folders, but those that a process has locked, as it works on them."""
     freed = Trimmed()
-    for folder in sorted(staging.iterdir()) if staging.is_dir() else ():
-        descriptor = abandoned(folder)
+    for path in paths:
+        descriptor = abandoned(path)
         if descriptor is None:
             continue
         try:
-            freed = Trimmed(freed.files + 1, freed.bytes + _size(folder))
-            remove(folder)
+            freed = Trimmed(freed.files + 1, freed.bytes + _size(path))
+            remove(path)
         finally:
             os.close(descriptor)
     return freed
 
 
-def _remove_unfinished(root: Path) -> Trimmed:
-    """Return the files that are still to get their name; whoever writes one has it locked."""
-    freed = Trimmed()
-    pattern = f"{WRITING_PREFIX}*"
-    places = (
-        root.glob(pattern),
-        (root / NOTES).glob(pattern),
-        (root / CACHE).rglob(pattern),
-        (root / INPUTS).rglob(pattern),
-    )
-    for path in chain.from_iterable(places):
-        descriptor = abandoned(path)
-        if descriptor is not None:
-            freed = Trimmed(freed.files + 1, freed.bytes + os.fstat(descriptor).st_size)
-            remove(path)
-            os.close(descriptor)
-    return freed
-
-
-def _size(folder: Path) -> int:
+def _size(path: Path) -> int:
+    """Return the size of a file, or of all that a folder holds [bytes]."""
+    inside = (os.path.join(parent, name) for parent, _, names in os.walk(path) for name in names)
     total = 0
-    for parent, _, names in os.walk(folder):
-        for name in names:
-            with suppress(OSError):
-                total += os.lstat(os.path.join(parent, name)).st_size
+    for file in inside if path.is_dir() else (path,):
+        with suppress(OSError):
+            total += os.lstat(file).st_size
     return total

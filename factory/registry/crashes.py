@@ -24,13 +24,7 @@ _MOST_FRAMES = 30
 
 
 def crash_stage(registry: Registry, asset_id: str, outcome: Outcome[Product]) -> str:
-    """Return the stage in which an input died the last two times; empty if it did not.
-
-    Args:
-        registry: where an earlier death may be listed.
-        asset_id: of the input.
-        outcome: what came of its process.
-    """
+    """Return the stage in which an input died the last two times; empty if it did not."""
     if outcome.failure is not Failure.CRASHED or outcome.killed or not outcome.deaths:
         return ""
     stages = [_earlier_stage(registry, asset_id), *outcome.deaths]
@@ -53,11 +47,7 @@ def crash_measurements(outcome: Outcome[Product]) -> dict[str, Any]:
 
 
 def trace(output: str) -> tuple[str, ...]:
-    """Return the lines of Python in which a process died, the innermost first, without paths.
-
-    Args:
-        output: the end of what it wrote.
-    """
+    """Return the lines of Python in which a process died, the innermost first, without paths."""
     return tuple(
         f"{'/'.join(found['file'].split('/')[-_NAMES_KEPT:])}:{found['line']} {found['function']}"
         for found in _FRAME.finditer(output)

@@ -26,11 +26,9 @@ ENTRY_COLUMNS = (
 #: ``gpu_ready`` is ``yes``, ``no`` or empty; ``digest`` the SHA-256 of the asset's report.json.
 COLUMNS = (*ENTRY_COLUMNS, "gpu_ready", "digest")
 # Without row ids every index ends with the id: what an index finds comes out sorted as lists are.
+_OTHERS = ", ".join(f"{name} NOT NULL" for name in COLUMNS[1:])
 _TABLES = (
-    (
-        "CREATE TABLE assets (id TEXT PRIMARY KEY, "
-        f"{', '.join(f'{name} NOT NULL' for name in COLUMNS[1:])}) WITHOUT ROWID"
-    ),
+    f"CREATE TABLE assets (id TEXT PRIMARY KEY, {_OTHERS}) WITHOUT ROWID",
     "CREATE TABLE tags (tag TEXT, id TEXT, PRIMARY KEY (tag, id)) WITHOUT ROWID",
 )
 #: Columns by which rows are found; of several that would do, the first is the narrowest.
@@ -119,10 +117,8 @@ def create_indices(connection: sqlite3.Connection) -> None:
 def _create_counts(connection: sqlite3.Connection) -> None:
     """Keep how many rows there are of each kind, whoever writes: counting reads no row."""
     names = ", ".join(COUNTED)
-    connection.execute(
-        f"CREATE TABLE counts ({names}, number INTEGER NOT NULL, PRIMARY KEY ({names})) "
-        "WITHOUT ROWID"
-    )
+    columns = f"{names}, number INTEGER NOT NULL, PRIMARY KEY ({names})"
+    connection.execute(f"CREATE TABLE counts ({columns}) WITHOUT ROWID")
     connection.execute(
         f"INSERT INTO counts SELECT {names}, count(*) FROM assets GROUP BY {names}"  # noqa: S608 - our own names
     )
@@ -132,9 +128,8 @@ def _create_counts(connection: sqlite3.Connection) -> None:
         f"UPDATE OF {names}": _counted("old", -1) + _counted("new", 1),
     }
     for number, (change, step) in enumerate(steps.items()):
-        connection.execute(
-            f"CREATE TRIGGER counted_{number} AFTER {change} ON assets BEGIN {step} END"
-        )
+        when = f"AFTER {change} ON assets"
+        connection.execute(f"CREATE TRIGGER counted_{number} {when} BEGIN {step} END")
 
 
 def _counted(row: str, by: int) -> str:
@@ -167,7 +162,6 @@ def damaged(root: Path, why: str) -> DamagedDatabaseError:
 def require_known(root: Path, version: int) -> None:
     """Raise RegistryError for a database that a newer program made."""
     if version > SCHEMA_VERSION:
-        raise RegistryError(
-            f"{root / DATABASE}: version {version}, this program knows up to {SCHEMA_VERSION}; "
-            "use the asset-factory that made it, or a newer one"
-        )
+        known = f"version {version}, this program knows up to {SCHEMA_VERSION}"
+        advice = "use the asset-factory that made it, or a newer one"
+        raise RegistryError(f"{root / DATABASE}: {known}; {advice}")

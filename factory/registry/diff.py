@@ -25,9 +25,7 @@ class EntryChange:
     def columns(self) -> tuple[str, ...]:
         """Return what differs."""
         names = (f.name for f in fields(Entry) if f.name not in IGNORED)
-        return tuple(
-            name for name in names if getattr(self.before, name) != getattr(self.after, name)
-        )
+        return tuple(n for n in names if getattr(self.before, n) != getattr(self.after, n))
 
 
 @dataclass(frozen=True)
@@ -57,13 +55,11 @@ class Diff:
 
     def to_dict(self) -> dict[str, Any]:
         """Return JSON data."""
-        changes = {
-            name: getattr(self, name) for name in ("newly_passed", "newly_failed", "changed")
-        }
+        names = ("newly_passed", "newly_failed", "changed")
         return {
             "new": [asdict(entry) for entry in self.new],
             "gone": [asdict(entry) for entry in self.gone],
-            **{name: [_change_data(change) for change in group] for name, group in changes.items()},
+            **{name: [_change_data(change) for change in getattr(self, name)] for name in names},
             "same": self.same,
         }
 
@@ -71,9 +67,7 @@ class Diff:
 def diff(before: Iterable[Entry], after: Iterable[Entry]) -> Diff:
     """Compare two lists of entries by id."""
     old, new = ({entry.id: entry for entry in entries} for entries in (before, after))
-    both = [
-        EntryChange(old[asset_id], new[asset_id]) for asset_id in sorted(old.keys() & new.keys())
-    ]
+    both = [EntryChange(old[each], new[each]) for each in sorted(old.keys() & new.keys())]
     differing = [change for change in both if change.columns]
     passed = [
         (change, change.before.status is Status.PASSED, change.after.status is Status.PASSED)

@@ -5,12 +5,23 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
-from typing import Any
+from typing import Any, Literal
 
 from asset_factory.sim_checks import Status
 
 from ..errors import RegistryError
-from .split import Split, split_of
+from ..runtime.store import digest_bytes
+
+Split = Literal["train", "test"]
+SPLITS: tuple[Split, ...] = ("train", "test")
+#: Share of all assets that are kept for testing.
+TEST_SHARE = 0.2
+
+
+def split_of(asset_id: str) -> Split:
+    """Return an asset's split, from its id alone, so that a growing registry moves nothing."""
+    return "test" if int(digest_bytes(asset_id.encode())[:8], 16) < TEST_SHARE * 2**32 else "train"
+
 
 #: Unknown, opened, not opened.
 SOLVED = ("", "yes", "no")
@@ -64,9 +75,8 @@ class Entry:
 
 #: What an asset's own folder says of it; the rest is noted beside it.
 MUTABLE = ("tags", "solved")
-_TEXTS = tuple(
-    f.name for f in fields(Entry) if f.type in ("str", "Status") and f.name not in MUTABLE
-)
+_LASTING = [each for each in fields(Entry) if each.name not in MUTABLE]
+_TEXTS = tuple(each.name for each in _LASTING if each.type in ("str", "Status"))
 _COUNTS = tuple(f.name for f in fields(Entry) if f.type == "int")
 
 
@@ -83,10 +93,8 @@ def entry_from(data: object, *, tags: tuple[str, ...] = (), solved: str = "") ->
     """
     if not isinstance(data, Mapping):
         raise ValueError(f"an entry must be an object, not {type(data).__name__}")
-    texts, counts = (
-        {name: data.get(name, empty) for name in names}
-        for names, empty in ((_TEXTS, ""), (_COUNTS, 0))
-    )
+    texts = {name: data.get(name, "") for name in _TEXTS}
+    counts = {name: data.get(name, 0) for name in _COUNTS}
     for name, value in texts.items():
         if not isinstance(value, str) or len(value) > _MAX_TEXT:
             raise ValueError(f"an entry's {name} must be a text, not {str(value)[:50]!r}")
@@ -94,13 +102,11 @@ def entry_from(data: object, *, tags: tuple[str, ...] = (), solved: str = "") ->
         if type(value) is not int or not 0 <= value <= _MAX_COUNT:
             raise ValueError(f"an entry's {name} must be a count, not {str(value)[:50]!r}")
     if not is_id(texts["id"]):
-        raise ValueError(
-            f"an entry's id must be of letters, digits, '_', '-' and '.', not {texts['id'][:50]!r}"
-        )
+        want = "letters, digits, '_', '-' and '.'"
+        raise ValueError(f"an entry's id must be of {want}, not {texts['id'][:50]!r}")
     if texts["status"] not in set(Status):
-        raise ValueError(
-            f"an entry's status must be one of {', '.join(Status)}, not {texts['status'][:50]!r}"
-        )
+        want = ", ".join(Status)
+        raise ValueError(f"an entry's status must be one of {want}, not {texts['status'][:50]!r}")
     return Entry(**texts, **counts, tags=tags, solved=solved)
 
 
@@ -113,7 +119,5 @@ def require_tags(tags: tuple[str, ...]) -> None:
     """Raise RegistryError for a tag that cannot be one."""
     for tag in tags:
         if _TAG.fullmatch(tag) is None:
-            raise RegistryError(
-                f"tag {tag[:50]!r}: want up to 100 letters, digits and '._:-', "
-                "a letter or digit first"
-            )
+            want = "want up to 100 letters, digits and '._:-', a letter or digit first"
+            raise RegistryError(f"tag {tag[:50]!r}: {want}")

@@ -22,11 +22,8 @@ def all_ids(root: Path) -> list[str]:
     for place in (ASSETS, REJECTED):
         if (root / place).is_dir():
             with os.scandir(root / place) as items:
-                found |= {
-                    item.name
-                    for item in items
-                    if is_id(item.name) and item.is_dir(follow_symlinks=False)
-                }
+                folders = (item for item in items if item.is_dir(follow_symlinks=False))
+                found |= {folder.name for folder in folders if is_id(folder.name)}
     return sorted(found)
 
 

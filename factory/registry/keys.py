@@ -26,12 +26,7 @@ PIPELINE = "asset_factory.factory.build"
 
 
 def build_key(loaded: str, config: BuildConfig) -> str:
-    """Return the key of everything that an asset and its verdict follow from.
-
-    Args:
-        loaded: key of the loaded input.
-        config: of every stage.
-    """
+    """Return the key of all that an asset and its verdict follow from; ``loaded``: the input's."""
     return digest_bytes(f"{loaded} {_pipeline_key(config)}".encode())
 
 
@@ -45,9 +40,7 @@ def source_key(source: Source) -> str:
 def failure_key(built: str, config: BuildConfig) -> str:
     """Return the key of an input without a verdict: another version or limit may give one.
 
-    Args:
-        built: :func:`build_key`; empty if it is not known.
-        config: of every stage.
+    ``built`` is the input's :func:`build_key`, empty if it is not known.
     """
     if not built:
         return ""

@@ -16,6 +16,10 @@ from ..runtime.store import digest_bytes, write_json
 from .entry import SOLVED, require_tags
 
 _MAX_BYTES = 1_000_000
+_UNREADABLE = (
+    *(OSError, RegistryError, RecursionError),
+    *(ValueError, KeyError, TypeError, AttributeError),
+)
 
 
 @dataclass(frozen=True)
@@ -57,15 +61,7 @@ def read_note(path: Path) -> Note:
         tags = tuple(sorted({str(tag) for tag in data["tags"]}))
         note = Note(tags, str(data.get("solved", "")), str(data.get("solved_files", "")))
         require_tags(note.tags)
-    except (
-        OSError,
-        ValueError,
-        KeyError,
-        TypeError,
-        AttributeError,
-        RegistryError,
-        RecursionError,
-    ):
+    except _UNREADABLE:
         return Note()
     return note if note.solved in SOLVED else Note(note.tags)
 

@@ -22,9 +22,7 @@ _NO_EXCHANGE = frozenset({errno.ENOSYS, errno.EINVAL, errno.EOPNOTSUPP})
 def place(content: Path, folder: Path) -> None:
     """Put ``content`` at ``folder``; a folder that was there ends up at ``content``.
 
-    Args:
-        content: a folder on the same file system.
-        folder: need not exist.
+    Both are on one file system; ``folder`` need not exist.
     """
     try:
         if os.path.lexists(folder):
@@ -34,10 +32,8 @@ def place(content: Path, folder: Path) -> None:
     except OSError as error:
         if error.errno != errno.EXDEV:
             raise
-        raise RegistryError(
-            f"{content}: lies on another file system than {folder.parent}; "
-            "build in the registry's staging folder"
-        ) from error
+        elsewhere = f"{content}: lies on another file system than {folder.parent}"
+        raise RegistryError(f"{elsewhere}; build in the registry's staging folder") from error
     sync_folder(folder.parent)
 
 
@@ -90,11 +86,6 @@ def _exchanged(first: Path, second: Path) -> int:
     call = getattr(ctypes.CDLL(None, use_errno=True), "renameat2", None)
     if call is None:
         return errno.ENOSYS
-    failed = call(
-        _AT_FDCWD,
-        os.fsencode(first),
-        _AT_FDCWD,
-        os.fsencode(second),
-        ctypes.c_uint(_RENAME_EXCHANGE),
-    )
+    one, other = (os.fsencode(path) for path in (first, second))
+    failed = call(_AT_FDCWD, one, _AT_FDCWD, other, ctypes.c_uint(_RENAME_EXCHANGE))
     return ctypes.get_errno() if failed else 0

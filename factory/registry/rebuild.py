@@ -12,7 +12,7 @@ from pathlib import Path
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, CLAIMS, DATABASE, REJECTED, STAGING
 from ..runtime.store import sync_folder
-from .claims import alone
+from .claims import alone, held_folder, locked
 from .database import (
     CACHE_KIB,
     SCHEMA_VERSION,
@@ -28,7 +28,6 @@ from .database import (
 from .folders import all_ids, current_folder, records
 from .placing import remove, sync_tree
 from .rows import Filters, RegistryRow, delete, insert, select
-from .staging import held_folder, locked
 
 #: What SQLite keeps beside a database.
 _COMPANIONS = ("-wal", "-shm", "-journal")
@@ -48,9 +47,8 @@ def make_registry(root: Path) -> None:
         _make(root)
         open_registry(root)
     except OSError as error:
-        raise RegistryError(
-            f"{root}: no registry can be made here: {error.strerror}; want a folder to write in"
-        ) from error
+        why = f"{error.strerror}; want a folder to write in"
+        raise RegistryError(f"{root}: no registry can be made here: {why}") from error
 
 
 def _make(root: Path) -> None:
@@ -72,13 +70,10 @@ def open_registry(root: Path) -> None:
     """
     if not (root / DATABASE).is_file():
         if (root / ASSETS).is_dir() and all_ids(root):
-            raise RegistryError(
-                f"{root}: no {DATABASE}; `factory registry rebuild --output {root}` makes it "
-                "from the folders"
-            )
-        raise RegistryError(
-            f"{root}: no registry here; `factory build --output {root} ...` makes one"
-        )
+            advice = f"`factory registry rebuild --output {root}` makes it from the folders"
+            raise RegistryError(f"{root}: no {DATABASE}; {advice}")
+        advice = f"`factory build --output {root} ...` makes one"
+        raise RegistryError(f"{root}: no registry here; {advice}")
     with connected(root) as connection:
         version = schema_version(connection)
     if version == 0:

@@ -23,10 +23,7 @@ from .result import Result
 def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
     """Publish what passed, keep the report of what did not, and say which.
 
-    Args:
-        registry: to list it in.
-        product: its bundle lies in one of that registry's staging folders, and is gone afterwards.
-        attempts: how often it was begun.
+    The product's bundle is in one of the registry's staging folders, and is gone afterwards.
 
     Raises:
         OSError: the registry cannot be written; nothing is half-published.
@@ -62,15 +59,9 @@ def register_failure(
 ) -> Result:
     """Keep the report of an input whose process crashed, hung or met a bug of ours.
 
-    Args:
-        registry: to list it in.
-        source: the input.
-        reads: the files that it is made of, if they are known; what died twice in one stage is then
-            not tried again until one of them, the settings or a library changes, or somebody asks
-            for it. What ran out of time, or died once, may have been bad luck: the next job tries
-            again.
-        config: of every stage.
-        outcome: what came of its process.
+    ``reads`` are the files that it is made of, if they are known; what died twice in one stage is
+    then not tried again until one of them, the settings or a library changes, or somebody asks for
+    it. What ran out of time, or died once, may have been bad luck: the next job tries again.
     """
     origin = Source(source, config)
     origin.reads = reads

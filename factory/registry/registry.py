@@ -17,15 +17,15 @@ from asset_factory.sim_checks import Report, Status
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
 from . import rows
+from .claims import held_folder
 from .database import connected, writing
 from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
 from .folders import read_record
-from .notes import Note, fingerprint, note_path, read_note, write_note
+from .notes import fingerprint, note_path, read_note, write_note
 from .placing import place, remove, sync_tree
 from .rebuild import make_registry, open_registry
 from .report_file import BuildReport, file_digests, read_report, write_report
 from .rows import Filters
-from .staging import held_folder
 
 if TYPE_CHECKING:
     from ..export.manifest import Manifest
@@ -39,7 +39,6 @@ class Registry:
     """A folder of validated assets, which several processes may read and write at once.
 
     Args:
-        root: the output directory.
         create: make it if it is not there; otherwise a missing one raises RegistryError.
 
     Raises:
@@ -97,29 +96,23 @@ class Registry:
             The asset's folder.
         """
         if entry.status is not Status.PASSED:
-            raise RegistryError(
-                f"asset {entry.id!r}: status is '{entry.status}', only 'passed' is published"
-            )
+            status = f"status is '{entry.status}', only 'passed' is published"
+            raise RegistryError(f"asset {entry.id!r}: {status}")
         return self._publish(entry, bundle, told, self.assets / entry.id, self.rejected / entry.id)
 
     def reject(self, entry: Entry, told: BuildReport, shown: Path | None = None) -> Path:
         """Keep the report of an input that did not pass, and list it. Returns the folder.
 
-        Args:
-            entry: its row.
-            told: its report.
-            shown: a folder as for :meth:`publish`, with what else is kept of it.
+        ``shown`` is a folder as for :meth:`publish`, with what else is kept of it.
         """
         if entry.status is Status.PASSED:
-            raise RegistryError(
-                f"asset {entry.id!r}: status is 'passed', want rejected or unjudged"
-            )
+            status = "status is 'passed', want rejected or unjudged"
+            raise RegistryError(f"asset {entry.id!r}: {status}")
         with self.staging_folder() as staging:
             content = shown or staging / entry.id
             content.mkdir(exist_ok=True)
-            return self._publish(
-                entry, content, told, self.rejected / entry.id, self.assets / entry.id
-            )
+            places = (self.rejected / entry.id, self.assets / entry.id)
+            return self._publish(entry, content, told, *places)
 
     def note(
         self, asset_id: str, *, tags: Sequence[str] | None = None, solved: str | None = None
@@ -138,22 +131,18 @@ class Registry:
         """
         require_tags(tuple(tags or ()))
         if solved is not None and solved not in SOLVED:
-            raise RegistryError(
-                f"solved must be one of {', '.join(map(repr, SOLVED))}, not {solved!r}"
-            )
+            known = ", ".join(map(repr, SOLVED))
+            raise RegistryError(f"solved must be one of {known}, not {solved!r}")
         with writing(self.root) as connection:
             folder = self.folder(self._entry(connection, asset_id))
-            old = read_note(note_path(self.root, asset_id))
             path = note_path(self.root, asset_id)
-            new = (
-                Note(tuple(sorted(set(tags))), old.solved, old.solved_files)
-                if tags is not None
-                else old
-            )
+            noted = read_note(path)
+            if tags is not None:
+                noted = replace(noted, tags=tuple(sorted(set(tags))))
             if solved is not None:
-                files = read_report(folder).files
-                new = Note(new.tags, solved, fingerprint(files) if solved else "")
-            write_note(path, new)
+                tried = fingerprint(read_report(folder).files) if solved else ""
+                noted = replace(noted, solved=solved, solved_files=tried)
+            write_note(path, noted)
             record = read_record(folder, path)
             rows.insert(connection, (record,))
         return record.entry
@@ -192,10 +181,8 @@ class Registry:
     ) -> tuple[Entry, ...]:
         """Return the rows that pass every filter, by id; all of them by default.
 
-        Args:
-            limit: rows at most.
-            after: only those whose id comes after this one: with ``limit``, page by page.
-            wanted: see :class:`~.rows.Filters`.
+        ``wanted`` are fields of :class:`~.rows.Filters`; with ``limit``, and the last id as
+        ``after``, rows come page by page.
         """
         named: dict[str, Any] = {**wanted}
         return self.select(Filters(**named), limit=limit, after=after)
@@ -253,11 +240,8 @@ class Registry:
         """Return the same for many keys at once, by key."""
         with connected(self.root) as connection:
             found = {key: rows.find(connection, "key", key) for key in keys if key}
-        return {
-            key: entry
-            for key, entry in found.items()
-            if entry is not None and (self.folder(entry) / REPORT).is_file()
-        }
+        listed = ((key, entry) for key, entry in found.items() if entry is not None)
+        return {key: e for key, e in listed if (self.folder(e) / REPORT).is_file()}
 
     def folder(self, entry: Entry) -> Path:
         """Return where an entry's files lie."""
@@ -286,11 +270,7 @@ class Registry:
         if entry is not None:
             return entry
         candidates = rows.near(connection, asset_id)
-        near = [
-            known
-            for known in candidates
-            if known.startswith(asset_id) or asset_id.startswith(known)
-        ]
+        near = [c for c in candidates if c.startswith(asset_id) or asset_id.startswith(c)]
         near = near or get_close_matches(asset_id, candidates)
         hint = f"; did you mean {', '.join(near[:3])}?" if near else ""
         hint = hint or f"; `factory list` shows all {rows.count(connection, Filters())}"

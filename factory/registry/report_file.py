@@ -115,14 +115,7 @@ def read_report(folder: Path) -> StoredReport:
 
 
 def write_report(folder: Path, entry: Entry, told: BuildReport, files: Mapping[str, str]) -> None:
-    """Write a folder's report.
-
-    Args:
-        folder: of the asset, its other files in it.
-        entry: its row.
-        told: its report.
-        files: :func:`file_digests` of the folder.
-    """
+    """Write a folder's report; ``files`` are the :func:`file_digests` of the others in it."""
     data = {
         **told.report.to_dict(),
         "id": entry.id,

@@ -14,6 +14,11 @@ _SELECT = (
     "(SELECT group_concat(own.tag) FROM tags AS own WHERE own.id = assets.id)"
 )
 _TAKEN_OVER = ", ".join(f"{name} = excluded.{name}" for name in COLUMNS[1:])
+# Replacing would count rows twice: it drops the old one without telling triggers.
+_INSERT = (
+    f"INSERT INTO assets ({', '.join(COLUMNS)}) VALUES ({', '.join('?' for _ in COLUMNS)}) "  # noqa: S608 - our own names
+    f"ON CONFLICT (id) DO UPDATE SET {_TAKEN_OVER}"
+)
 _NEAR = 100
 _HIGHEST = "\U0010ffff"
 
@@ -67,11 +72,9 @@ class Filters:
 
     def query(self, *, after: str = "") -> tuple[str, list[str | int]]:
         """Return what follows SELECT columns: the tables, the conditions, and their values."""
-        asked = {
-            item.name: getattr(self, item.name)
-            for item in fields(self)
-            if item.name != "others" and getattr(self, item.name) is not None
-        }
+        said = {item.name: getattr(self, item.name) for item in fields(self)}
+        del said["others"]
+        asked = {name: value for name, value in said.items() if value is not None}
         conditions = [f"{'tags' if name == 'tag' else 'assets'}.{name} = ?" for name in asked]
         conditions += [f"assets.{each.column} {each.operator} ?" for each in self.others]
         values = [*asked.values(), *(each.value for each in self.others)]
@@ -100,22 +103,13 @@ def _walked(asked: frozenset[str]) -> str:
 
 def insert(connection: sqlite3.Connection, records: Iterable[RegistryRow]) -> None:
     """Write rows, over those of the same ids."""
-    marks = ", ".join("?" for _ in COLUMNS)
     for record in records:
         entry = record.entry
         own = (getattr(entry, name) for name in ENTRY_COLUMNS)
-        values = [*own, record.gpu_ready, record.digest]
-        names = ", ".join(COLUMNS)
-        # Replacing would count rows twice: it drops the old one without telling triggers.
-        statement = (
-            f"INSERT INTO assets ({names}) VALUES ({marks}) "  # noqa: S608 - our own names
-            f"ON CONFLICT (id) DO UPDATE SET {_TAKEN_OVER}"
-        )
-        connection.execute(statement, values)
+        connection.execute(_INSERT, [*own, record.gpu_ready, record.digest])
         connection.execute("DELETE FROM tags WHERE id = ?", (entry.id,))
-        connection.executemany(
-            "INSERT INTO tags (tag, id) VALUES (?, ?)", [(tag, entry.id) for tag in entry.tags]
-        )
+        tags = [(tag, entry.id) for tag in entry.tags]
+        connection.executemany("INSERT INTO tags (tag, id) VALUES (?, ?)", tags)
 
 
 def delete(connection: sqlite3.Connection, asset_id: str) -> None:
@@ -143,10 +137,8 @@ def select(
     """Return the entries that pass, by id, those after an id, at most so many."""
     query, values = filters.query(after=after)
     ordered = f"{_SELECT}{query} ORDER BY {filters.order} LIMIT ?"
-    return tuple(
-        _entry(row)
-        for row in connection.execute(ordered, (*values, -1 if limit is None else limit))
-    )
+    found = connection.execute(ordered, (*values, -1 if limit is None else limit))
+    return tuple(_entry(row) for row in found)
 
 
 def count(connection: sqlite3.Connection, filters: Filters) -> int:
@@ -169,12 +161,11 @@ def near(connection: sqlite3.Connection, asset_id: str) -> tuple[str, ...]:
     shorter = connection.execute(statement, starts)
     found = [str(row[0]) for row in shorter]
     for start in starts:
-        longer = connection.execute(
-            "SELECT id FROM assets WHERE id >= ? AND id < ? ORDER BY id LIMIT ?",
-            (start, start + _HIGHEST, _NEAR),
-        ).fetchall()
+        query = "SELECT id FROM assets WHERE id >= ? AND id < ? ORDER BY id LIMIT ?"
+        rows = connection.execute(query, (start, start + _HIGHEST, _NEAR))
+        longer = [str(row[0]) for row in rows]
         if longer:
-            return (*found, *(str(row[0]) for row in longer if str(row[0]) not in found))
+            return (*found, *(each for each in longer if each not in found))
     return tuple(found)
 
 

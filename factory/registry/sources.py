@@ -17,10 +17,7 @@ _MAX_LINE = 1_000_000
 
 
 def entries_of(path: Path) -> tuple[Entry, ...]:
-    """Return every entry of a registry or of an export, by id.
-
-    Args:
-        path: a registry's folder; an export's folder, archive or ``entries.jsonl``.
+    """Return every entry, by id, of a registry's folder or an export's folder, archive or list.
 
     Raises:
         RegistryError: it is none of these, or cannot be read.
@@ -48,9 +45,8 @@ def _from_archive(path: Path) -> tuple[Entry, ...]:
             if content is not None:
                 with content:
                     return _parsed(path, content)
-    raise RegistryError(
-        f"{path}: no {ENTRIES_NAME} in it; want an export as `factory registry export` writes it"
-    )
+    want = "want an export as `factory registry export` writes it"
+    raise RegistryError(f"{path}: no {ENTRIES_NAME} in it; {want}")
 
 
 def _parsed(path: Path, stream: IO[bytes]) -> tuple[Entry, ...]:

@@ -49,10 +49,6 @@ def sync(files: Iterable[tuple[str, bytes]], url: str) -> Synced:
     what it does not name any more goes after that. A synchronisation that was cut off, at whatever
     moment, leaves the old index or the new one; the next goes on with missing files.
 
-    Args:
-        files: paths and contents, as :func:`.export.contents.contents` gives them.
-        url: of a folder, as fsspec understands it.
-
     Raises:
         RegistryError: it cannot be read or written, or holds something else; names no secret.
         ConfigError: what fsspec needs is not installed.
@@ -71,10 +67,8 @@ def sync(files: Iterable[tuple[str, bytes]], url: str) -> Synced:
     except AssetFactoryError:
         raise
     except Exception as error:  # noqa: BLE001 - each file system has errors of its own
-        raise RegistryError(
-            f"{shown(url)}: cannot be synchronised: {told(error, url)}; "
-            "the same command goes on with what is missing"
-        ) from None
+        why = f"{told(error, url)}; the same command goes on with what is missing"
+        raise RegistryError(f"{shown(url)}: cannot be synchronised: {why}") from None
 
 
 @dataclass
@@ -99,7 +93,7 @@ class _Sync:
             try:
                 for name, data in files:
                     named.add(name)
-                    if _is_index(name):
+                    if PurePosixPath(name).parts[0] not in _BEFORE_INDEX:
                         # Nothing is named before it is there.
                         self._counted(under_way)
                         under_way = set()
@@ -114,7 +108,7 @@ class _Sync:
                 pool.shutdown(cancel_futures=True)
                 raise
         for name in sorted(self.there.keys() - named):
-            if _is_ours(name):
+            if PurePosixPath(name).parts[0] in TOP_NAMES:
                 self.system.rm_file(f"{self.root}/{name}")
                 self.synced.removed += 1
         return self.synced
@@ -161,11 +155,3 @@ def _listed(system: Any, root: str) -> dict[str, dict[str, Any]]:
         return {}
     found = system.find(root, detail=True)
     return {path.removeprefix(root).strip("/"): details for path, details in found.items()}
-
-
-def _is_index(name: str) -> bool:
-    return PurePosixPath(name).parts[0] not in _BEFORE_INDEX
-
-
-def _is_ours(name: str) -> bool:
-    return PurePosixPath(name).parts[0] in TOP_NAMES

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import chain
 from pathlib import Path
 
 from ..errors import RegistryError
@@ -79,17 +80,14 @@ class Settled(StrEnum):
 def verify(registry: Registry, ids: Iterable[str] | None = None) -> tuple[Problem, ...]:
     """Read every file again and compare it with its digest at publication.
 
-    Args:
-        registry: others may use it meanwhile.
-        ids: only these; by default everything that has a row or a folder.
+    Others may use the registry meanwhile. All that has a row or a folder is read by default.
 
     Returns:
         Faults, by id. ``factory registry rebuild`` mends rows; a file that is not as
         published is built again.
     """
-    return tuple(
-        problem for asset_id in _ids(registry, ids) for problem in _confirmed(registry, asset_id)
-    )
+    found = (_confirmed(registry, asset_id) for asset_id in _ids(registry, ids))
+    return tuple(chain.from_iterable(found))
 
 
 def _ids(registry: Registry, ids: Iterable[str] | None) -> list[str]:
@@ -179,10 +177,7 @@ def settle(
     Files added to a folder, and assets that still differ from those registered, are moved to
     ``withdrawn``: nobody takes them for assets any more, and nothing is lost.
 
-    Args:
-        registry: others may use it meanwhile.
-        problems: as they were found.
-        final: whether all was tried; otherwise assets are left as they are.
+    Unless all was tried, which ``final`` says, they are left as they are.
 
     Returns:
         By id, sorted.

@@ -9,10 +9,9 @@ from typing import Any
 from asset_factory.sim_checks import Status
 
 from ..errors import ConfigError
-from .entry import SOLVED
+from .entry import SOLVED, SPLITS
 from .registry import Registry
 from .rows import Condition, Filters
-from .split import SPLITS
 
 YES_NO = ("yes", "no")
 #: Columns that have one of a few values, any text, and a number.

@@ -19,13 +19,7 @@ class Snippet:
 
 
 def loading_snippets(registry: PurePath, asset_id: str, manifest: Manifest) -> tuple[Snippet, ...]:
-    """Return how a registered asset is loaded.
-
-    Args:
-        registry: path of its folder, as somebody would type it.
-        asset_id: of the asset.
-        manifest: of the asset.
-    """
+    """Return how an asset is loaded; ``registry`` is the folder's path, as somebody types it."""
     folder = registry / ASSETS / asset_id
     mjcf = str(folder / manifest.mjcf)
     usd = str(folder / "asset.usd")

@@ -7,6 +7,7 @@ import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -65,8 +66,7 @@ class Ability:
 def abilities(output: Path) -> Iterator[Ability]:
     """Yield everything that a build may need, each tried when it is asked for.
 
-    Args:
-        output: where assets are to go; it or a folder above it is there.
+    ``output``, where assets are to go, is there, or a folder above it.
     """
     yield _processors()
     yield _disk(output)
@@ -178,32 +178,19 @@ def _version(module: str) -> str:
     return str(getattr(import_module(module), "__version__", "installed"))
 
 
-def _ray() -> str:
-    return _version("ray")
-
-
-def _maniskill() -> str:
-    return _version("mani_skill")
-
-
 def _usd() -> str:
     from pxr import Usd
 
     return ".".join(str(number) for number in Usd.GetVersion()[1:])
 
 
+_maniskill = partial(_version, "mani_skill")
+_DRIVER = "a GPU with its Vulkan driver; tasks that use no camera run without"
 LIBRARIES = (
     Library("coacd", "hulls of parts", "coacd", _coacd, "build"),
     Library("network", "parts and joints of meshes", "torch", _network, "particulate"),
     Library("usd", "--formats usd", "pxr", _usd, "usd"),
     Library("maniskill", "tasks over a registry", "mani_skill", _maniskill, "maniskill"),
-    Library(
-        "rendering",
-        "cameras in ManiSkill tasks",
-        "sapien",
-        _vulkan,
-        "sapien",
-        "a GPU with its Vulkan driver; tasks that use no camera run without",
-    ),
-    Library("ray", "--executor ray", "ray", _ray, "ray"),
+    Library("rendering", "cameras in ManiSkill tasks", "sapien", _vulkan, "sapien", _DRIVER),
+    Library("ray", "--executor ray", "ray", partial(_version, "ray"), "ray"),
 )

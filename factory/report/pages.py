@@ -16,12 +16,7 @@ _LONGEST = 1200
 
 
 def environment(package: str, **known: object) -> Environment:
-    """Return the templates of a package and of all reports; an unknown name is an error.
-
-    Args:
-        package: with a folder ``templates``.
-        known: what every template of it may call upon.
-    """
+    """Return the templates of a package and of all reports; an unknown name is an error."""
     from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
     made = Environment(

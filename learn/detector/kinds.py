@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from asset_factory.factory.models.detector.kinds import KINDS
+from asset_factory.factory.models.detector.canvas import KINDS
 
 _ALIKE: dict[str, str] = {
     name: kind

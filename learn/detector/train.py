@@ -20,8 +20,7 @@ import torch  # noqa: TID253 - this module is only imported to train
 from safetensors.torch import load_file, save_file  # noqa: TID253
 from torch.nn import functional  # noqa: TID253
 
-from asset_factory.factory.models.detector.canvas import CANVAS
-from asset_factory.factory.models.detector.kinds import KINDS
+from asset_factory.factory.models.detector.canvas import CANVAS, KINDS
 from asset_factory.factory.models.detector.network import Detector
 from asset_factory.factory.runtime.terminal import say
 

@@ -19,8 +19,7 @@ from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.intake.limits import require_at_most
 from asset_factory.factory.mesh import FloatArray, IntArray, read_only
 from asset_factory.factory.models.particulate.prediction import MotionClass
-from asset_factory.factory.models.particulate.sampling import draw
-from asset_factory.factory.models.particulate.sharp import sharp_edges
+from asset_factory.factory.models.particulate.sampling import draw, sharp_edges
 from asset_factory.factory.models.particulate.surface import BoolArray, Surface
 from asset_factory.factory.runtime.store import write_whole
 

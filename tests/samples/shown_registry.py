@@ -6,8 +6,7 @@ from dataclasses import replace
 from export_samples import PROVENANCE, cabinet
 from registry_samples import PASSED
 
-from asset_factory.factory.export.bundle import export_bundle
-from asset_factory.factory.export.model import write_model
+from asset_factory.factory.export.bundle import export_bundle, write_model
 from asset_factory.factory.manufacture.repair import Repair, RepairKind
 from asset_factory.factory.part import PartKind, PartSource, Proposer
 from asset_factory.factory.registry import Registry

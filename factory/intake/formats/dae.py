@@ -45,10 +45,8 @@ class _Resolver:
             data = self._files.read_reference(name.removeprefix("file:"), self._folder)
             if load_texture(data, name, self._files) is not None:
                 return data
-            self.notes.append(
-                f"The texture {name} ({len(data)} bytes) cannot be decoded; "
-                "a plain colour was used."
-            )
+            broken = f"The texture {name} ({len(data)} bytes) cannot be decoded"
+            self.notes.append(f"{broken}; a plain colour was used.")
         except InputRejected as rejection:
             self.rejection = self.rejection or rejection
         except FileNotFoundError:
@@ -63,10 +61,8 @@ def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
         InputRejected: ``unsupported`` (no pycollada), ``unreadable`` or ``too_large``.
     """
     if find_spec("collada") is None:
-        raise InputRejected(
-            "unsupported",
-            f"{path.name}: COLLADA needs the package pycollada; install it or convert",
-        )
+        why = "COLLADA needs the package pycollada; install it or convert"
+        raise InputRejected("unsupported", f"{path.name}: {why}")
     with rejecting(path.name, path.parent, files.log):
         refuse_doctype(data, path.name)
 
@@ -103,24 +99,20 @@ def _flatten(scene: trimesh.Scene, unit: float, name: str, files: InputFiles) ->
         faces = np.asarray(mesh.faces, dtype=np.int64)[:, order]
         corners.append(points[faces])
         uv = getattr(mesh.visual, "uv", None)
-        uvs.append(
-            None
-            if uv is None or len(uv) != len(points)
-            else np.asarray(uv, dtype=np.float64)[faces][..., :2]
-        )
+        fits = uv is not None and len(uv) == len(points)
+        uvs.append(np.asarray(uv, dtype=np.float64)[faces][..., :2] if fits else None)
         materials.append(_material(mesh, key))
     if not corners:
         return plain_soup(np.zeros((0, 3, 3)))
     counts = [len(c) for c in corners]
     names = unique_names(m.name for m in materials)
+    named = (replace(m, name=n) for n, m in zip(names, materials, strict=True))
     return Soup(
         corners=np.concatenate(corners),
         uv=stack_corners(uvs, counts, 2),
         normals=None,
         face_material=np.repeat(np.arange(len(corners)), counts),
-        materials=tuple(
-            Material(n, m.color, m.texture) for n, m in zip(names, materials, strict=True)
-        ),
+        materials=tuple(named),
     )
 
 

@@ -15,11 +15,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ...geometry.soup import Soup, plain_soup, stack_corners, unique_names
-from ...mesh import FloatArray, IntArray, Material
+from ...mesh import FloatArray, IntArray, Material, Texture
 from ..files import InputFiles
+from ..images import load_texture
 from ..limits import require_at_most, unreadable
 from .gltf_document import GltfDocument
-from .gltf_materials import GltfMaterial, read_materials
 
 _TRIANGLES = 4
 _STRIP = 5
@@ -52,6 +52,7 @@ def read_gltf(data: bytes, path: Path, files: InputFiles) -> Soup:
     cache: dict[int, list[_Primitive]] = {}
     placed: list[tuple[_Primitive, FloatArray]] = []
     face_count = 0
+    every = f"{document.name}, all instances"
     for node, matrix in _instances(document):
         mesh = int(node["mesh"])
         if mesh not in cache:
@@ -59,13 +60,9 @@ def read_gltf(data: bytes, path: Path, files: InputFiles) -> Soup:
         if "skin" in node:
             notes.append(f"A skin is not applied; mesh {mesh} stands in its rest pose.")
         face_count += sum(len(p.corners) for p in cache[mesh])
-        require_at_most(
-            f"{document.name}, all instances", face_count, files.limits.max_faces, "faces"
-        )
+        require_at_most(every, face_count, files.limits.max_faces, "faces")
         placed.extend((primitive, matrix) for primitive in cache[mesh])
-        require_at_most(
-            f"{document.name}, all instances", len(placed), _MOST_PRIMITIVES, "primitives"
-        )
+        require_at_most(every, len(placed), _MOST_PRIMITIVES, "primitives")
     return _assemble(document, placed, [m.material for m in materials], notes)
 
 
@@ -146,13 +143,11 @@ def _read_primitive(
     else:
         indices = np.arange(len(positions))
     faces = _triangles(indices, mode)
-    require_at_most(
-        document.name, face_count + len(faces), document.files.limits.max_faces, "faces"
-    )
+    most = document.files.limits.max_faces
+    require_at_most(document.name, face_count + len(faces), most, "faces")
     if len(faces) and not 0 <= faces.min() <= faces.max() < len(positions):
-        raise unreadable(
-            document.name, f"a face uses vertex {faces.max()}, but there are {len(positions)}"
-        )
+        wrong = f"a face uses vertex {faces.max()}, but there are {len(positions)}"
+        raise unreadable(document.name, wrong)
 
     def corners_of(attribute: str, width: int) -> FloatArray | None:
         if attribute not in attributes:
@@ -181,9 +176,8 @@ def _triangles(indices: IntArray, mode: int) -> IntArray:
     count = max(len(indices) - 2, 0)
     step = np.arange(count)
     if mode == _FAN:
-        return np.stack(
-            [np.broadcast_to(indices[:1], count), indices[1 : count + 1], indices[2:]], axis=1
-        )
+        first = np.broadcast_to(indices[:1], count)
+        return np.stack([first, indices[1 : count + 1], indices[2:]], axis=1)
     odd = step % 2
     return np.stack([indices[step], indices[step + 1 + odd], indices[step + 2 - odd]], axis=1)
 
@@ -205,7 +199,7 @@ def _assemble(
     materials: list[Material],
     notes: list[str],
 ) -> Soup:
-    license_text = document.json.get("asset", {}).get("copyright")
+    stated = " ".join(str(document.json.get("asset", {}).get("copyright") or "").split())
     if not placed:
         return plain_soup(np.zeros((0, 3, 3)))
     looks: dict[tuple[int, tuple[float, ...] | None], int] = {}
@@ -227,9 +221,7 @@ def _assemble(
             _look(materials[index] if index >= 0 else None, tint, name)
             for (index, tint), name in zip(looks, names, strict=True)
         ),
-        license=" ".join(str(license_text).split())[:_LETTERS_OF_LICENSE] or None
-        if license_text
-        else None,
+        license=stated[:_LETTERS_OF_LICENSE] or None,
         notes=tuple(dict.fromkeys(notes)),
     )
 
@@ -260,3 +252,100 @@ def _move(primitive: _Primitive, matrix: FloatArray) -> _Primitive:
         material=primitive.material,
         tint=primitive.tint,
     )
+
+
+@dataclass(frozen=True)
+class GltfMaterial:
+    """A material and how its texture coordinates are made.
+
+    Attributes:
+        material: name, colour and texture.
+        uv_set: which ``TEXCOORD_n`` the texture uses.
+        uv_transform: applied to homogeneous glTF coordinates (origin top left), shape [3, 3].
+    """
+
+    material: Material
+    uv_set: int
+    uv_transform: FloatArray
+
+
+def read_materials(document: GltfDocument) -> tuple[list[GltfMaterial], list[str]]:
+    """Return all materials in order, and notes on textures that had to be left out."""
+    entries = document.items("materials")
+    names = unique_names(str(entry.get("name", f"material_{i}")) for i, entry in enumerate(entries))
+    notes: list[str] = []
+    textures: dict[int, Texture | None] = {}
+    return [
+        _material(document, e, n, textures, notes) for e, n in zip(entries, names, strict=True)
+    ], notes
+
+
+def _material(
+    document: GltfDocument,
+    entry: dict[str, Any],
+    name: str,
+    textures: dict[int, Texture | None],
+    notes: list[str],
+) -> GltfMaterial:
+    glossy = entry.get("extensions", {}).get("KHR_materials_pbrSpecularGlossiness")
+    if "pbrMetallicRoughness" not in entry and glossy is not None:
+        factor = glossy.get("diffuseFactor")
+        reference = glossy.get("diffuseTexture")
+    else:
+        rough = entry.get("pbrMetallicRoughness", {})
+        factor = rough.get("baseColorFactor")
+        reference = rough.get("baseColorTexture")
+    color = [min(max(float(c), 0.0), 1.0) for c in (factor or (1.0, 1.0, 1.0, 1.0))]
+    if len(color) != 4 or not np.isfinite(color).all():
+        wrong = f"Material {name} has the base colour {factor}, which is no RGBA"
+        notes.append(f"{wrong}; white was taken.")
+        color = [1.0, 1.0, 1.0, 1.0]
+    if entry.get("alphaMode", "OPAQUE") == "OPAQUE":
+        color[3] = 1.0
+    texture = None
+    if reference is not None:
+        texture = _texture(document, int(reference["index"]), textures, notes)
+    material = Material(name, (color[0], color[1], color[2], color[3]), texture)
+    return GltfMaterial(material, *_coordinates(reference or {}))
+
+
+def _coordinates(reference: dict[str, Any]) -> tuple[int, FloatArray]:
+    """Return coordinate set and transform, by the extension KHR_texture_transform."""
+    transform = reference.get("extensions", {}).get("KHR_texture_transform", {})
+    (offset_u, offset_v) = transform.get("offset", (0.0, 0.0))
+    (scale_u, scale_v) = transform.get("scale", (1.0, 1.0))
+    angle = float(transform.get("rotation", 0.0))
+    cos = np.cos(angle)
+    sin = np.sin(angle)
+    across = [cos * scale_u, sin * scale_v, offset_u]
+    down = [-sin * scale_u, cos * scale_v, offset_v]
+    matrix = np.array([across, down, [0.0, 0.0, 1.0]])
+    return int(transform.get("texCoord", reference.get("texCoord", 0))), matrix
+
+
+def _texture(
+    document: GltfDocument, index: int, textures: dict[int, Texture | None], notes: list[str]
+) -> Texture | None:
+    entry = document.get("textures", index)
+    webp = entry.get("extensions", {}).get("EXT_texture_webp", {})
+    image = entry.get("source", webp.get("source"))
+    if image is None:
+        lacks = f"Texture {index} has no image in a format that is read"
+        notes.append(f"{lacks}; the plain base colour was kept.")
+        return None
+    if image not in textures:
+        textures[image] = _image(document, int(image), notes)
+    return textures[image]
+
+
+def _image(document: GltfDocument, index: int, notes: list[str]) -> Texture | None:
+    try:
+        data = document.image_bytes(index)
+    except FileNotFoundError:
+        notes.append(f"The file of image {index} is missing; the plain base colour was kept.")
+        return None
+    texture = load_texture(data, f"image {index}", document.files)
+    if texture is None:
+        broken = f"Image {index} ({len(data)} bytes) cannot be decoded"
+        notes.append(f"{broken}; the plain base colour was kept.")
+    return texture

@@ -40,9 +40,7 @@ class GltfDocument:
     """A parsed glTF JSON with access to its binary data.
 
     Args:
-        data: content of the ``.glb`` or ``.gltf`` file.
         path: where it came from; references are relative to its folder.
-        files: reads what it refers to.
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``too_large`` or ``external_reference``.
@@ -57,21 +55,16 @@ class GltfDocument:
         else:
             text = _as_json(data, self.name)
             self._glb_chunk = None
-        require_at_most(
-            f"{self.name}, its JSON",
-            sum(text.count(c) for c in (b",", b"[", b"{")),
-            _MAX_JSON_VALUES,
-            "values",
-        )
+        values = sum(text.count(c) for c in (b",", b"[", b"{"))
+        require_at_most(f"{self.name}, its JSON", values, _MAX_JSON_VALUES, "values")
         parsed = _parsed(text, self.name)
         if not isinstance(parsed, dict):
             raise unreadable(self.name, f"its JSON is a {type(parsed).__name__}, want an object")
         self.json: dict[str, Any] = parsed
         version = str(self.json.get("asset", {}).get("version", "2.0"))
         if not version.startswith("2"):
-            raise InputRejected(
-                "unsupported", f"{self.name}: is glTF {version[:20]}, want 2.0; convert it first"
-            )
+            old = f"{self.name}: is glTF {version[:20]}, want 2.0; convert it first"
+            raise InputRejected("unsupported", old)
         for extension in self.json.get("extensionsRequired", []):
             if extension in _UNSUPPORTED:
                 raise _unsupported(self.name, extension)
@@ -95,11 +88,8 @@ class GltfDocument:
         """Return the content behind a URI: inline data, or a file in the asset's folder."""
         if uri[:5].lower() == "data:":
             header, _, payload = uri.partition(",")
-            return (
-                base64.b64decode(payload)
-                if header.endswith(";base64")
-                else unquote_to_bytes(payload)
-            )
+            plain = not header.endswith(";base64")
+            return unquote_to_bytes(payload) if plain else base64.b64decode(payload)
         return self.files.read_reference(unquote(uri), self._folder)
 
     def view_bytes(self, index: int) -> tuple[bytes, int, int, int]:
@@ -111,10 +101,8 @@ class GltfDocument:
         offset = int(view.get("byteOffset", 0))
         length = int(view["byteLength"])
         if offset < 0 or length < 0 or offset + length > len(data):
-            raise unreadable(
-                self.name,
-                f"bufferViews[{index}] ends at byte {offset + length}, its buffer has {len(data)}",
-            )
+            end = f"ends at byte {offset + length}, its buffer has {len(data)}"
+            raise unreadable(self.name, f"bufferViews[{index}] {end}")
         return data, offset, length, int(view.get("byteStride", 0))
 
     def image_bytes(self, index: int) -> bytes:
@@ -130,9 +118,8 @@ class GltfDocument:
         count = int(self.get("accessors", index)["count"])
         if count < 0:
             raise unreadable(self.name, f"accessors[{index}] has count {count}")
-        require_at_most(
-            f"{self.name}, accessors[{index}]", count, 3 * self.files.limits.max_faces, "elements"
-        )
+        most = 3 * self.files.limits.max_faces
+        require_at_most(f"{self.name}, accessors[{index}]", count, most, "elements")
         return count
 
     def accessor(self, index: int) -> npt.NDArray[Any]:
@@ -150,9 +137,7 @@ class GltfDocument:
         require_at_most(f"{self.name}, accessors up to {index}", self._numbers, limit, "numbers")
         dtype = np.dtype(_COMPONENTS[spec["componentType"]])
         if "bufferView" in spec:
-            values = self._strided(
-                spec["bufferView"], int(spec.get("byteOffset", 0)), count, width, dtype
-            )
+            values = self._strided(spec, count, width, dtype)
         else:
             values = np.zeros((count, width), dtype=dtype)
         if "sparse" in spec:
@@ -162,19 +147,18 @@ class GltfDocument:
         return values
 
     def _strided(
-        self, view: int, start: int, count: int, width: int, dtype: np.dtype[Any]
+        self, spec: dict[str, Any], count: int, width: int, dtype: np.dtype[Any]
     ) -> npt.NDArray[Any]:
+        view = spec["bufferView"]
+        start = int(spec.get("byteOffset", 0))
         data, offset, length, stride = self.view_bytes(view)
         element = width * dtype.itemsize
         step = stride or element
         if start < 0 or step < 1 or (count and start + (count - 1) * step + element > length):
-            raise unreadable(
-                self.name,
-                f"an accessor of {count} elements does not fit bufferViews[{view}], {length} bytes",
-            )
-        return np.ndarray(
-            (count, width), dtype, data, offset + start, (step, dtype.itemsize)
-        ).copy()
+            fits = f"does not fit bufferViews[{view}], {length} bytes"
+            raise unreadable(self.name, f"an accessor of {count} elements {fits}")
+        strides = (step, dtype.itemsize)
+        return np.ndarray((count, width), dtype, data, offset + start, strides).copy()
 
     def _with_sparse(
         self, values: npt.NDArray[Any], sparse: dict[str, Any], width: int, dtype: np.dtype[Any]
@@ -182,13 +166,8 @@ class GltfDocument:
         count = int(sparse["count"])
         where = sparse["indices"]
         index_type = np.dtype(_COMPONENTS[where["componentType"]])
-        indices = self._strided(
-            where["bufferView"], int(where.get("byteOffset", 0)), count, 1, index_type
-        )
-        source = sparse["values"]
-        replacement = self._strided(
-            source["bufferView"], int(source.get("byteOffset", 0)), count, width, dtype
-        )
+        indices = self._strided(where, count, 1, index_type)
+        replacement = self._strided(sparse["values"], count, width, dtype)
         values[indices.reshape(-1).astype(np.int64)] = replacement
         return values
 
@@ -196,42 +175,34 @@ class GltfDocument:
         if index not in self._buffers:
             spec = self.get("buffers", index)
             size = int(spec["byteLength"])
-            require_at_most(
-                f"{self.name}, buffers[{index}]", size, self.files.limits.max_bytes, "bytes"
-            )
+            most = self.files.limits.max_bytes
+            require_at_most(f"{self.name}, buffers[{index}]", size, most, "bytes")
             self._buffers[index] = self._load_buffer(spec, index)
-            if len(self._buffers[index]) < size:
-                raise unreadable(
-                    self.name,
-                    f"buffers[{index}] has {len(self._buffers[index])} bytes, "
-                    f"its header says {size}",
-                )
+            found = len(self._buffers[index])
+            if found < size:
+                short = f"buffers[{index}] has {found} bytes, its header says {size}"
+                raise unreadable(self.name, short)
         return self._buffers[index]
 
     def _load_buffer(self, spec: dict[str, Any], index: int) -> bytes:
         if "uri" not in spec:
             if self._glb_chunk is None or index != 0:
-                raise unreadable(
-                    self.name, f"buffers[{index}] has neither a URI nor a binary chunk"
-                )
+                nowhere = f"buffers[{index}] has neither a URI nor a binary chunk"
+                raise unreadable(self.name, nowhere)
             return self._glb_chunk
         try:
             return self.uri_bytes(str(spec["uri"]))
         except FileNotFoundError as error:
-            raise unreadable(
-                self.name, f"its buffer {str(spec['uri'])[:80]!r} is missing"
-            ) from error
+            missing = f"its buffer {str(spec['uri'])[:80]!r} is missing"
+            raise unreadable(self.name, missing) from error
 
 
 def _as_json(data: bytes, name: str) -> bytes:
     """Return bytes without a GLB header, if JSON; else raise InputRejected ``unreadable``."""
     if data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] != b"{":
         begins = " ".join(f"{byte:02x}" for byte in data[:4])
-        raise unreadable(
-            name,
-            f"begins with {begins}, want 'glTF' (a binary GLB) or '{{' (JSON): "
-            "damaged, compressed, or another kind of file",
-        )
+        want = f"begins with {begins}, want 'glTF' (a binary GLB) or '{{' (JSON)"
+        raise unreadable(name, f"{want}: damaged, compressed, or another kind of file")
     return data
 
 
@@ -240,9 +211,8 @@ def _parsed(text: bytes, name: str) -> Any:
         return json.loads(text.decode("utf-8-sig"))
     except (UnicodeDecodeError, json.JSONDecodeError) as error:
         where = error.start if isinstance(error, UnicodeDecodeError) else error.pos
-        raise unreadable(
-            name, f"its JSON is damaged at byte {where} of {len(text)}; want glTF 2.0"
-        ) from error
+        damaged = f"its JSON is damaged at byte {where} of {len(text)}; want glTF 2.0"
+        raise unreadable(name, damaged) from error
 
 
 def _split_glb(data: bytes, name: str) -> tuple[bytes, bytes | None]:
@@ -250,9 +220,8 @@ def _split_glb(data: bytes, name: str) -> tuple[bytes, bytes | None]:
         raise unreadable(name, f"is {len(data)} bytes, shorter than a GLB header")
     _, version, length = struct.unpack_from("<III", data)
     if version != 2:
-        raise InputRejected(
-            "unsupported", f"{name}: is binary glTF version {version}, want 2; convert it first"
-        )
+        old = f"{name}: is binary glTF version {version}, want 2; convert it first"
+        raise InputRejected("unsupported", old)
     if length > len(data):
         raise unreadable(name, f"is cut off: {len(data)} of {length} bytes")
     json_chunk = None
@@ -274,8 +243,5 @@ def _split_glb(data: bytes, name: str) -> tuple[bytes, bytes | None]:
 
 
 def _unsupported(name: str, extension: str) -> InputRejected:
-    return InputRejected(
-        "unsupported",
-        f"{name}: uses {_UNSUPPORTED[extension]} ({extension}), which is not read; "
-        "export it without",
-    )
+    uses = f"{name}: uses {_UNSUPPORTED[extension]} ({extension})"
+    return InputRejected("unsupported", f"{uses}, which is not read; export it without")

@@ -1,23 +1,25 @@
-"""Wavefront OBJ: triangles in file order, polygons fanned from their first corner."""
+"""Wavefront OBJ and its material libraries: polygons fanned from their first corner."""
 
 from __future__ import annotations
 
 import io
 from array import array
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
 from ...geometry.soup import Soup, unique_names
-from ...mesh import FloatArray, IntArray, Material
+from ...mesh import FloatArray, IntArray, Material, Texture
 from ..files import InputFiles
+from ..images import load_texture
 from ..limits import require_at_most, unreadable
-from .mtl import read_mtl
 
 _MANY = 64
 _MOST_LIBRARIES = 64
 _BLANKS = (b" ", b"\t", b"\v", b"\f", b"\r")
+_MAX_BYTES = 16 * 1024 * 1024
+_OPTION_WORDS = {"-o": 3, "-s": 3, "-t": 3, "-mm": 2}
 
 
 @dataclass
@@ -102,9 +104,8 @@ def _corner(lines: _Lines, word: bytes) -> tuple[int, int, int]:
             index = int(part)
             result[k] = index - 1 if index > 0 else sizes[k] + index
             if index == 0 or result[k] < 0:
-                raise ValueError(
-                    f"a face refers to entry {index}, want 1 or more, or a negative one in range"
-                )
+                want = "want 1 or more, or a negative one in range"
+                raise ValueError(f"a face refers to entry {index}, {want}")
     return result[0], result[1], result[2]
 
 
@@ -129,23 +130,20 @@ def _assemble(
     used = list(lines.names)
     unknown = [n for n in used if n not in library]
     if unknown and library:
-        notes.append(
-            f"Materials {', '.join(sorted(unknown)[:5])} are in no library; plain ones were used."
-        )
+        lacking = f"Materials {', '.join(sorted(unknown)[:5])} are in no library"
+        notes.append(f"{lacking}; plain ones were used.")
     originals = [library.get(n, Material(n)) for n in used]
     if (face_material < 0).any():
         face_material = np.where(face_material < 0, len(originals), face_material)
         originals.append(Material("default"))
     safe = unique_names(m.name for m in originals)
+    named = tuple(replace(m, name=n) for n, m in zip(safe, originals, strict=True))
     return Soup(
         corners=_gather(lines.positions, corners[..., 0], 3, name),
         uv=_optional(lines.coordinates, corners[..., 1], 2, name),
         normals=_optional(lines.normals, corners[..., 2], 3, name),
         face_material=face_material,
-        materials=tuple(
-            Material(n, m.color, m.texture) for n, m in zip(safe, originals, strict=True)
-        )
-        or (Material("default"),),
+        materials=named or (Material("default"),),
         notes=tuple(notes),
     )
 
@@ -153,9 +151,8 @@ def _assemble(
 def _gather(values: array[float], indices: IntArray, width: int, name: str) -> FloatArray:
     table = np.array(values, dtype=np.float64).reshape(-1, width)
     if indices.size and indices.max() >= len(table):
-        raise unreadable(
-            name, f"a face refers to entry {indices.max() + 1}, but there are {len(table)}"
-        )
+        wrong = f"a face refers to entry {indices.max() + 1}, but there are {len(table)}"
+        raise unreadable(name, wrong)
     if indices.size and indices.min() < 0:
         raise unreadable(name, "a face has a corner without a vertex")
     return np.asarray(table[indices])
@@ -169,3 +166,98 @@ def _optional(values: array[float], indices: IntArray, width: int, name: str) ->
     if indices.max() >= blank:
         raise unreadable(name, f"a face refers to entry {indices.max() + 1}, but there are {blank}")
     return _gather(padded, np.where(indices < 0, blank, indices), width, name)
+
+
+@dataclass(frozen=True)
+class _Maps:
+    """Where a library's images are, and where to complain about them."""
+
+    folder: Path
+    files: InputFiles
+    notes: list[str]
+    known: dict[str, Texture | None] = field(default_factory=dict)
+
+    def load(self, reference: str) -> Texture | None:
+        if reference not in self.known:
+            self.known[reference] = self._read(reference)
+        return self.known[reference]
+
+    def _read(self, reference: str) -> Texture | None:
+        try:
+            data = self.files.read_reference(reference, self.folder)
+        except FileNotFoundError:
+            self.notes.append(f"The texture {reference} is missing; the plain colour was kept.")
+            return None
+        texture = load_texture(data, reference, self.files)
+        if texture is None:
+            broken = f"The texture {reference} ({len(data)} bytes) cannot be decoded"
+            self.notes.append(f"{broken}; the plain colour was kept.")
+        return texture
+
+
+def read_mtl(data: bytes, folder: Path, files: InputFiles, notes: list[str]) -> dict[str, Material]:
+    """Return materials by name; a diffuse map replaces the diffuse colour, as in modelling tools.
+
+    Maps are relative to ``folder``; sentences about missing and broken ones are added to ``notes``.
+
+    Raises:
+        InputRejected: ``external_reference`` or ``too_large`` for a map.
+    """
+    require_at_most("material library", len(data), _MAX_BYTES, "bytes")
+    maps = _Maps(folder, files, notes)
+    result: dict[str, Material] = {}
+    name: str | None = None
+    for line in data.decode("utf-8", "replace").splitlines():
+        keyword, _, rest = line.strip().partition(" ")
+        rest = rest.strip()
+        if keyword == "newmtl":
+            name = rest
+            result[name] = Material(name)
+        elif name is not None:
+            result[name] = _changed(result[name], keyword.lower(), rest, maps)
+    return result
+
+
+def _changed(material: Material, keyword: str, rest: str, maps: _Maps) -> Material:
+    red, green, blue, alpha = material.color
+    if keyword == "kd" and material.texture is None:
+        values = [_unit(word) for word in rest.split()[:3]]
+        if len(values) in (1, 3):
+            red, green, blue = values * 3 if len(values) == 1 else values
+    elif keyword == "d" and rest:
+        alpha = _unit(rest.rsplit(maxsplit=1)[-1])
+    elif keyword == "tr" and rest:
+        alpha = 1.0 - _unit(rest.rsplit(maxsplit=1)[-1])
+    elif keyword == "map_kd" and rest:
+        texture = maps.load(_without_options(rest))
+        if texture is not None:
+            return Material(material.name, (1.0, 1.0, 1.0, alpha), texture)
+    return Material(material.name, (red, green, blue, alpha), material.texture)
+
+
+def _unit(word: str) -> float:
+    try:
+        value = float(word)
+    except ValueError:
+        return 1.0
+    return min(max(value, 0.0), 1.0) if value == value else 1.0  # noqa: PLR0124 - NaN
+
+
+def _without_options(rest: str) -> str:
+    """Return the file name behind options such as ``-s 1 1 1``; it may hold spaces."""
+    words = rest.split(" ")
+    while words and words[0].startswith("-") and len(words) > 1:
+        skip = 1
+        limit = _OPTION_WORDS.get(words[0], 1)
+        while skip <= limit and skip < len(words) - 1 and (limit == 1 or _is_number(words[skip])):
+            skip += 1
+        words = words[skip:]
+    return " ".join(words)
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True

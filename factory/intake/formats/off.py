@@ -11,9 +11,8 @@ from ...geometry.soup import Soup, plain_soup
 from ..files import InputFiles
 from ..limits import require_at_most, unreadable
 
-_WORDS_PER_FACE = (
-    16  # three coordinates for up to three vertices, four indices, and some blanks to spare
-)
+#: Three coordinates for up to three vertices, four indices, and some blanks to spare.
+_WORDS_PER_FACE = 16
 _CORNERS_OF_TRIANGLE = 3
 
 
@@ -31,18 +30,14 @@ def read_off(data: bytes, path: Path, files: InputFiles) -> Soup:
     if not rows or not rows[0][0].endswith(b"OFF"):
         raise unreadable(name, "does not start with OFF")
     if b"4" in rows[0][0] or b"BINARY" in rows[0]:
-        raise InputRejected(
-            "unsupported",
-            f"{name} must be plain text OFF, not {rows[0][0].decode('ascii', 'replace')}",
-        )
+        kind = rows[0][0].decode("ascii", "replace")
+        raise InputRejected("unsupported", f"{name} must be plain text OFF, not {kind}")
     header = rows[0][1:] or (rows[1] if len(rows) > 1 else [])
     body = rows[1:] if rows[0][1:] else rows[2:]
     vertex_count, face_count = (int(word) for word in header[:2])
     if min(vertex_count, face_count) < 0 or vertex_count + face_count > len(body):
-        raise unreadable(
-            name,
-            f"announces {vertex_count} vertices and {face_count} faces, but has {len(body)} lines",
-        )
+        announced = f"announces {vertex_count} vertices and {face_count} faces"
+        raise unreadable(name, f"{announced}, but has {len(body)} lines")
     require_at_most(name, face_count, max_faces, "faces")
     vertices = np.array([row[:3] for row in body[:vertex_count]], dtype=np.float64).reshape(-1, 3)
     triangles: list[tuple[int, int, int]] = []

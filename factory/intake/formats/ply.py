@@ -1,11 +1,17 @@
-"""PLY, text and binary: polygons fanned from their first corner, texture kept, colours averaged."""
+"""PLY, text and binary: polygons fanned from their first corner, texture kept, colours averaged.
+
+Source: Greg Turk, The PLY Polygon File Format.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import io
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ...geometry.colors import linear_of
 from ...geometry.soup import Soup
@@ -13,7 +19,214 @@ from ...mesh import FloatArray, IntArray, Material
 from ..files import InputFiles
 from ..images import load_texture
 from ..limits import require_at_most, unreadable
-from .ply_tables import PlyTable, read_header, read_tables
+
+_TYPES = {
+    "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
+    "short": "i2", "int16": "i2", "ushort": "u2", "uint16": "u2",
+    "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4",
+    "float": "f4", "float32": "f4", "double": "f8", "float64": "f8",
+}  # fmt: skip
+_MAX_HEADER_LINES = 1000
+
+
+@dataclass
+class PlyElement:
+    """One announced table.
+
+    Attributes:
+        name: e.g. ``vertex``.
+        count: rows.
+        properties: name, type, and for a list the type of its length.
+    """
+
+    name: str
+    count: int
+    properties: list[tuple[str, str, str | None]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class PlyHeader:
+    """What a file announces.
+
+    Attributes:
+        elements: in the order of the body.
+        order: ``<`` or ``>``, ``None`` for text.
+        texture: the image named by a ``TextureFile`` comment.
+        start: where the body begins [bytes].
+    """
+
+    elements: list[PlyElement]
+    order: str | None
+    texture: str | None
+    start: int
+
+
+@dataclass
+class PlyTable:
+    """Values of one element: scalars per row, lists flattened with their lengths."""
+
+    scalars: dict[str, npt.NDArray[Any]] = field(default_factory=dict)
+    lists: dict[str, tuple[IntArray, npt.NDArray[Any]]] = field(default_factory=dict)
+
+
+class _Growing:
+    """A table while its rows are read one by one: values by property, and the lists' sizes."""
+
+    def __init__(self, element: PlyElement) -> None:
+        plain = {name: length is None for name, _, length in element.properties}
+        self.scalars: dict[str, list[Any]] = {name: [] for name, is_so in plain.items() if is_so}
+        self.lists: dict[str, list[Any]] = {name: [] for name, is_so in plain.items() if not is_so}
+        self.sizes: dict[str, list[int]] = {name: [] for name in self.lists}
+
+    def table(self) -> PlyTable:
+        joined = {n: np.concatenate(e) if e else np.zeros(0) for n, e in self.lists.items()}
+        sizes = {name: np.array(each, dtype=np.int64) for name, each in self.sizes.items()}
+        scalars = {name: np.array(values) for name, values in self.scalars.items()}
+        return PlyTable(scalars, {name: (sizes[name], joined[name]) for name in sizes})
+
+
+def read_header(data: bytes, name: str) -> PlyHeader:
+    """Return the header of a PLY file. Raises InputRejected: ``unreadable``."""
+    stream = io.BytesIO(data)
+    if stream.readline(16).strip() != b"ply":
+        raise unreadable(name, "does not start with ply")
+    elements: list[PlyElement] = []
+    order: str | None = "?"
+    texture: str | None = None
+    for _ in range(_MAX_HEADER_LINES):
+        raw = stream.readline(4096).decode("utf-8", "replace").strip()
+        words = raw.split()
+        if raw == "end_header":
+            if order == "?":
+                raise unreadable(name, "its header names no format")
+            return PlyHeader(elements, order, texture, stream.tell())
+        if words[:1] == ["format"]:
+            order = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}[words[1]]
+        elif words[:1] == ["element"]:
+            elements.append(PlyElement(words[1], int(words[2])))
+        elif words[:2] == ["property", "list"]:
+            elements[-1].properties.append((words[4], _TYPES[words[3]], _TYPES[words[2]]))
+        elif words[:1] == ["property"]:
+            elements[-1].properties.append((words[2], _TYPES[words[1]], None))
+        elif words[:2] == ["comment", "TextureFile"]:
+            texture = raw.split("TextureFile", 1)[1].strip()
+    raise unreadable(name, "its header does not end")
+
+
+def read_tables(data: bytes, header: PlyHeader, name: str) -> dict[str, PlyTable]:
+    """Return tables by element name. Raises InputRejected, or whatever a broken body leads to."""
+    if header.order is None:
+        return _text(data[header.start :], header.elements, name)
+    start = header.start
+    tables: dict[str, PlyTable] = {}
+    for element in header.elements:
+        tables[element.name], start = _binary_table(data, start, element, header.order)
+    return tables
+
+
+def _text(body: bytes, elements: list[PlyElement], name: str) -> dict[str, PlyTable]:
+    stream = io.BytesIO(body)
+    tables: dict[str, PlyTable] = {}
+    for element in elements:
+        if element.count > len(body):
+            announced = f"announces {element.count} entries of {element.name}"
+            raise unreadable(name, f"{announced} in {len(body)} bytes")
+        if not element.properties:
+            continue
+        rows = [stream.readline().split() for _ in range(element.count)]
+        if element.count and not rows[-1] and element.properties:
+            raise unreadable(name, f"ends before its {element.count} entries of {element.name}")
+        tables[element.name] = _text_table(element, rows)
+    return tables
+
+
+def _text_table(element: PlyElement, rows: list[list[bytes]]) -> PlyTable:
+    if all(length is None for _, _, length in element.properties):
+        values = np.array(rows, dtype=np.float64).reshape(len(rows), -1)
+        names = enumerate(name for name, _, _ in element.properties)
+        return PlyTable({name: values[:, column] for column, name in names})
+    found = _Growing(element)
+    for row in rows:
+        at = 0
+        for name, _, length in element.properties:
+            if length is None:
+                found.scalars[name].append(float(row[at]))
+                at += 1
+                continue
+            size = int(row[at])
+            words = row[at + 1 : at + 1 + size]
+            if size < 0 or len(words) != size:
+                announced = f"a list of {element.name} announces {size} values"
+                raise ValueError(f"{announced} and has {len(words)}")
+            found.sizes[name].append(size)
+            found.lists[name].append(np.array([float(word) for word in words]))
+            at += 1 + size
+    return found.table()
+
+
+def _binary_table(data: bytes, start: int, element: PlyElement, order: str) -> tuple[PlyTable, int]:
+    """Return an element's values, and where the next starts; equal lists are read at once."""
+    sizes = [0 if length is None else -1 for _, _, length in element.properties]
+    if element.count:
+        sizes = _first_sizes(data, start, element, order)
+    fields: list[tuple[Any, ...]] = []
+    for k, (_, kind, length) in enumerate(element.properties):
+        if length is None:
+            fields.append((f"{k}", order + kind))
+        else:
+            fields += [(f"{k}n", order + length), (f"{k}", order + kind, (max(sizes[k], 0),))]
+    dtype = np.dtype(fields)
+    if len(data) - start >= element.count * dtype.itemsize:
+        rows = np.frombuffer(data, dtype, element.count, start)
+        lists = [k for k, (_, _, length) in enumerate(element.properties) if length]
+        if all((rows[f"{k}n"] == sizes[k]).all() for k in lists):
+            table = PlyTable()
+            for k, (name, _, length) in enumerate(element.properties):
+                if length is None:
+                    table.scalars[name] = rows[f"{k}"]
+                else:
+                    table.lists[name] = (rows[f"{k}n"].astype(np.int64), rows[f"{k}"].reshape(-1))
+            return table, start + element.count * dtype.itemsize
+    return _binary_rows(data, start, element, order)
+
+
+def _first_sizes(data: bytes, start: int, element: PlyElement, order: str) -> list[int]:
+    sizes: list[int] = []
+    for _, kind, length in element.properties:
+        if length is None:
+            sizes.append(0)
+            start += np.dtype(kind).itemsize
+            continue
+        size = int(np.frombuffer(data, order + length, 1, start)[0])
+        sizes.append(size)
+        start += np.dtype(length).itemsize + size * np.dtype(kind).itemsize
+        if size < 0 or start > len(data):
+            past = f"a list of {element.name} has {size} values, past the end of the file"
+            raise ValueError(past)
+    return sizes
+
+
+def _binary_rows(data: bytes, start: int, element: PlyElement, order: str) -> tuple[PlyTable, int]:
+    found = _Growing(element)
+    plan = [
+        (name, np.dtype(order + kind), None if length is None else np.dtype(order + length))
+        for name, kind, length in element.properties
+    ]
+    for _ in range(element.count):
+        for name, kind, length in plan:
+            size = 1
+            if length is not None:
+                size = int(np.frombuffer(data, length, 1, start)[0])
+                start += length.itemsize
+                found.sizes[name].append(size)
+            values = np.frombuffer(data, kind, size, start) if size > 0 else np.zeros(0, kind)
+            start += max(size, 0) * kind.itemsize
+            if length is None:
+                found.scalars[name].append(values[0])
+            else:
+                found.lists[name].append(values)
+    return found.table(), start
+
 
 _COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
 _RGB = ("red", "green", "blue")
@@ -45,9 +258,8 @@ def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
     """
     header = read_header(data, path.name)
     entries = sum(max(element.count, 0) for element in header.elements)
-    require_at_most(
-        f"{path.name}, all elements", entries, _ENTRIES_PER_FACE * files.limits.max_faces, "entries"
-    )
+    most = _ENTRIES_PER_FACE * files.limits.max_faces
+    require_at_most(f"{path.name}, all elements", entries, most, "entries")
     for element in header.elements:
         limit = files.limits.max_faces * (1 if element.name == "face" else 3)
         require_at_most(f"{path.name}, element {element.name}", element.count, limit, "entries")
@@ -59,9 +271,8 @@ def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
     positions = np.stack([vertex.scalars[axis].astype(np.float64) for axis in "xyz"], axis=1)
     triangles = _triangles(face, len(positions), path.name, files.limits.max_faces)
     notes: list[str] = []
-    material = _textured(header.texture, path, files, notes) or _coloured(
-        vertex, face, triangles, notes
-    )
+    textured = _textured(header.texture, path, files, notes)
+    material = textured or _coloured(vertex, face, triangles, notes)
     return Soup(
         corners=positions[triangles.vertices],
         uv=_uv(vertex, face, triangles),
@@ -73,9 +284,8 @@ def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
 
 
 def _triangles(face: PlyTable, vertex_count: int, name: str, max_faces: int) -> _Triangles:
-    lengths, flat = (
-        face.lists.get("vertex_indices") or face.lists.get("vertex_index") or (_NONE, _NONE)
-    )
+    lists = face.lists.get("vertex_indices") or face.lists.get("vertex_index")
+    lengths, flat = lists or (_NONE, _NONE)
     counts = np.maximum(lengths - 2, 0)
     require_at_most(name, int(counts.sum()), max_faces, "faces")
     polygon = np.repeat(np.arange(len(lengths)), counts)

@@ -31,9 +31,8 @@ def read_stl(data: bytes, path: Path, files: InputFiles) -> Soup:
             records = np.frombuffer(data, _RECORD, count, _HEADER)
             return plain_soup(records["corners"].astype(np.float64))
         if not _is_text(data):
-            raise unreadable(
-                path.name, f"is {len(data)} bytes; {count} facets as its header says take {fits}"
-            )
+            says = f"{count} facets as its header says take {fits}"
+            raise unreadable(path.name, f"is {len(data)} bytes; {says}")
     if not _is_text(data):
         raise unreadable(path.name, f"is {len(data)} bytes and neither a text nor a binary STL")
     return _read_text(data, path.name, files.limits.max_faces)
@@ -51,7 +50,6 @@ def _read_text(data: bytes, name: str, max_faces: int) -> Soup:
         raise unreadable(name, "its last solid does not end; it may be cut off")
     numbers = [float(word) for match in _VERTEX.finditer(lower) for word in match.groups()]
     if len(numbers) % 9:
-        raise unreadable(
-            name, f"its {len(numbers) // 3} vertices do not make whole triangles; it may be cut off"
-        )
+        odd = f"its {len(numbers) // 3} vertices do not make whole triangles"
+        raise unreadable(name, f"{odd}; it may be cut off")
     return plain_soup(np.array(numbers, dtype=np.float64).reshape(-1, 3, 3))

@@ -37,12 +37,7 @@ class Imported:
 
 
 def rigid_groups(count: int, welds: list[tuple[int, int]]) -> list[int]:
-    """Return for each of ``count`` parts the smallest id among the parts it is welded to.
-
-    Args:
-        count: number of parts.
-        welds: pairs of part ids that do not move relative to each other.
-    """
+    """Return for each of ``count`` parts the smallest id among the parts it is welded to."""
     group = list(range(count))
     for a, b in welds:
         low, high = sorted((group[a], group[b]))

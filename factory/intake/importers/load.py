@@ -26,11 +26,10 @@ from ..licenses import require_allowed
 from ..limits import require_sensible_size
 from ..naming import safe_name, well_formed
 from ..orientation import rotation_to_z_up
-from ..placing import check_config, given_scale, given_up
 from ..reads import ReadLog, content_digest
 from ..rejecting import rejecting
 from ..sidecar import Sidecar, read_sidecar
-from ..sizes import Scale, scale_by_size
+from ..sizes import Scale, check_config, given_scale, given_up, scale_by_size
 from .imported import Imported
 from .mjcf import import_mjcf
 from .urdf import import_urdf
@@ -44,10 +43,7 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
     frame, metres and z up by both specifications; ``transform`` leads from there to the object
     frame, which differs only where an option or a sidecar says so.
 
-    Args:
-        path: a URDF or MJCF file; what it refers to lies in its folder, its package or a root.
-        config: up axis, height and limits.
-        log: of the files that are read.
+    What the file refers to lies in its folder, its package or a root.
 
     Returns:
         An intake whose ``annotation`` is set; ``source_faces`` counts the faces of the
@@ -71,9 +67,8 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
     rotation = rotation_to_z_up(up)
     extents = np.ptp(whole.vertices[np.unique(whole.faces[kept])] @ rotation.T, axis=0)
     scale = given_scale(extents, config, sidecar, path.name) or Scale(1.0, "format")
-    require_sensible_size(
-        path.name, np.stack([whole.vertices.min(axis=0), whole.vertices.max(axis=0)]) * scale.factor
-    )
+    corners = np.stack([whole.vertices.min(axis=0), whole.vertices.max(axis=0)])
+    require_sensible_size(path.name, corners * scale.factor)
     category = category_of(path, sidecar.category)
     transform = np.eye(4)
     transform[:3, :3] = scale.factor * rotation
@@ -131,9 +126,8 @@ def _imported_from(path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
             return import_urdf(root, path, config, log)
         if root.tag == "mujoco":
             return import_mjcf(root, path, config, log)
-    raise InputRejected(
-        "unreadable", f"{path.name}: begins with <{root.tag[:80]}>, want <robot> or <mujoco>"
-    )
+    begins = f"{path.name}: begins with <{root.tag[:80]}>, want <robot> or <mujoco>"
+    raise InputRejected("unreadable", begins)
 
 
 def _allowed_license(
@@ -154,11 +148,8 @@ def _joined(imported: Imported, name: str) -> tuple[Mesh, IntArray, IntArray]:
     kept = np.flatnonzero(face_areas(whole) > 0.0)
     if not len(kept):
         raise InputRejected("empty", f"{name}: no face of its geometry has any area")
-    return (
-        whole,
-        np.concatenate([np.full(len(mesh.faces), part) for part, mesh in imported.pieces]),
-        kept,
-    )
+    parts = [np.full(len(mesh.faces), part) for part, mesh in imported.pieces]
+    return whole, np.concatenate(parts), kept
 
 
 def _doubts(extents: FloatArray, category: str | None) -> list[str]:
@@ -167,9 +158,5 @@ def _doubts(extents: FloatArray, category: str | None) -> list[str]:
         return []
     size = " x ".join(f"{extent:.3g}" for extent in extents)
     thing = (category or "object").replace("_", " ")
-    return [
-        (
-            f"The description says metres, so {size} m was kept, "
-            f"odd for this kind of thing ({thing}); give a height."
-        )
-    ]
+    odd = f"odd for this kind of thing ({thing}); give a height."
+    return [f"The description says metres, so {size} m was kept, {odd}"]

@@ -48,11 +48,7 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
     Several joints of one body become a chain through empty parts, in their order. A free joint is
     dropped.
 
-    Args:
-        root: the ``<mujoco>`` element.
-        path: the file it came from; what it refers to lies in or below that file's folder.
-        config: limits on the files it refers to.
-        log: of the files that are read.
+    What ``path`` refers to lies in or below its folder.
 
     Raises:
         InputRejected: ``unsupported_joint``, ``too_large``.
@@ -185,12 +181,8 @@ def _images(model: CompiledModel, files: InputFiles, folder: Path) -> dict[int, 
     images = {}
     for index, texture in enumerate(model.textures):
         path = folder / texture.file
-        if (
-            texture.flat
-            and texture.file
-            and path.is_file()
-            and path.resolve().is_relative_to(folder.resolve())
-        ):
+        there = texture.flat and texture.file and path.is_file()
+        if there and path.resolve().is_relative_to(folder.resolve()):
             image = load_texture(files.read(path), path.name, files)
             if image is not None:
                 images[index] = image
@@ -210,11 +202,9 @@ def _jointed(
         moving = [index for index in own if model.joints[index].kind in KINDS]
         for joint in (model.joints[index] for index in own):
             if joint.kind == "ball":
-                raise InputRejected(
-                    "unsupported_joint",
-                    f"joint {joint.name!r} of body {names[body]!r}: is a ball joint; "
-                    "want hinge or slide joints",
-                )
+                where = f"joint {joint.name!r} of body {names[body]!r}"
+                why = "is a ball joint; want hinge or slide joints"
+                raise InputRejected("unsupported_joint", f"{where}: {why}")
             if joint.kind == "free":
                 notes.append(f"body {names[body]!r} floats freely in the file; it is held fixed")
         if not moving:
@@ -241,9 +231,7 @@ def _is_mimic(equality: CompiledEquality) -> bool:
 def _mimics(model: CompiledModel, labels: Mapping[int, str]) -> dict[str, Mimic]:
     """Return follower -> what it follows, constant and linear part; values count from references.
 
-    Args:
-        model: with joint equalities.
-        labels: names of its moving joints by index.
+    ``labels`` are names of moving joints by index.
     """
     found: dict[str, Mimic] = {}
     for equality in model.equalities:
@@ -257,9 +245,8 @@ def _annotated(
     joint: CompiledJoint, name: str, parent: int, child: int, pose: FloatArray
 ) -> AnnotatedJoint:
     """Return a joint of a body that the file poses so; limits count from there."""
-    lower, upper = (
-        None if limit is None else limit - joint.reference for limit in (joint.lower, joint.upper)
-    )
+    limits = (joint.lower, joint.upper)
+    lower, upper = (None if each is None else each - joint.reference for each in limits)
     return AnnotatedJoint(
         name=name,
         kind=KINDS[joint.kind],

@@ -28,6 +28,8 @@ PER_PART = {
     "prismatic_axis": 3,
     "prismatic_range": 2,
 }
+#: What neither turns nor slides, what turns, what slides, and what does both.
+KINDS = ("fixed", "revolute", "prismatic", "both")
 MAX_BYTES = 256 * 1024 * 1024
 #: Largest number of parts a file may speak of; the published model knows 16.
 MAX_PARTS = 4096
@@ -52,22 +54,20 @@ def read_prediction(path: Path, face_count: int, data: bytes | None = None) -> A
     labels = fields["face_part_ids"]
     if labels.ndim != 1 or labels.dtype.kind not in "iu" or len(labels) < face_count:
         said = f"face_part_ids has shape {list(labels.shape)} of {labels.dtype}"
-        _bad(path.name, f"{said}, want one integer for each of the mesh's {face_count} faces")
+        raise _bad(path.name, f"{said}, want one integer for each of the mesh's {face_count} faces")
     part_count = len(fields["is_part_revolute"]) if fields["is_part_revolute"].ndim else 0
     if not 0 < part_count <= MAX_PARTS:
-        _bad(path.name, f"is_part_revolute speaks of {part_count} parts, want 1 to {MAX_PARTS}")
+        many = f"is_part_revolute speaks of {part_count} parts, want 1 to {MAX_PARTS}"
+        raise _bad(path.name, many)
     for name, columns in PER_PART.items():
-        values = _checked(
-            fields, name, (part_count, columns) if columns else (part_count,), path.name
-        )
+        shape = (part_count, columns) if columns else (part_count,)
+        values = _checked(fields, name, shape, path.name)
         # NaN compares as false.
         if not (np.abs(values.astype(np.float64)) <= MOST).all():
-            _bad(path.name, f"{name} holds a number that is not finite, or beyond {MOST:g}")
+            raise _bad(path.name, f"{name} holds a number that is not finite, or beyond {MOST:g}")
     if len(labels) and not -1 <= labels.min() <= labels.max() < part_count:
-        _bad(
-            path.name,
-            f"face_part_ids run from {labels.min()} to {labels.max()}, want -1 to {part_count - 1}",
-        )
+        said = f"face_part_ids run from {labels.min()} to {labels.max()}"
+        raise _bad(path.name, f"{said}, want -1 to {part_count - 1}")
     edges = _edges(fields, part_count, path.name)
     return Annotation(
         face_part=labels.astype(np.int64),
@@ -90,34 +90,29 @@ def _load(path: Path, data: bytes | None) -> dict[str, npt.NDArray[np.generic]]:
         with zipfile.ZipFile(path if data is None else io.BytesIO(data)) as archive:
             unpacked = sum(entry.file_size for entry in archive.infolist())
         if unpacked > MAX_BYTES:
-            _bad(path.name, f"unpacks to {unpacked} bytes, want at most {MAX_BYTES}")
+            raise _bad(path.name, f"unpacks to {unpacked} bytes, want at most {MAX_BYTES}")
         with np.load(path if data is None else io.BytesIO(data), allow_pickle=False) as archive:
-            found = {
-                name: archive[name] for name in ("face_part_ids", "motion_hierarchy", *PER_PART)
-            }
+            names = ("face_part_ids", "motion_hierarchy", *PER_PART)
+            found = {name: archive[name] for name in names}
     except InputRejected:
         raise
     except KeyError as error:
-        raise InputRejected(
-            "bad_annotation", f"{path.name}: a field is missing: {error.args[0]}"
-        ) from error
+        raise _bad(path.name, f"a field is missing: {error.args[0]}") from error
     except MemoryError as error:
-        raise InputRejected("bad_annotation", f"{path.name}: does not fit into memory") from error
+        raise _bad(path.name, "does not fit into memory") from error
     except Exception as error:
         # A file from anybody: zip, zlib, tokenizer and array headers all have errors of their own.
         said = " ".join(f"{type(error).__name__}: {error}".split())[:240]
-        raise InputRejected(
-            "bad_annotation", f"{path.name}: is no .npz of plain arrays: {said}"
-        ) from error
+        raise _bad(path.name, f"is no .npz of plain arrays: {said}") from error
     for name, values in found.items():
         # What is no array is handed out as it lies there.
         if not isinstance(values, np.ndarray):
-            _bad(path.name, f"{name} is no array")
+            raise _bad(path.name, f"{name} is no array")
     return found
 
 
-def _bad(file: str, what: str) -> None:
-    raise InputRejected("bad_annotation", f"{file}: {what}")
+def _bad(file: str, what: str) -> InputRejected:
+    return InputRejected("bad_annotation", f"{file}: {what}")
 
 
 def _checked(
@@ -125,11 +120,8 @@ def _checked(
 ) -> npt.NDArray[np.generic]:
     values = fields[name]
     if values.shape != shape or values.dtype.kind not in "biuf":
-        _bad(
-            file,
-            f"{name} has shape {list(values.shape)} of {values.dtype}, "
-            f"want numbers of shape {list(shape)}",
-        )
+        said = f"{name} has shape {list(values.shape)} of {values.dtype}"
+        raise _bad(file, f"{said}, want numbers of shape {list(shape)}")
     return values
 
 
@@ -140,15 +132,13 @@ def _edges(
     if edges.size == 0:
         return []
     if edges.ndim != 2 or edges.shape[1] != 2 or edges.dtype.kind not in "iu":
-        _bad(
-            file,
-            f"motion_hierarchy has shape {list(edges.shape)} of {edges.dtype}, "
-            "want integer rows of 2",
-        )
+        said = f"motion_hierarchy has shape {list(edges.shape)} of {edges.dtype}"
+        raise _bad(file, f"{said}, want integer rows of 2")
     if len(edges) > MAX_PARTS:
-        _bad(file, f"motion_hierarchy has {len(edges)} rows, want at most {MAX_PARTS}")
+        raise _bad(file, f"motion_hierarchy has {len(edges)} rows, want at most {MAX_PARTS}")
     if not 0 <= edges.min() <= edges.max() < part_count:
-        _bad(file, f"motion_hierarchy speaks of part {edges.max()}, want 0 to {part_count - 1}")
+        said = f"motion_hierarchy speaks of part {edges.max()}"
+        raise _bad(file, f"{said}, want 0 to {part_count - 1}")
     return [(int(parent), int(child)) for parent, child in edges]
 
 
@@ -158,24 +148,19 @@ def _joint(fields: dict[str, npt.NDArray[np.generic]], parent: int, child: int) 
 
     turns = bool(fields["is_part_revolute"][child])
     slides = bool(fields["is_part_prismatic"][child])
-    kind = {(True, True): "both", (True, False): "revolute", (False, True): "prismatic"}.get(
-        (turns, slides), "fixed"
-    )
+    kind = KINDS[turns + 2 * slides]
     line = row("revolute_plucker")
     turn = row("revolute_range")
     slide = row("prismatic_range")
-    sliding = {
-        "slide_axis": row("prismatic_axis"),
-        "slide_lower": slide[0],
-        "slide_upper": slide[1],
-    }
+    along = row("prismatic_axis")
+    sliding = {"slide_axis": along, "slide_lower": slide[0], "slide_upper": slide[1]}
     lower, upper = (slide if kind == "prismatic" else turn).tolist()
     return AnnotatedJoint(
         name=f"joint_{child}",
         kind=kind,
         parent=parent,
         child=child,
-        axis=row("prismatic_axis") if kind == "prismatic" else line[:3],
+        axis=along if kind == "prismatic" else line[:3],
         origin=point_on_line(line[:3], line[3:]) if turns else np.zeros(3),
         lower=None if kind == "fixed" else lower,
         upper=None if kind == "fixed" else upper,

@@ -25,8 +25,7 @@ from ..annotation import AnnotatedJoint
 from ..limits import require_at_most
 from ..reads import ReadLog
 from .imported import Imported, rigid_groups
-from .urdf_appearance import Palette, painted
-from .urdf_geometry import GeometryReader
+from .urdf_geometry import GeometryReader, Palette, painted
 
 MAX_LINKS = 4096
 MAX_SHAPES = 10_000
@@ -35,11 +34,7 @@ MAX_SHAPES = 10_000
 def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
     """Return every link's visuals and every joint of a URDF, in the root link's frame.
 
-    Args:
-        robot: the ``<robot>`` element.
-        path: the file it came from; what it refers to lies in or below that file's folder.
-        config: limits on the files it refers to.
-        log: of the files that are read.
+    What ``path`` refers to lies in or below its folder.
 
     Raises:
         InputRejected: ``not_a_tree``, ``unsupported_joint``, ``missing_file``,
@@ -68,10 +63,8 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
         if mesh is not None:
             faces += len(mesh.faces)
             require_at_most(path.name, faces, config.max_faces, "faces")
-            posed = painted(mesh, element, palette, where).transformed(
-                poses[names[part]] @ LENIENT.origin(element, where)
-            )
-            pieces.append((part, posed))
+            pose = poses[names[part]] @ LENIENT.origin(element, where)
+            pieces.append((part, painted(mesh, element, palette, where).transformed(pose)))
     return Imported(
         pieces=tuple(pieces),
         part_names=names,
@@ -90,27 +83,26 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
 
 def _refuse_repeats(names: tuple[str, ...], file: str) -> None:
     if not names:
-        raise InputRejected("not_a_tree", f"{file}: has no <link>, want at least one")
+        raise _no_tree(file, "has no <link>, want at least one")
     repeated = sorted(name for name, count in Counter(names).items() if count > 1)
     if repeated:
-        raise InputRejected(
-            "not_a_tree", f"{file}: two links are called {repeated[0]!r}; want unique names"
-        )
+        raise _no_tree(file, f"two links are called {repeated[0]!r}; want unique names")
+
+
+def _no_tree(where: str, why: str, value: float | None = None) -> InputRejected:
+    return InputRejected("not_a_tree", f"{where}: {why}", value=value)
 
 
 def _joint(element: ET.Element, links: frozenset[str], file: str) -> JointLine:
     joint = LENIENT.joint(element)
     where = f"{file}: joint {joint.name!r}"
     if joint.kind not in (*MOVING_KINDS, "fixed", "floating"):
-        raise InputRejected(
-            "unsupported_joint",
-            f"{where}: is of type {joint.kind!r}; want fixed, revolute, continuous or prismatic",
-        )
+        want = "want fixed, revolute, continuous or prismatic"
+        why = f"{where}: is of type {joint.kind!r}; {want}"
+        raise InputRejected("unsupported_joint", why)
     for role, link in (("parent", joint.parent), ("child", joint.child)):
         if link not in links:
-            raise InputRejected(
-                "not_a_tree", f"{where}: its {role} link {link!r} is not in the file"
-            )
+            raise _no_tree(where, f"its {role} link {link!r} is not in the file")
     return joint
 
 
@@ -119,29 +111,21 @@ def _root_first(names: tuple[str, ...], joints: list[JointLine], file: str) -> l
     holder: dict[str, JointLine] = {}
     for joint in joints:
         if joint.child in holder:
-            raise InputRejected(
-                "not_a_tree",
-                f"{file}: link {joint.child!r} is the child of joints "
-                f"{holder[joint.child].name!r} and {joint.name!r}; want one",
-            )
+            both = f"joints {holder[joint.child].name!r} and {joint.name!r}"
+            raise _no_tree(file, f"link {joint.child!r} is the child of {both}; want one")
         holder[joint.child] = joint
     roots = [name for name in names if name not in holder]
     if len(roots) > 1:
         listed = ", ".join(repr(name) for name in roots[:5])
-        raise InputRejected(
-            "not_a_tree",
-            f"{file}: {len(roots)} links have no parent ({listed}); want one root",
-            value=len(roots),
-        )
+        why = f"{len(roots)} links have no parent ({listed}); want one root"
+        raise _no_tree(file, why, len(roots))
     ordered: list[JointLine] = []
     reached = set(roots)
     while len(ordered) < len(joints):
         ready = [j for j in joints if j.parent in reached and j.child not in reached]
         if not ready:
             stuck = ", ".join([repr(name) for name in names if name not in reached][:5])
-            raise InputRejected(
-                "not_a_tree", f"{file}: links {stuck} form a cycle; want one tree from one root"
-            )
+            raise _no_tree(file, f"links {stuck} form a cycle; want one tree from one root")
         ordered += ready
         reached |= {j.child for j in ready}
     return ordered
@@ -165,9 +149,8 @@ def _choose_shapes(
         visuals = link.findall("visual")
         collisions = link.findall("collision")
         if groups[part] not in seen and collisions:
-            notes.append(
-                f"link {link.get('name')!r} has no visual geometry; its collision geometry is used"
-            )
+            bare = f"link {link.get('name')!r} has no visual geometry"
+            notes.append(f"{bare}; its collision geometry is used")
             visuals = collisions
         chosen += [(part, shape) for shape in visuals]
     return chosen
@@ -177,19 +160,12 @@ def _notes(robot: ET.Element, joints: list[JointLine]) -> list[str]:
     notes = []
     for element in robot.findall("joint"):
         if element.find("mimic") is not None and _mimic(element) is None:
-            notes.append(
-                f"joint {element.get('name')!r}: its mimic cannot be read; it moves freely"
-            )
-    notes += [
-        f"joint {j.name!r} is floating in the file; its link is held fixed"
-        for j in joints
-        if j.kind == "floating"
-    ]
-    commas = {
-        element.tag
-        for element in robot.iter()
-        if any("," in element.get(name, "") for name in ("scale", "size", "xyz", "rpy"))
-    }
+            name = element.get("name")
+            notes.append(f"joint {name!r}: its mimic cannot be read; it moves freely")
+    floating = (joint.name for joint in joints if joint.kind == "floating")
+    notes += [f"joint {n!r} is floating in the file; its link is held fixed" for n in floating]
+    rows = ("scale", "size", "xyz", "rpy")
+    commas = {e.tag for e in robot.iter() if any("," in e.get(name, "") for name in rows)}
     if commas:
         notes.append(f"commas between numbers are read as spaces: {', '.join(sorted(commas))}")
     return notes

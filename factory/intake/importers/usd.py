@@ -34,16 +34,13 @@ from ..rejecting import rejecting
 from ..sidecar import read_sidecar
 from .usd_tree import annotation_of
 
-_COLLIDER_WORDS = ("collision", "collider", "collisions", "colliders")
+_COLLIDER_WORDS = frozenset({"collision", "collider", "collisions", "colliders"})
 
 
 def load_usd(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
     """Return an articulated USD asset as an input; a stage states its own units and up axis.
 
-    Args:
-        path: of the root layer; everything that it is composed of lies in or below its folder.
-        config: limits.
-        log: of the files that are read.
+    ``path`` is the root layer's; everything that it is composed of lies in or below its folder.
 
     Raises:
         InputRejected: ``unsupported``: the library that reads USD is not installed;
@@ -85,9 +82,7 @@ def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
 def read_annotated(path: Path, max_faces: int) -> tuple[Mesh, Annotation, FloatArray]:
     """Return all surfaces of a stage as one mesh, its parts and joints, and how it was turned.
 
-    Args:
-        path: of the root layer; see :func:`require_own_layers` for what to ask before.
-        max_faces: most triangles.
+    ``path`` is the root layer's; see :func:`require_own_layers` for what to ask before.
 
     Returns:
         The mesh in metres, z up; parts and joints in the stage's frame and units; the transform
@@ -139,11 +134,8 @@ def _pieces(stage: PhysicsStage, name: str, max_faces: int) -> list[tuple[str, M
 
 def _is_collider(surface: PhysicsSurface) -> bool:
     """Return whether a surface lies in a group called after collisions, or is called so itself."""
-    return any(
-        word in _COLLIDER_WORDS
-        for name in surface.path.lower().split("/")
-        for word in name.split("_")
-    )
+    words = surface.path.lower().replace("/", "_").split("_")
+    return not _COLLIDER_WORDS.isdisjoint(words)
 
 
 def _intake(

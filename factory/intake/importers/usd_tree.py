@@ -81,20 +81,16 @@ def _joint_at_pose(
 ) -> AnnotatedJoint:
     """Return a joint between bodies, which are numbered by ``index``; limits from the pose."""
     if joint.kind not in ("revolute", "prismatic", "fixed"):
-        raise InputRejected(
-            "unsupported_joint",
-            f"joint {joint.name!r}: is a {joint.kind}; want a revolute, prismatic or fixed joint",
-        )
+        why = f"is a {joint.kind}; want a revolute, prismatic or fixed joint"
+        raise InputRejected("unsupported_joint", f"joint {joint.name!r}: {why}")
     first = stage.bodies[joint.bodies[0]].pose @ joint.frames[0]
     at = _authored_value(joint, stage)
     # A slide's limits are in the file's units, whatever the scale of its body.
     unit = float(np.cbrt(np.prod(stage.bodies[joint.bodies[0]].scale)))
     length = unit if joint.kind == "prismatic" else 1.0
     travelled = at / stage.metres if joint.kind == "prismatic" else at
-    lower, upper = (
-        None if limit is None else limit / length - travelled
-        for limit in (joint.lower, joint.upper)
-    )
+    limits = (joint.lower, joint.upper)
+    lower, upper = (None if each is None else each / length - travelled for each in limits)
     back = np.linalg.inv(transform)
     axis = transform[:3, :3].T @ first[:3, :3] @ joint.axis / stage.metres
     anchor = back[:3, :3] @ first[:3, 3]
@@ -133,13 +129,8 @@ def _value_at_pose(joint: PhysicsJoint, first: FloatArray, second: FloatArray) -
         second: the frame on ``body1``.
     """
     relative = first[:3, :3].T @ second[:3, :3]
-    cross = np.array(
-        [
-            relative[2, 1] - relative[1, 2],
-            relative[0, 2] - relative[2, 0],
-            relative[1, 0] - relative[0, 1],
-        ]
-    )
+    skew = relative - relative.T
+    cross = np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
     # Twice the sine and twice the cosine of a rotation about the axis; of another one the rest
     # below is not small.
     angle = float(np.arctan2(joint.axis @ cross, np.trace(relative) - 1.0))
@@ -191,11 +182,8 @@ def _hung(links: list[_Link], order: list[int], file: str) -> list[tuple[_Link |
                 link = links[number]
                 there = link.second if link.first == here else link.first
                 if there in reached:
-                    message = (
-                        f"{file}: joint {link.joint.name!r} closes a loop; "
-                        "want one way to every body"
-                    )
-                    raise InputRejected("not_a_tree", message)
+                    why = f"joint {link.joint.name!r} closes a loop; want one way to every body"
+                    raise InputRejected("not_a_tree", f"{file}: {why}")
                 used.add(number)
                 reached.add(there)
                 waiting.append(there)

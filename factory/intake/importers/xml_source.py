@@ -39,7 +39,5 @@ def find_reference(reference: str, folder: Path, where: str, log: ReadLog) -> Pa
             if is_file(place):
                 return place.resolve()
             log.note(place, ABSENT)
-        raise DescriptionError(
-            "missing_file",
-            f"{where}: {reference[:160]!r} is not there; want it below the description's folder",
-        )
+        why = f"{reference[:160]!r} is not there; want it below the description's folder"
+        raise DescriptionError("missing_file", f"{where}: {why}")

@@ -1,15 +1,19 @@
-"""What a night appends to while it runs: attempts done so far, and a log of what happened when."""
+"""What a night keeps while it runs: its lock, attempts so far, and a log of what happened when."""
 
 from __future__ import annotations
 
 import json
 import os
+import platform
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 
+from filelock import FileLock, Timeout
+
+from ...errors import ConfigError
 from ...report.nightly.formats import stamp
 from ...report.nightly.night import NightResult, attempt_from
 
@@ -58,3 +62,33 @@ def log(path: Path, now: Callable[[], datetime] = utc_now) -> Iterator[Callable[
             file.write(f"{stamp(now())} {told}\n")
 
         yield write
+
+
+@contextmanager
+def locked(nights: Path) -> Iterator[Callable[[str], None]]:
+    """Keep other nights off a folder of nights; the lock ends with this process, in any case.
+
+    Gives a function that takes this night's name, to be told to whoever is refused.
+
+    Raises:
+        ConfigError: another night runs there; says which, where and what to do.
+    """
+    lock = FileLock(nights / ".lock", blocking=False)
+    holder = nights / ".holder"
+    try:
+        lock.acquire()
+    except Timeout:
+        who = holder.read_text(encoding="utf-8") if holder.is_file() else "a process"
+        advice = "wait for it, end it, or name another --output"
+        raise ConfigError(f"{nights}: another night runs here ({who}); {advice}") from None
+    process = f"process {os.getpid()} on {platform.node() or 'this machine'}"
+
+    def announce(night: str) -> None:
+        holder.write_text(f"night {night}, {process}", encoding="utf-8")
+
+    try:
+        holder.unlink(missing_ok=True)
+        yield announce
+    finally:
+        holder.unlink(missing_ok=True)
+        lock.release()

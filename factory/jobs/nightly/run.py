@@ -18,17 +18,15 @@ from ...registry.diff import diff
 from ...registry.result import Result
 from ...registry.verify import Problem, Settled
 from ...report.nightly import files
-from ...report.nightly.drift import source_yields
-from ...report.nightly.figures import compare
+from ...report.nightly.figures import compare, source_yields
 from ...report.nightly.formats import counted, stamp
 from ...report.nightly.night import Night, NightResult, attempt_of, latest, tally
 from ...report.nightly.outcome import concerns, exit_code
 from ...report.nightly.report import NightlyReport
 from ...report.nightly.table import read_table
 from ...report.summary import JobState
-from .journal import journal, log, read_journal, utc_now
+from .journal import journal, locked, log, read_journal, utc_now
 from .licenses import sort_out
-from .lock import locked
 from .settings import NightConfig
 from .work import Work
 
@@ -46,12 +44,8 @@ def run_night(
     An interruption (KeyboardInterrupt) ends it early with a page of its own, and the next run goes
     on with it; so it does after the process was killed, with all that was finished.
 
-    Args:
-        config: what to do.
-        work: what it is done with.
-        name: of the night; by default the one that goes on, else the next number.
-        fresh: begin a new one; interrupted ones stay as they are.
-        now: tells the time.
+    ``name`` is by default that of the night that goes on, else the next number; ``fresh`` begins a
+    new one, and interrupted ones stay as they are.
 
     Raises:
         ConfigError: another night runs on this output, or the name cannot be.

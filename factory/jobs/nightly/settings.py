@@ -9,6 +9,7 @@ import os
 import tomllib
 from dataclasses import dataclass, field, replace
 from math import isfinite
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,11 @@ from .licenses import Licenses
 
 LOCAL = "local"
 EXECUTORS = (LOCAL, "ray")
+#: Settings that are numbers of at least 0.
+_AMOUNTS = (
+    *("workers", "budget.limit", "budget.max_hours", "upkeep.cache_days", "upkeep.cache_gb"),
+    *("failure.source.nights", "failure.source.least"),
+)
 
 
 @dataclass(frozen=True)
@@ -85,12 +91,10 @@ def load_night(path: Path) -> NightConfig:
 
     preset = str(base / config.preset) if config.preset.endswith(".toml") else config.preset
     build = overlay(load_config(preset), differences, f"{where}: build")
-    weights = replace(
-        build.particulate,
-        checkpoint=_weights(build.particulate.checkpoint, base),
-        features=_weights(build.particulate.features, base),
-    )
-    build = replace(build, particulate=weights)
+    network = build.particulate
+    checkpoint, features = (_weights(x, base) for x in (network.checkpoint, network.features))
+    network = replace(network, checkpoint=checkpoint, features=features)
+    build = replace(build, particulate=network)
     return replace(config, inputs=inputs, output=Path(output), preset=preset, build=build)
 
 
@@ -140,33 +144,22 @@ def require_possible(config: NightConfig) -> None:
 
     if not config.inputs:
         raise ConfigError("inputs: none; name files or folders in the configuration or by --input")
-    amounts = {
-        "workers": config.workers,
-        "budget.limit": config.budget.limit,
-        "budget.max_hours": config.budget.max_hours,
-        "upkeep.cache_days": config.upkeep.cache_days,
-        "upkeep.cache_gb": config.upkeep.cache_gb,
-        "failure.source.nights": config.failure.source.nights,
-        "failure.source.least": config.failure.source.least,
-    }
     choices = {
-        "executor": (config.executor, EXECUTORS),
-        "failure.over": (config.failure.over, (ALL_INPUTS, SHARED_INPUTS)),
-        "build.articulator": (config.build.articulator, tuple(ARTICULATORS)),
+        "executor": EXECUTORS,
+        "failure.over": (ALL_INPUTS, SHARED_INPUTS),
+        "build.articulator": tuple(ARTICULATORS),
     }
-    lists = {
-        "licenses.allowed": config.licenses.allowed,
-        "budget.retry_rejected": config.budget.retry_rejected,
-    }
-    for name, amount in amounts.items():
+    for name in _AMOUNTS:
+        amount = attrgetter(name)(config)
         _require(isfinite(amount) and amount >= 0, name, amount, "at least 0")
-    for name, (chosen, known) in choices.items():
+    for name, known in choices.items():
+        chosen = attrgetter(name)(config)
         _require(chosen in known, name, chosen, " or ".join(known))
-    for name, stated in lists.items():
+    for name in ("licenses.allowed", "budget.retry_rejected"):
+        stated = attrgetter(name)(config)
         _require(all(isinstance(item, str) for item in stated), name, list(stated), "texts")
-    source = config.failure.source
-    drops = {"failure.yield_drop": config.failure.yield_drop, "failure.source.drop": source.drop}
-    for name, drop in drops.items():
+    for name in ("failure.yield_drop", "failure.source.drop"):
+        drop = attrgetter(name)(config)
         _require(0.0 <= drop <= 1.0, name, drop, "a share from 0 to 1")
     require_usable(config.build.particulate, needed=config.build.articulator == "particulate")
 

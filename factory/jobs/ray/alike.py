@@ -25,9 +25,8 @@ Versions = tuple[tuple[str, str], ...]
 @lru_cache(maxsize=1)
 def versions() -> Versions:
     """Return versions of this package, its sources, and libraries of its stages on this machine."""
-    sources = (
-        (f"sources of {name}", code_digest(f"asset_factory.{name}")[:12]) for name in _PACKAGES
-    )
+    digests = {name: code_digest(f"asset_factory.{name}")[:12] for name in _PACKAGES}
+    sources = ((f"sources of {name}", digest) for name, digest in digests.items())
     libraries = sorted({library for stage in STAGES for library in stage.libraries})
     found = ((library, installed_version(library)) for library in libraries)
     return (("asset-factory", __version__), *sources, *found)

@@ -28,13 +28,9 @@ def ray_executor(
 ) -> RayExecutor:
     """Return the executor to give to a :class:`~.job.Job`, with ``one_network=False``.
 
-    Args:
-        config: with which inputs are built.
-        workers: inputs at once; by default as many as the cluster has room for.
-        address: of the cluster, see :class:`~.ray_executor.RayExecutor`.
-        exchange: fsspec's URL through which bundles come back; inputs and checkpoints are sent to
-            nodes then. Empty if the registry's folder and the inputs lie where all nodes see them,
-            which also lets them share a cache.
+    ``exchange`` is fsspec's URL through which bundles come back; inputs and checkpoints are sent to
+    nodes then. It is empty if the registry's folder and the inputs lie where all nodes see them,
+    which also lets them share a cache.
     """
     network = config.particulate
     named = (network.checkpoint, network.features)

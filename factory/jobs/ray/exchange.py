@@ -145,9 +145,8 @@ class Transfer:
                     local.write(block)
                     size += len(block)
             if (size, digest.hexdigest()) != (sent.size, sent.digest):
-                raise ExchangeError(
-                    "it is not the file that was sent: its size or digest is another"
-                )
+                why = "its size or digest is another"
+                raise ExchangeError(f"it is not the file that was sent: {why}")
             local.seek(0)
             with tarfile.open(fileobj=local, mode="r:") as archive:
                 unpacked(archive, folder)
@@ -171,12 +170,7 @@ def make_and_send(
 ) -> Sent[T]:
     """Let the function fill a local folder, and send what its value names of it; on a node.
 
-    Args:
-        target: URL of the file to send.
-        argument: the function's, that is the folder.
-        function: to call.
-        arguments: of it, as the caller knows them.
-        here: those that are others on this node.
+    ``argument`` names the one that is the folder; those in ``here`` are others on this node.
     """
     with tempfile.TemporaryDirectory(prefix="made-") as folder:
         value = function(**{**arguments, **(here or {}), argument: Path(folder)})
@@ -260,11 +254,8 @@ def moved(value: Any, old: Path, new: Path) -> Any:
     if isinstance(value, tuple):
         return tuple(moved(item, old, new) for item in value)
     if is_dataclass(value) and not isinstance(value, type):
-        changed = {
-            each.name: now
-            for each in fields(value)
-            if each.init
-            and (now := moved(before := getattr(value, each.name), old, new)) is not before
-        }
+        before = {each.name: getattr(value, each.name) for each in fields(value) if each.init}
+        now = {name: moved(each, old, new) for name, each in before.items()}
+        changed = {name: each for name, each in now.items() if each is not before[name]}
         return replace(value, **changed) if changed else value
     return value

@@ -173,16 +173,9 @@ class _Tasks(Generic[T]):
                 arguments = self._executor.inputs.with_place(arguments)
             if self._executor.exchange is not None:
                 function, arguments, transfer = self._executor.exchange.sent(function, arguments)
-            sent = None if packed is None else packed.sent
-            order = Order(
-                function,
-                arguments,
-                self._limits,
-                self._settings,
-                sent,
-                self._executor.weights,
-                task.call.until,
-            )
+            how = (self._limits, self._settings)
+            files = (None if packed is None else packed.sent, self._executor.weights)
+            order = Order(function, arguments, *how, *files, task.call.until)
             under_way = self._handed_over(order, task.node, b"" if packed is None else packed.data)
         except (TypeError, ValueError, AttributeError, pickle.PicklingError) as error:
             detail = f"cannot be sent to a node: {_sentence(error)}"
@@ -313,9 +306,8 @@ class _Tasks(Generic[T]):
         try:
             return ask(*args, **settings)
         except (self._ray.exceptions.RayError, ConnectionError) as error:
-            raise ClusterLost(
-                f"the Ray cluster at {self._executor.address!r} does not answer any more: {error}"
-            ) from error
+            cluster = f"the Ray cluster at {self._executor.address!r}"
+            raise ClusterLost(f"{cluster} does not answer any more: {error}") from error
 
 
 def _sentence(error: BaseException) -> str:

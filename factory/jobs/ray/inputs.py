@@ -86,16 +86,9 @@ class PackedInput:
     names: frozenset[str]
 
     def lacking(self, reads: Reads) -> frozenset[str]:
-        """Return the files that its reader missed on a node, and that are here.
-
-        Args:
-            reads: what it read, and what it did not find.
-        """
-        return frozenset(
-            name
-            for name, digest in reads.items()
-            if name not in self.names and digest_now(self.source, name) != digest
-        )
+        """Return the files that its reader missed on a node, and that are here."""
+        other = {name: digest for name, digest in reads.items() if name not in self.names}
+        return frozenset(n for n, digest in other.items() if digest_now(self.source, n) != digest)
 
 
 @dataclass(frozen=True)
@@ -117,11 +110,7 @@ class Inputs:
         return {**arguments, self.place: arguments[self.argument]}
 
     def packed(self, arguments: Mapping[str, Any], more: frozenset[str]) -> PackedInput:
-        """Return an input with what it seems to refer to.
-
-        Args:
-            arguments: of the call.
-            more: names of files that are known to belong to it.
+        """Return an input with what it seems to refer to, and ``more`` that belongs to it.
 
         Raises:
             ValueError: it has too many bytes.

@@ -19,8 +19,7 @@ from ...config import ParticulateConfig
 from ...models.particulate.device import device_for
 from ...models.service import Address
 from ...models.service.answering import refusal
-from ...models.service.listening import answer_all, listening_socket
-from ...models.service.process import load_answering
+from ...models.service.process import answer_all, listening_socket, load_answering
 from ...models.weights.sources import weights_at
 from .weights import SentWeights, arrived
 
@@ -45,13 +44,7 @@ class Asked:
 
 
 class Networks:
-    """The networks of one run on a cluster.
-
-    Args:
-        ray: connected.
-        asked: which network.
-        weights: checkpoints that nodes are sent.
-    """
+    """The networks of one run on a cluster."""
 
     def __init__(self, ray: Any, asked: Asked, weights: SentWeights) -> None:
         self._ray = ray

@@ -28,12 +28,7 @@ def say(sentence: str) -> None:
 
 
 class Nodes:
-    """The nodes of one run.
-
-    Args:
-        ray: connected.
-        say: told, once of each node, why it is set aside.
-    """
+    """The nodes of one run; ``say`` is told, once of each node, why it is set aside."""
 
     def __init__(self, ray: Any, say: Callable[[str], None] = say) -> None:
         self._ray = ray

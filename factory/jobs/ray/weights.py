@@ -43,12 +43,7 @@ class Checkpoints:
 
 
 def sent_weights(ray: Any, checkpoints: Checkpoints | None) -> SentWeights:
-    """Put checkpoints where nodes can fetch them.
-
-    Args:
-        ray: connected.
-        checkpoints: those that come with the package, and those that are not here, stay.
-    """
+    """Put checkpoints where nodes fetch them, but the package's own and those not here."""
     found: SentWeights = []
     for name in () if checkpoints is None else checkpoints.names:
         if name in ("", SHIPPED):

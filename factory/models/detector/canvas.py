@@ -23,6 +23,12 @@ STRIDE = 4
 #: Depths are kept in this share of a pixel; ``NOTHING`` where nothing is seen.
 DEPTH_STEPS = 32
 NOTHING = -1
+KINDS = (
+    "cabinet", "drawer_unit", "wardrobe", "fridge", "oven", "microwave", "dishwasher", "washer",
+    "chest", "case", "bin", "door", "window", "desk", "table", "shelf", "bed", "chair", "sofa",
+    "toilet", "mailbox", "safe", "lockers", "printer", "laptop", "screen", "lamp", "plant",
+    "kitchen", "box", "crate", "barrel", "still", "gadget",
+)  # fmt: skip
 
 
 class Sort(StrEnum):

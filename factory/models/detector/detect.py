@@ -14,9 +14,8 @@ from scipy.special import expit, softmax
 from ...articulation import Weights
 from ...mesh import FloatArray, IntArray, Mesh
 from ...runtime.store import digest_file
-from .canvas import look_at
+from .canvas import KINDS, look_at
 from .decode import Dense, Found, found_parts
-from .kinds import KINDS
 from .network import DenseAnswers, Detector, cues_of
 
 FILE = "detector.safetensors"
@@ -52,12 +51,7 @@ class Detection:
 
 
 def detect(mesh: Mesh, weights: Path = SHIPPED) -> Detection:
-    """Return the detections on a mesh, z up.
-
-    Args:
-        mesh: with at least one triangle.
-        weights: safetensors file; the shipped one by default.
-    """
+    """Return the detections on a mesh, z up, of at least one triangle."""
     network = _loaded(weights)
     canvases = look_at(mesh)
     with torch.no_grad():

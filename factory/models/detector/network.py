@@ -114,11 +114,7 @@ def closed(values: Tensor, size: int) -> Tensor:
 
 
 class Detector(nn.Module):  # type: ignore[misc]
-    """Reads five sides of an object at once.
-
-    Args:
-        kinds: how many kinds of object it tells apart.
-    """
+    """Reads five sides of an object at once, and tells so many kinds of object apart."""
 
     def __init__(self, kinds: int) -> None:
         super().__init__()

@@ -47,13 +47,7 @@ class SinusoidEmbedding(nn.Module):  # type: ignore[misc]
 
 
 class Attention(nn.Module):  # type: ignore[misc]
-    """Multi-head attention whose queries and keys are normalised per head.
-
-    Args:
-        width: of both sides.
-        heads: how many; divides ``width``.
-        dropout: of the result, in training.
-    """
+    """Multi-head attention, its queries and keys normalised per head; heads divide ``width``."""
 
     def __init__(self, width: int, heads: int, dropout: float) -> None:
         super().__init__()

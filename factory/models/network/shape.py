@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 from ...errors import ConfigError
 
@@ -76,9 +77,7 @@ SIZES = {
 def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShape:
     """Return the network that a checkpoint was saved from.
 
-    Args:
-        tensors: name to shape of every tensor.
-        max_parts: part queries, which no tensor tells.
+    ``tensors`` are shapes by name; none tells ``max_parts``, how many part queries there are.
 
     Raises:
         ConfigError: a tensor that every such network has is missing, or of an impossible shape.
@@ -86,9 +85,8 @@ def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShap
     hidden = _size(tensors, "pos_embed.mlp.2.weight", 0)
     head_width = _size(tensors, "blocks.0.attn1.norm_q.weight", 0)
     if not head_width or not hidden or hidden % head_width:
-        raise ConfigError(
-            f"blocks.0.attn1.norm_q.weight: {head_width} numbers do not divide the width {hidden}"
-        )
+        why = f"{head_width} numbers do not divide the width {hidden}"
+        raise ConfigError(f"blocks.0.attn1.norm_q.weight: {why}")
     numbers = {int(match[1]) for name in tensors if (match := _BLOCK.match(name))}
     has_features = "feat_proj.weight" in tensors
     shape = NetworkShape(
@@ -120,9 +118,8 @@ def check_tensors(tensors: Mapping[str, Shape], expected: Mapping[str, Shape], w
         if name not in tensors:
             raise ConfigError(f"{name}: missing; a {what} needs it ({len(tensors)} tensors found)")
         if tensors[name] != shape:
-            raise ConfigError(
-                f"{name}: shape {list(tensors[name])}, want {list(shape)} in this {what}"
-            )
+            want = f"want {list(shape)} in this {what}"
+            raise ConfigError(f"{name}: shape {list(tensors[name])}, {want}")
     extra = [name for name in tensors if name not in expected]
     if extra:
         raise ConfigError(f"{extra[0]}: no such tensor in a {what} ({len(extra)} unknown in all)")
@@ -136,12 +133,10 @@ def expected_tensors(shape: NetworkShape) -> dict[str, Shape]:
     if shape.features:
         tensors |= _linear("feat_proj", shape.features, wide)
     for name in ["pos_embed", "normal_embed"] if shape.normals else ["pos_embed"]:
-        tensors |= _linear(f"{name}.mlp.0", shape.embedding, wide) | _linear(
-            f"{name}.mlp.2", wide, wide
-        )
-    tensors |= _linear("part_id_embed.mlp.0", 2 * FREQUENCIES, wide) | _linear(
-        "part_id_embed.mlp.2", wide, wide
-    )
+        tensors |= _linear(f"{name}.mlp.0", shape.embedding, wide)
+        tensors |= _linear(f"{name}.mlp.2", wide, wide)
+    tensors |= _linear("part_id_embed.mlp.0", 2 * FREQUENCIES, wide)
+    tensors |= _linear("part_id_embed.mlp.2", wide, wide)
     for number in range(shape.blocks):
         tensors |= _block_tensors(f"blocks.{number}", shape)
     masks = [f"point_mask_decoder.{number}" for number in range(shape.hypotheses)]
@@ -189,10 +184,25 @@ def _head(name: str, inputs: int, middle: int, outputs: int) -> dict[str, Shape]
 
 def _size(tensors: Mapping[str, Shape], name: str, dimension: int) -> int:
     if name not in tensors:
-        raise ConfigError(
-            f"{name}: missing; this is no Part Articulation Transformer "
-            f"({len(tensors)} tensors found)"
-        )
+        why = f"this is no Part Articulation Transformer ({len(tensors)} tensors found)"
+        raise ConfigError(f"{name}: missing; {why}")
     if len(tensors[name]) <= dimension:
         raise ConfigError(f"{name}: shape {list(tensors[name])} has too few dimensions")
     return tensors[name][dimension]
+
+
+class Precision(StrEnum):
+    """Type of the products over points; norms, softmax, sums and part heads are float32 regardless.
+
+    Nothing here chooses by the machine: the same input shall give the same numbers on every one.
+    """
+
+    FLOAT32 = "float32"
+    BFLOAT16 = "bfloat16"
+
+
+def product_dtype(precision: Precision | str) -> Any:
+    """Return the torch type that ``precision`` means."""
+    import torch
+
+    return torch.bfloat16 if Precision(precision) is Precision.BFLOAT16 else torch.float32

@@ -52,9 +52,8 @@ class PointUpdate:
         dtype = self.to_query.dtype
         query = F.linear(_normed(points, self.norm_attention, dtype), self.to_query)
         query = query.view(len(points), heads, -1).float()
-        weights = torch.matmul(query.transpose(0, 1), self.keys).mul_(
-            _inverse_rms(query).T[:, :, None]
-        )
+        weights = torch.matmul(query.transpose(0, 1), self.keys)
+        weights.mul_(_inverse_rms(query).T[:, :, None])
         shares = weights.softmax(-1).transpose(0, 1).reshape(len(points), -1)
         _add_product(points, shares.to(dtype), self.answers)
         seen = _normed(points, self.norm_perceptron, dtype)
@@ -100,9 +99,8 @@ class QueryPass:
         heads, parts, width = self._seen.shape
         low = points.to(self._dtype)
         key = F.linear(low, self._to_key).view(len(points), heads, -1).float()
-        logits = torch.matmul(self._queries, key.permute(1, 2, 0)).mul_(
-            _inverse_rms(key).T[:, None]
-        )
+        logits = torch.matmul(self._queries, key.permute(1, 2, 0))
+        logits.mul_(_inverse_rms(key).T[:, None])
         largest = torch.maximum(self._largest, logits.amax(-1))
         shrink = (self._largest - largest).exp_()
         weights = logits.sub_(largest[..., None]).exp_()
@@ -160,11 +158,9 @@ def embed_chunks(
     device = network.pos_embed.mlp[0].weight.device
     hidden = torch.empty(len(points), network.shape.hidden, device=device)
     for rows in chunks(len(points), chunk):
-        given = [
-            None if each is None else torch.tensor(each[rows], device=device)
-            for each in (normals, features)
-        ]
-        hidden[rows] = network.embed(torch.tensor(points[rows], device=device), *given)
+        cloud = (points, normals, features)
+        given = [x if x is None else torch.tensor(x[rows], device=device) for x in cloud]
+        hidden[rows] = network.embed(*given)
     return hidden
 
 
@@ -211,7 +207,6 @@ class PairHead:
     """A head on pairs of a point and a query, for one cloud's queries.
 
     Args:
-        head: the perceptron.
         queries: shape [parts, width].
         dtype: of the product over points.
     """
@@ -285,13 +280,8 @@ def _normed(points: Tensor, norm: Any, dtype: Any) -> Tensor:
 
 def _inverse_rms(heads: Tensor) -> Tensor:
     """Map [n, heads, head_width] to [n, heads]."""
-    return (
-        torch.linalg.vector_norm(heads, dim=-1)
-        .square_()
-        .div_(heads.shape[-1])
-        .add_(RMS_EPS)
-        .rsqrt_()
-    )
+    squares = torch.linalg.vector_norm(heads, dim=-1).square_()
+    return squares.div_(heads.shape[-1]).add_(RMS_EPS).rsqrt_()
 
 
 def _add_product(points: Tensor, left: Tensor, right: Tensor) -> None:

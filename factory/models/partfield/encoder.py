@@ -1,4 +1,4 @@
-"""PartField's encoder: a cloud makes a field, and the field gives any point a feature."""
+"""PartField's encoder: by voxels a cloud makes a field, which gives any point a feature."""
 
 from __future__ import annotations
 
@@ -8,13 +8,192 @@ import torch  # noqa: TID253 - this module is only imported to make the encoder
 import torch.nn.functional as F  # noqa: N812, TID253
 from torch import nn  # noqa: TID253
 
-from .shape import PartFieldShape
-from .triplane import TriplaneTransformer
+from .shape import POINT_CHANNELS, PartFieldShape
 from .unet import PlaneUNet
-from .voxels import PLANES, PointVoxelConv, scatter_to_planes
 
 Tensor = Any
 _CHUNK = 8192
+_EPS = 1e-6
+#: Voxels along each edge of the cube, and the axes of the planes that they are seen on.
+GRID = 32
+PLANES = ((0, 1), (1, 2), (0, 2))
+_VOXEL_EPS = 1e-4
+_PLANE_MARGIN = 1e-5
+
+
+class SelfAttention(nn.Module):  # type: ignore[misc]
+    """Attention among all cells, without biases, with torch's names for its tensors.
+
+    Torch's own module multiplies a batch of one in a layout that takes bfloat16 element by element.
+    """
+
+    def __init__(self, width: int, heads: int) -> None:
+        super().__init__()
+        self.heads = heads
+        self.in_proj_weight = nn.Parameter(torch.zeros(3 * width, width))
+        self.out_proj = nn.Linear(width, width, bias=False)
+
+    def forward(self, tokens: Tensor) -> Tensor:
+        """Map [n, width] to the same."""
+        sides = F.linear(tokens, self.in_proj_weight).unflatten(1, (3, self.heads, -1))
+        sides = sides.permute(1, 2, 0, 3)
+        found = F.scaled_dot_product_attention(*sides[:, None].unbind(0))
+        return self.out_proj(found[0].transpose(0, 1).flatten(1))
+
+
+class Layer(nn.Module):  # type: ignore[misc]
+    """Attention among all cells and a perceptron, each on normalised tokens."""
+
+    def __init__(self, width: int, heads: int) -> None:
+        super().__init__()
+        self.norm1 = nn.LayerNorm(width, eps=_EPS)
+        self.norm2 = nn.LayerNorm(width, eps=_EPS)
+        self.self_attn = SelfAttention(width, heads)
+        # The third place is a dropout's, which has no tensors; it keeps the last layer's number.
+        self.mlp = nn.Sequential(
+            nn.Linear(width, 4 * width), nn.GELU(), nn.Identity(), nn.Linear(4 * width, width)
+        )
+
+    def forward(self, tokens: Tensor) -> Tensor:
+        """Map [n, width] to the same."""
+        tokens = tokens + self.self_attn(self.norm1(tokens))
+        return tokens + self.mlp(self.norm2(tokens))
+
+
+class Stack(nn.Module):  # type: ignore[misc]
+    """The layers and a last normalisation."""
+
+    def __init__(self, shape: PartFieldShape) -> None:
+        super().__init__()
+        self.layers = nn.ModuleList([Layer(shape.width, shape.heads) for _ in range(shape.layers)])
+        self.norm = nn.LayerNorm(shape.width, eps=_EPS)
+
+    def forward(self, tokens: Tensor) -> Tensor:
+        """Map [n, width] to the same."""
+        for layer in self.layers:
+            tokens = layer(tokens)
+        return self.norm(tokens)
+
+
+class TriplaneTransformer(nn.Module):  # type: ignore[misc]
+    """Planes four times coarser, through the transformer, upsampled and added to the input."""
+
+    def __init__(self, shape: PartFieldShape) -> None:
+        super().__init__()
+        wide = shape.width
+        planes = shape.plane_channels
+        self.shape = shape
+        self.pos_embed = nn.Parameter(torch.zeros(1, 3 * shape.coarse**2, wide))
+        self.downsampler = nn.Sequential(
+            nn.Conv2d(shape.channels, wide, 3, padding=1),
+            nn.ReLU(inplace=True),
+            nn.MaxPool2d(2),
+            nn.Conv2d(wide, wide, 3, padding=1),
+            nn.ReLU(inplace=True),
+            nn.MaxPool2d(2),
+        )
+        self.transformer = Stack(shape)
+        self.upsampler = nn.ConvTranspose2d(wide, planes, 4, stride=4)
+        self.mlp = nn.Sequential(
+            nn.Linear(shape.channels, planes), nn.ReLU(inplace=True), nn.Linear(planes, planes)
+        )
+
+    def forward(self, planes: Tensor) -> Tensor:
+        """Map [1, 3, channels, n, n] to [1, 3, plane_channels, n, n]."""
+        # One plane at a time: the first layer's result takes 67 MB per plane at the released size.
+        coarse = torch.cat([self.downsampler(plane) for plane in planes.unbind(1)])
+        tokens = coarse.flatten(2).transpose(1, 2).reshape(-1, self.shape.width)
+        tokens = self.transformer(tokens + self.pos_embed[0])
+        coarse = tokens.reshape(3, -1, self.shape.width).transpose(1, 2)
+        coarse = coarse.unflatten(2, (self.shape.coarse, -1))
+        cells = self.mlp(planes[0].permute(0, 2, 3, 1).contiguous()).permute(0, 3, 1, 2)
+        return (self.upsampler(coarse) + cells)[None]
+
+
+class PointFeatures(nn.Module):  # type: ignore[misc]
+    """A layer per point, normalised over the whole cloud."""
+
+    def __init__(self, channels: int) -> None:
+        super().__init__()
+        self.layers = nn.Sequential(
+            nn.Conv1d(POINT_CHANNELS, channels, 1), nn.InstanceNorm1d(channels), nn.ReLU()
+        )
+
+    def forward(self, inputs: Tensor) -> Tensor:
+        """Map [1, 8, n] to [1, channels, n]."""
+        return self.layers(inputs)
+
+
+class PointVoxelConv(nn.Module):  # type: ignore[misc]
+    """A point's own features, plus those around it in a 32^3 grid."""
+
+    def __init__(self, channels: int) -> None:
+        super().__init__()
+        self.voxel_layers = nn.Sequential(
+            nn.Conv3d(POINT_CHANNELS, channels, 3, padding=1),
+            nn.InstanceNorm3d(channels, eps=_VOXEL_EPS),
+            nn.LeakyReLU(0.1, inplace=True),
+            nn.Conv3d(channels, channels, 3, padding=1),
+            nn.InstanceNorm3d(channels, eps=_VOXEL_EPS),
+            nn.LeakyReLU(0.1, inplace=True),
+        )
+        self.point_features = PointFeatures(channels)
+
+    def forward(self, points: Tensor) -> Tensor:
+        """Return the features of points within [-1, 1]^3, shape [n, 3] to [1, channels, n]."""
+        inputs = torch.cat([points, 2.0 * points, torch.zeros_like(points[:, :2])], dim=1)
+        cells = ((points + 1.0) / 2.0 * GRID).clamp(0.0, GRID - 1.0)
+        volume = self.voxel_layers(voxelize(inputs, cells))
+        # The volume's axes are x, y, z, but the sampler reads coordinates as depth-last: so the
+        # release looks each point up with x and z exchanged, and its weights are trained to that.
+        places = ((2.0 * cells + 1.0) / GRID - 1.0)[None, :, None, None]
+        around = F.grid_sample(
+            volume, places, mode="bilinear", padding_mode="border", align_corners=False
+        )
+        return around[..., 0, 0] + self.point_features(inputs.T[None])
+
+
+def voxelize(inputs: Tensor, cells: Tensor) -> Tensor:
+    """Return the mean of the inputs in every voxel, zero where there are none.
+
+    Args:
+        inputs: shape [n, channels].
+        cells: in which voxel each lies, from 0 to 31, not yet rounded, shape [n, 3].
+
+    Returns:
+        [1, channels, 32, 32, 32], axes x, y, z.
+    """
+    x, y, z = cells.round().long().unbind(1)
+    means = scatter_mean(inputs, (x * GRID + y) * GRID + z, GRID**3)
+    return means.T.reshape(1, -1, GRID, GRID, GRID)
+
+
+def scatter_to_planes(points: Tensor, features: Tensor, resolution: int) -> Tensor:
+    """Return the mean feature in every cell of the planes xy, yz and xz, zero where there is none.
+
+    Args:
+        points: within [-1, 1]^3, shape [n, 3].
+        features: shape [n, channels].
+        resolution: cells along each side.
+
+    Returns:
+        [1, 3, channels, resolution, resolution]; rows follow a plane's second coordinate, columns
+        its first.
+    """
+    unit = (points / 2.0 / (1.0 + _PLANE_MARGIN) + 0.5).clamp(0.0, 1.0 - _PLANE_MARGIN)
+    cells = (resolution * unit).floor().long()
+    planes = [
+        scatter_mean(features, cells[:, first] + resolution * cells[:, second], resolution**2).T
+        for first, second in PLANES
+    ]
+    return torch.stack(planes).reshape(1, 3, -1, resolution, resolution)
+
+
+def scatter_mean(values: Tensor, index: Tensor, size: int) -> Tensor:
+    """Average the rows of each index, [n, channels] to [size, channels]; zero for none."""
+    sums = values.new_zeros(size, values.shape[1]).index_add_(0, index, values)
+    counts = torch.bincount(index, minlength=size).clamp(min=1)
+    return sums / counts[:, None]
 
 
 class PointEncoder(nn.Module):  # type: ignore[misc]
@@ -37,9 +216,8 @@ class PointsToPlanes(nn.Module):  # type: ignore[misc]
     def forward(self, points: Tensor) -> Tensor:
         """Map [n, 3] within [-1, 1]^3 to [1, 3, channels, resolution, resolution]."""
         features = self.pc_encoder.encoder[0](points)
-        return self.unet_encoder(
-            scatter_to_planes(points, features[0].T.to(points.dtype), self.resolution)
-        )
+        found = features[0].T.to(points.dtype)
+        return self.unet_encoder(scatter_to_planes(points, found, self.resolution))
 
 
 class PartFieldEncoder(nn.Module):  # type: ignore[misc]

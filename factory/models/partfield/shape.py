@@ -13,13 +13,8 @@ from ..network.shape import Shape, check_tensors
 POINT_CHANNELS = 8
 NORM_GROUPS = 32
 # Heads of the training losses and three layers whose result the release computes and throws away.
-UNUSED = (
-    "logit_scale",
-    "sdf_decoder.",
-    "pvcnn.pc_encoder.encoder.1.",
-    "pvcnn.pc_encoder.encoder.2.",
-    "pvcnn.pc_encoder.encoder.3.",
-)
+_LAYERS = tuple(f"pvcnn.pc_encoder.encoder.{number}." for number in (1, 2, 3))
+UNUSED = ("logit_scale", "sdf_decoder.", *_LAYERS)
 
 
 @dataclass(frozen=True)
@@ -63,24 +58,18 @@ def read_partfield_shape(
 ) -> PartFieldShape:
     """Return the encoder that a checkpoint was saved from.
 
-    Args:
-        tensors: name to shape of every tensor.
-        heads: of the transformer, which no tensor tells.
-        sdf_channels: of the planes, which no tensor tells.
+    ``tensors`` are shapes by name; none tells the transformer's ``heads`` and ``sdf_channels``.
 
     Raises:
         ConfigError: a tensor is missing, unknown, or of an impossible shape.
     """
     tokens, width = _dimensions(tensors, "triplane_transformer.pos_embed", 3)[1:]
     coarse = math.isqrt(tokens // 3)
+    place = "triplane_transformer.pos_embed"
     if tokens != 3 * coarse**2:
-        raise ConfigError(
-            f"triplane_transformer.pos_embed: {tokens} tokens are not three square planes"
-        )
+        raise ConfigError(f"{place}: {tokens} tokens are not three square planes")
     if width % heads:
-        raise ConfigError(
-            f"triplane_transformer.pos_embed: width {width} does not divide into {heads} heads"
-        )
+        raise ConfigError(f"{place}: width {width} does not divide into {heads} heads")
     levels: list[int] = []
     while (name := f"pvcnn.unet_encoder.down_convs.{len(levels)}.block.conv1.weight") in tensors:
         levels.append(_dimensions(tensors, name, 4)[0])
@@ -99,13 +88,10 @@ def read_partfield_shape(
     )
     if not levels or not layers or shape.features <= 0 or shape.resolution % 2 ** (len(levels) - 1):
         raise ConfigError(f"this is no PartField: it would be {shape}")
-    uneven = [
-        width for width in _normed_widths(shape) if not width or width % min(NORM_GROUPS, width)
-    ]
+    uneven = [wide for wide in _normed_widths(shape) if not wide or wide % min(NORM_GROUPS, wide)]
     if uneven:
-        raise ConfigError(
-            f"pvcnn.unet_encoder: {uneven[0]} channels do not divide into {NORM_GROUPS} groups"
-        )
+        why = f"{uneven[0]} channels do not divide into {NORM_GROUPS} groups"
+        raise ConfigError(f"pvcnn.unet_encoder: {why}")
     used = {name: size for name, size in tensors.items() if not name.startswith(UNUSED)}
     check_tensors(used, expected_tensors(shape), "PartField")
     return shape
@@ -128,19 +114,14 @@ def expected_tensors(shape: PartFieldShape) -> dict[str, Shape]:
         tensors |= _layer(f"{layer}.norm1", (wide,)) | _layer(f"{layer}.norm2", (wide,))
         tensors[f"{layer}.self_attn.in_proj_weight"] = (3 * wide, wide)
         tensors[f"{layer}.self_attn.out_proj.weight"] = (wide, wide)
-        tensors |= _layer(f"{layer}.mlp.0", (4 * wide, wide)) | _layer(
-            f"{layer}.mlp.3", (wide, 4 * wide)
-        )
+        tensors |= _layer(f"{layer}.mlp.0", (4 * wide, wide))
+        tensors |= _layer(f"{layer}.mlp.3", (wide, 4 * wide))
     tensors |= _layer(f"{at}.transformer.norm", (wide,))
-    tensors |= _layer(f"{at}.downsampler.0", (wide, channels, 3, 3)) | _layer(
-        f"{at}.downsampler.3", (wide, wide, 3, 3)
-    )
+    tensors |= _layer(f"{at}.downsampler.0", (wide, channels, 3, 3))
+    tensors |= _layer(f"{at}.downsampler.3", (wide, wide, 3, 3))
     tensors |= {f"{at}.upsampler.weight": (wide, planes, 4, 4), f"{at}.upsampler.bias": (planes,)}
-    return (
-        tensors
-        | _layer(f"{at}.mlp.0", (planes, channels))
-        | _layer(f"{at}.mlp.2", (planes, planes))
-    )
+    tensors |= _layer(f"{at}.mlp.0", (planes, channels))
+    return tensors | _layer(f"{at}.mlp.2", (planes, planes))
 
 
 def _normed_widths(shape: PartFieldShape) -> tuple[int, ...]:
@@ -157,11 +138,8 @@ def _unet_tensors(at: str, shape: PartFieldShape) -> dict[str, Shape]:
         joined = levels[-1 - step] + outer
         tensors |= _layer(f"{at}.up_convs.{step}.norm1", (joined,))
         tensors |= _res_tensors(f"{at}.up_convs.{step}.block", joined, outer)
-    return (
-        tensors
-        | _layer(f"{at}.norm_out", (levels[0],))
-        | _layer(f"{at}.conv_final", (shape.channels, levels[0], 1, 1))
-    )
+    tensors |= _layer(f"{at}.norm_out", (levels[0],))
+    return tensors | _layer(f"{at}.conv_final", (shape.channels, levels[0], 1, 1))
 
 
 def _res_tensors(at: str, inputs: int, outputs: int) -> dict[str, Shape]:
@@ -170,9 +148,9 @@ def _res_tensors(at: str, inputs: int, outputs: int) -> dict[str, Shape]:
     for plane in range(3):
         tensors |= _layer(f"{at}.conv_3daware.plane_convs.{plane}", (outputs, 3 * outputs, 1, 1))
     tensors |= _layer(f"{at}.conv2", (outputs, outputs, 3, 3))
-    return tensors | (
-        _layer(f"{at}.nin_shortcut", (outputs, inputs, 1, 1)) if inputs != outputs else {}
-    )
+    if inputs != outputs:
+        tensors |= _layer(f"{at}.nin_shortcut", (outputs, inputs, 1, 1))
+    return tensors
 
 
 def _layer(name: str, weight: Shape) -> dict[str, Shape]:

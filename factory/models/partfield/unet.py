@@ -90,7 +90,6 @@ class PlaneUNet(nn.Module):  # type: ignore[misc]
     """The U-Net; 3x3 convolutions see across the seams of the stacked planes, as in the release.
 
     Args:
-        channels: in and out.
         levels: channels per level, finest first.
     """
 

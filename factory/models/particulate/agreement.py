@@ -10,6 +10,7 @@ import numpy.typing as npt
 from ...mesh import FloatArray
 from .decoding import Decoded
 from .motion import PredictedMotion
+from .prediction import MotionClass
 
 
 @dataclass(frozen=True)
@@ -32,9 +33,7 @@ class Consensus:
 def consensus(readings: tuple[Decoded, ...], areas: npt.ArrayLike) -> Consensus:
     """Return the answer that agrees most with the others on average, the first of equals.
 
-    Args:
-        readings: of one mesh, at least one.
-        areas: of its faces, shape [face_count].
+    ``areas`` are those of the mesh's faces, shape [face_count].
     """
     if len(readings) == 1:
         return Consensus(readings[0], 1, None)
@@ -46,11 +45,8 @@ def consensus(readings: tuple[Decoded, ...], areas: npt.ArrayLike) -> Consensus:
         )
         for i, one in enumerate(readings)
     ]
-    best = int(
-        np.argmax(
-            [_weighted(one, each, weights) for one, each in zip(readings, support, strict=True)]
-        )
-    )
+    pairs = zip(readings, support, strict=True)
+    best = int(np.argmax([_weighted(one, each, weights) for one, each in pairs]))
     return Consensus(readings[best], len(readings), tuple(float(x) for x in support[best]))
 
 
@@ -67,13 +63,9 @@ def part_agreement(one: Decoded, other: Decoded, areas: FloatArray) -> FloatArra
     shared = np.bincount(key, weights=areas, minlength=rows * columns).reshape(rows, columns)
     covered = shared.sum(axis=1)[:, None] + shared.sum(axis=0)[None, :] - shared
     overlap = shared / np.where(covered > 0.0, covered, 1.0)
-    alike = np.array(
-        [
-            [_alike(_effective(one, i), _effective(other, j)) for j in range(columns)]
-            for i in range(rows)
-        ]
-    )
-    score = overlap * alike
+    theirs = [_effective(other, part) for part in range(columns)]
+    alike = [[_alike(_effective(one, part), each) for each in theirs] for part in range(rows)]
+    score = overlap * np.array(alike)
     matched = np.zeros(rows)
     for i, j in zip(*linear_sum_assignment(-score), strict=True):
         matched[i] = score[i, j]
@@ -88,11 +80,8 @@ def _effective(reading: Decoded, part: int) -> PredictedMotion | None:
 def _alike(one: PredictedMotion | None, other: PredictedMotion | None) -> float:
     """Return 1 for the same class and parallel axes, 0 for perpendicular ones or others."""
     if one is None or other is None or one.kind != other.kind:
-        still = all(
-            motion is None or not (motion.kind.turns or motion.kind.slides)
-            for motion in (one, other)
-        )
-        return 1.0 if still else 0.0
+        moving = (each is not None and each.kind is not MotionClass.FIXED for each in (one, other))
+        return 0.0 if any(moving) else 1.0
     likeness = 1.0
     if one.axis is not None and other.axis is not None:
         likeness *= abs(float(one.axis.direction @ other.axis.direction))
@@ -104,7 +93,5 @@ def _alike(one: PredictedMotion | None, other: PredictedMotion | None) -> float:
 def _weighted(reading: Decoded, support: FloatArray, areas: FloatArray) -> float:
     """Return half the mean support of parts, and half that of bits of surface."""
     share = np.bincount(reading.face_part, weights=areas, minlength=len(reading.parts))
-    return float(
-        (support.mean() + support @ share / max(float(share.sum()), np.finfo(np.float64).tiny))
-        / 2.0
-    )
+    whole = max(float(share.sum()), np.finfo(np.float64).tiny)
+    return float((support.mean() + support @ share / whole) / 2.0)

@@ -6,14 +6,12 @@ from dataclasses import dataclass, fields
 from enum import StrEnum
 
 import numpy as np
+import numpy.typing as npt
 
-from ...errors import InputRejected
-from ...mesh import IntArray, read_only
-from .arborescence import Edge, induced, spanning_arborescence
-from .confidence import assigned
+from ...mesh import FloatArray, IntArray, read_only
 from .frames import UnitBox
 from .labels import Refinement, refined, voted, with_gaps_filled
-from .motion import PredictedMotion, read_motion
+from .motion import PredictedMotion, read_motion, require_finite_numbers
 from .prediction import Prediction
 from .proxy import Proxy, carried_back
 from .sampling import CloudSample
@@ -36,7 +34,7 @@ class DecodeRules:
     """How an answer is read.
 
     Attributes:
-        least_confidence: parts below it are dissolved, see :func:`~.confidence.assigned`.
+        least_confidence: parts below it are dissolved, see :func:`assigned`.
         refinement: see :class:`~.labels.Refinement`.
         fused_share: see :func:`~.labels.fused_components`.
         tree: see :class:`TreeOver`.
@@ -118,14 +116,13 @@ def decode(
     owners, face_part = np.unique(labels, return_inverse=True)
     tree = _tree(prediction, owners, points.present, rules.tree)
     row = {int(query): index for index, query in enumerate(owners)}
-    above = {child: parent for parent, child in tree}
+    logits = prediction.hierarchy_logits
+    held = {child: _sigmoid(logits[parent, child]) for parent, child in tree}
     parts = tuple(
         DecodedPart(
             query=query,
             confidence=float(points.confidence[query]),
-            parent_probability=_sigmoid(prediction.hierarchy_logits[above[query], query])
-            if query in above
-            else None,
+            parent_probability=held.get(query),
             motion=read_motion(prediction, query, points.parts),
         )
         for query in row
@@ -147,16 +144,8 @@ def require_finite(prediction: Prediction) -> None:
     """
     for each in fields(prediction):
         value = getattr(prediction, each.name)
-        if isinstance(value, np.ndarray) and not np.isfinite(value).all():
-            bad = int((~np.isfinite(value)).sum())
-            raise InputRejected(
-                "prediction_not_finite",
-                f"{bad} of {value.size} numbers in the network's {each.name} are not finite; "
-                "check its weights",
-                value=float(bad),
-                unit="numbers",
-                limit=0.0,
-            )
+        if isinstance(value, np.ndarray):
+            require_finite_numbers(value, each.name)
 
 
 def _tree(
@@ -165,11 +154,8 @@ def _tree(
     """Return one tree over the parts with faces; recomputed where the predicted root has none."""
     competing = present if over is TreeOver.PRESENT else np.arange(prediction.part_count)
     tree = induced(spanning_arborescence(prediction.hierarchy_logits, competing), owners)
-    return (
-        tree
-        if len(tree) == len(owners) - 1
-        else spanning_arborescence(prediction.hierarchy_logits, owners)
-    )
+    whole = len(tree) == len(owners) - 1
+    return tree if whole else spanning_arborescence(prediction.hierarchy_logits, owners)
 
 
 def _sigmoid(logit: float) -> float:
@@ -190,3 +176,100 @@ def _notes(lost: int, fused: int, proxy: Proxy, surface: Surface) -> tuple[str, 
         what = "1 connected surface holds" if fused == 1 else f"{fused} connected surfaces hold"
         notes.append(f"{what} more than one part: cut along the predicted borders")
     return tuple(notes)
+
+
+Edge = tuple[int, int]
+
+
+def spanning_arborescence(logits: npt.ArrayLike, parts: IntArray) -> tuple[Edge, ...]:
+    """Return the edges (parent, child) of the tree with most ``log sigmoid(logit)``, by child.
+
+    Edmonds' algorithm over all pairs; every part may be the root, and the best one is.
+
+    Args:
+        logits: ``logits[i, j]``: that ``i`` is the parent of ``j``; finite, shape [n, n]. The
+            diagonal is not read.
+        parts: distinct indices; none or one give no edges.
+    """
+    import networkx as nx
+
+    if len(parts) < 2:
+        return ()
+    weights = -np.logaddexp(0.0, -np.asarray(logits, dtype=np.float64))
+    graph = nx.DiGraph()
+    graph.add_nodes_from(int(part) for part in parts)
+    graph.add_weighted_edges_from(
+        (int(i), int(j), float(weights[i, j])) for i in parts for j in parts if i != j
+    )
+    tree = nx.maximum_spanning_arborescence(graph)
+    return tuple(sorted(((int(i), int(j)) for i, j in tree.edges), key=lambda edge: edge[1]))
+
+
+def induced(edges: tuple[Edge, ...], parts: IntArray) -> tuple[Edge, ...]:
+    """Return the tree's edges among ``parts``, by child; orphans go to the nearest kept ancestor.
+
+    Where the root is lost this may be several trees.
+    """
+    alive = {int(part) for part in parts}
+    parent = {child: above for above, child in edges}
+    found: dict[int, int] = {}
+    for part in sorted(alive):
+        above = parent.get(part)
+        while above is not None and above not in alive:
+            above = parent.get(above)
+        if above is not None:
+            found[part] = above
+    return tuple((above, part) for part, above in sorted(found.items()))
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """Points by part.
+
+    Attributes:
+        parts: of each point, shape [point_count].
+        confidence: of each part, 0 to 1: the geometric mean over its points of the probability that
+            they belong to it, among the parts that there are; 0 for parts without points, shape
+            [part_count].
+    """
+
+    parts: IntArray
+    confidence: FloatArray
+
+    @property
+    def present(self) -> IntArray:
+        """Return the parts with at least one point, ascending."""
+        return np.unique(self.parts)
+
+
+def assigned(mask_logits: npt.ArrayLike, least_confidence: float = 0.0) -> Assignment:
+    """Give every point to its likeliest part; unsure parts dissolve, least confident first.
+
+    A dissolved part's points go to their next likeliest parts and all confidences are computed anew
+    before the next one is judged. The last part always stays.
+
+    Args:
+        mask_logits: finite, shape [point_count, part_count], at least one of each.
+        least_confidence: 0 keeps all.
+    """
+    logits = np.array(mask_logits, dtype=np.float64)
+    parts = logits.argmax(axis=1)
+    while True:
+        present = np.unique(parts)
+        confidence = _confidence(logits, parts, present)
+        doubtful = present[confidence[present].argmin()]
+        if len(present) == 1 or confidence[doubtful] >= least_confidence:
+            return Assignment(parts.astype(np.int64), confidence)
+        left = present[present != doubtful]
+        homeless = parts == doubtful
+        parts[homeless] = left[logits[np.ix_(homeless, left)].argmax(axis=1)]
+
+
+def _confidence(logits: FloatArray, parts: IntArray, present: IntArray) -> FloatArray:
+    among = logits[:, present]
+    highest = among.max(axis=1)
+    own = logits[np.arange(len(parts)), parts]
+    logarithm = own - highest - np.log(np.exp(among - highest[:, None]).sum(axis=1))
+    count = np.bincount(parts, minlength=logits.shape[1])
+    total = np.bincount(parts, weights=logarithm, minlength=logits.shape[1])
+    return np.asarray(np.where(count > 0, np.exp(total / np.maximum(count, 1)), 0.0))

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...mesh import Float32Array
-from ..network.precision import Precision, product_dtype
+from ..network.shape import Precision, product_dtype
 from ..partfield.shape import UNUSED, PartFieldShape, read_partfield_shape
 from ..weights.checkpoint import filled, load_tensors, naming, open_checkpoint
 from ..weights.sources import fetch
@@ -75,11 +75,8 @@ def load_field(
 ) -> FeatureField:
     """Return PartField's encoder. The published weights are for non-commercial use only.
 
-    Args:
-        checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.
-        precision: of the products.
-        device: as torch names it.
-        heads: of its transformer, which no tensor tells; the published weights have 8.
+    ``checkpoint`` is a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``. No
+    tensor tells how many heads its transformer has; the published weights have 8.
 
     Raises:
         ConfigError: no such checkpoint, or not one of this network.

@@ -25,9 +25,7 @@ class Network(Protocol):
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
         """Return the answer for one cloud, all in the network's frame.
 
-        Args:
-            cloud: to label.
-            context: more of the same surface, from which features are computed.
+        ``cloud`` is to label; features are computed from ``context``, more of the same surface.
         """
         ...
 
@@ -63,23 +61,16 @@ def infer(
         ValueError: there must be at least one point and one sample.
     """
     if points < 1 or context_points < 1 or most_faces < 4 or not 1 <= samples <= MOST_SAMPLES:
-        raise ValueError(
-            f"{points} points, {context_points} context points, {most_faces} faces, "
-            f"{samples} samples: "
-            f"want at least 1, 1, 4 and 1, and at most {MOST_SAMPLES} samples"
-        )
+        asked = f"{points} points, {context_points} context points, {most_faces} faces, "
+        want = f"want at least 1, 1, 4 and 1, and at most {MOST_SAMPLES} samples"
+        raise ValueError(f"{asked}{samples} samples: {want}")
     surface = _surface(vertices, faces)
     proxy = proxy_of(surface, most_faces)
 
     def readings() -> Iterator[Decoded]:
         for number in range(samples):
-            seen = sample(
-                proxy.surface,
-                points,
-                context_points,
-                most_faces,
-                np.random.default_rng((seed, number)),
-            )
+            rng = np.random.default_rng((seed, number))
+            seen = sample(proxy.surface, points, context_points, most_faces, rng)
             answer = network(seen.cloud.inside(seen.box), seen.context.inside(seen.box))
             yield decode(surface, proxy, seen, answer, rules)
 
@@ -88,10 +79,6 @@ def infer(
 
 def _surface(vertices: FloatArray, faces: IntArray) -> Surface:
     if not len(faces):
-        raise InputRejected(
-            "empty",
-            "the mesh has no faces; want a surface, no point cloud",
-            value=0.0,
-            unit="faces",
-        )
+        why = "the mesh has no faces; want a surface, no point cloud"
+        raise InputRejected("empty", why, value=0.0, unit="faces")
     return Surface.of(vertices, faces)

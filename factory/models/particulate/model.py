@@ -9,8 +9,7 @@ import numpy as np
 
 from ...errors import ConfigError
 from ...mesh import Float32Array, IntArray
-from ..network.precision import Precision, product_dtype
-from ..network.shape import NetworkShape, read_shape
+from ..network.shape import NetworkShape, Precision, product_dtype, read_shape
 from ..weights.checkpoint import filled, load_tensors, naming, open_checkpoint
 from ..weights.sources import PARTFIELD, fetch
 from .components import COMPONENT_FEATURES, component_features
@@ -47,19 +46,14 @@ class PointCloud:
             array = np.asarray(value, dtype=np.float32)
             wide = array.shape[-1] if name == "features" and array.ndim == 2 else 3
             if array.shape != (len(self.points), wide) or not len(array):
-                raise ValueError(
-                    f"{name}: shape {array.shape}, "
-                    f"want [{len(self.points)}, {wide}] with some points"
-                )
+                want = f"want [{len(self.points)}, {wide}] with some points"
+                raise ValueError(f"{name}: shape {array.shape}, {want}")
             object.__setattr__(self, name, array)
 
     def take(self, rows: IntArray) -> PointCloud:
         """Return some of the points."""
-        return PointCloud(
-            self.points[rows],
-            self.normals[rows],
-            None if self.features is None else self.features[rows],
-        )
+        features = None if self.features is None else self.features[rows]
+        return PointCloud(self.points[rows], self.normals[rows], features)
 
 
 @dataclass(frozen=True)
@@ -121,14 +115,11 @@ class Model:
         given = cloud.features
         if wanted and (given is None or given.shape[1] != wanted):
             have = "none are given" if given is None else f"{given.shape[1]} are given"
-            raise ConfigError(
-                f"this network wants {wanted} features per point, and {have}; "
-                f"{PARTFIELD.source} has them"
-            )
+            have = f"{have}; {PARTFIELD.source} has them"
+            raise ConfigError(f"this network wants {wanted} features per point, and {have}")
         features = cloud.features if wanted else None
-        return embed_chunks(
-            self._network, cloud.points, cloud.normals if self.shape.normals else None, features
-        )
+        normals = cloud.normals if self.shape.normals else None
+        return embed_chunks(self._network, cloud.points, normals, features)
 
     def _read(
         self, driven: Driven, hidden: Any, updates: tuple[Any, ...], hypothesis: int
@@ -145,9 +136,8 @@ class Model:
         moment = parts.pop("revolute_moment")
         closest = None
         if moment is None:
-            closest = _Closest(
-                hidden, PairHead(self._network.point_motion_decoder, driven.queries, self.dtype)
-            )
+            head = PairHead(self._network.point_motion_decoder, driven.queries, self.dtype)
+            closest = _Closest(hidden, head)
         return Prediction(
             mask_logits=mask_logits, closest_points=closest, revolute_moment=moment, **parts
         )
@@ -179,9 +169,8 @@ class _Closest:
         if np.shape(part_ids) != (len(self.hidden),):
             raise ValueError(f"part_ids: shape {np.shape(part_ids)}, want [{len(self.hidden)}]")
         picked = np.arange(len(self.hidden)) if rows is None else np.asarray(rows, dtype=np.int64)
-        found: Float32Array = own_parts(
-            self.hidden, self.head, np.asarray(part_ids, dtype=np.int64), picked
-        )
+        ids = np.asarray(part_ids, dtype=np.int64)
+        found: Float32Array = own_parts(self.hidden, self.head, ids, picked)
         return found
 
 
@@ -204,36 +193,25 @@ class Particulate:
         wanted = self.model.shape.features
         given = 0 if self.field is None else self.field.shape.features
         if wanted and wanted != given and not (self.field is None and wanted == COMPONENT_FEATURES):
-            raise ConfigError(
-                f"this network wants {wanted} features per point and gets {given}: "
-                f"load the weights of {PARTFIELD.network} beside it, "
-                f"{PARTFIELD.source}. {PARTFIELD.terms}"
-            )
+            wants = f"this network wants {wanted} features per point and gets {given}"
+            advice = f"load the weights of {PARTFIELD.network} beside it, {PARTFIELD.source}"
+            raise ConfigError(f"{wants}: {advice}. {PARTFIELD.terms}")
 
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
-        """Return the answer for one cloud, all in the network's frame.
-
-        Args:
-            cloud: to label.
-            context: more of the same surface, from which features are computed.
-        """
+        """Return the answer for one cloud, see :class:`.inference.Network`."""
         points = np.asarray(cloud.points, np.float32)
         normals = np.asarray(cloud.normals, np.float32)
-        return self.model.predict(
-            PointCloud(points, normals, self._features(cloud, context)), driving=self.driving
-        )
+        shown = PointCloud(points, normals, self._features(cloud, context))
+        return self.model.predict(shown, driving=self.driving)
 
     def _features(self, cloud: Cloud, context: Cloud) -> Float32Array | None:
         if not self.model.shape.features:
             return None
         if self.field is not None:
             return self.field.features(context.points, cloud.points)
-        both = [
-            np.concatenate([getattr(c, name) for c in (cloud, context)])
-            for name in ("points", "normals")
-        ]
-        components = np.concatenate([cloud.components, context.components])
-        return component_features(both[0], both[1], components)[: len(cloud.points)]
+        names = ("points", "normals", "components")
+        both = (np.concatenate([getattr(c, name) for c in (cloud, context)]) for name in names)
+        return component_features(*both)[: len(cloud.points)]
 
 
 def load_model(
@@ -245,11 +223,8 @@ def load_model(
 ) -> Model:
     """Return a Part Articulation Transformer from a checkpoint; its tensors tell sizes and variant.
 
-    Args:
-        checkpoint: a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``.
-        precision: of the products over points.
-        device: as torch names it.
-        max_parts: part queries, which no tensor tells; the published weights have 16.
+    ``checkpoint`` is a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``. No
+    tensor tells how many part queries there are; the published weights have 16.
 
     Raises:
         ConfigError: no such checkpoint, or not one of this network.

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.special import softmax
 
 from ...errors import InputRejected
 from ...mesh import FloatArray, IntArray
@@ -69,7 +71,7 @@ def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Predic
         part_ids: the part of every point, shape [point_count]; its points vote for the place of its
             axis.
     """
-    probabilities = _probabilities(prediction.motion_logits[part])
+    probabilities = softmax(np.asarray(prediction.motion_logits[part], dtype=np.float64))
     kind = MotionClass(int(probabilities.argmax()))
     runner_up, best = np.sort(probabilities)[-2:]
     axis = _axis(prediction, part, part_ids) if kind.turns else None
@@ -84,10 +86,9 @@ def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Predic
         turn_limits = holding_zero(prediction.revolute_range[part], "rad", notes)
     if slide is not None:
         slide_limits = holding_zero(prediction.prismatic_range[part], "of the longest side", notes)
-    possible = MotionClass(
-        (MotionClass.REVOLUTE if axis is not None else 0)
-        | (MotionClass.PRISMATIC if slide is not None else 0)
-    )
+    turns = MotionClass.REVOLUTE if axis is not None else MotionClass.FIXED
+    slides = MotionClass.PRISMATIC if slide is not None else MotionClass.FIXED
+    possible = MotionClass(turns | slides)
     return PredictedMotion(
         possible,
         float(best - runner_up),
@@ -125,12 +126,6 @@ def holding_zero(limits: npt.ArrayLike, measure: str, notes: list[str]) -> tuple
     return low, high
 
 
-def _probabilities(logits: npt.ArrayLike) -> FloatArray:
-    values = np.asarray(logits, dtype=np.float64)
-    weights = np.exp(values - values.max())
-    return np.asarray(weights / weights.sum())
-
-
 def _axis(prediction: Prediction, part: int, part_ids: IntArray) -> Line | None:
     direction = unit(prediction.revolute_direction[part])
     if direction is None:
@@ -153,17 +148,22 @@ def votes_for(prediction: Prediction, part: int, part_ids: IntArray) -> FloatArr
     votes = np.asarray(
         prediction.closest_points(part_ids, np.flatnonzero(part_ids == part)), dtype=np.float64
     )
-    if not np.isfinite(votes).all():
-        bad = float((~np.isfinite(votes)).sum())
+    require_finite_numbers(votes, "votes for an axis")
+    return votes
+
+
+def require_finite_numbers(values: npt.NDArray[np.floating[Any]], what: str) -> None:
+    """Raise InputRejected, ``prediction_not_finite``, where a network said NaN or infinity."""
+    bad = int((~np.isfinite(values)).sum())
+    if bad:
+        message = f"{bad} of {values.size} numbers in the network's {what} are not finite"
         raise InputRejected(
             "prediction_not_finite",
-            f"{bad:.0f} of {votes.size} numbers in the network's votes for an axis are not finite; "
-            "check its weights",
-            value=bad,
+            f"{message}; check its weights",
+            value=float(bad),
             unit="numbers",
             limit=0.0,
         )
-    return votes
 
 
 def _voted(votes: FloatArray, direction: FloatArray) -> Line:

@@ -49,12 +49,8 @@ def proxy_of(surface: Surface, most_faces: int) -> Proxy:
     corners = kept[surface.faces]
     corners = corners[has_three_corners(corners)]
     used = np.unique(corners)
-    if (
-        not len(fewer)
-        or len(corners) != len(fewer)
-        or len(used) != len(points)
-        or not np.isfinite(points).all()
-    ):
+    same = len(corners) == len(fewer) > 0 and len(used) == len(points)
+    if not (same and np.isfinite(points).all()):
         return Proxy(surface)
     vertex = np.searchsorted(used, kept)
     vertex = np.where(used[np.minimum(vertex, len(used) - 1)] == kept, vertex, -1)
@@ -94,9 +90,8 @@ def carried_back(proxy: Proxy, labels: IntArray, faces: IntArray) -> IntArray:
         corners = proxy.vertex[faces[begin : begin + CHUNK]]
         weight = around[corners[:, 0]] + around[corners[:, 1]] + around[corners[:, 2]]
         best = weight.argmax(axis=1)
-        carried[begin : begin + CHUNK] = np.where(
-            weight[np.arange(len(best)), best] > 0.0, best, -1
-        )
+        said = weight[np.arange(len(best)), best] > 0.0
+        carried[begin : begin + CHUNK] = np.where(said, best, -1)
     return carried
 
 

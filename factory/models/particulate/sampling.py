@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from ...errors import InputRejected
 from ...mesh import FloatArray, IntArray
 from .frames import UnitBox
-from .sharp import SharpEdges, sharp_edges
 from .surface import BoolArray, Surface
 
 SHARP_SHARE = 0.5
+LEAST_FOLD = np.deg2rad(30.0)
+MOST_FOLD = np.deg2rad(150.0)
+"""Angle between two faces' normals at a sharp edge [rad]: lower and upper end.
+
+The paper names only the lower end; the released network saw nothing above the upper one, which
+also leaves out the two sides of a sheet and neighbours wound against one another."""
+MOST_FACES_COMPARED = 8
+"""Of the faces along one edge, so a thousand sheets on one edge do not make a million pairs."""
 
 
 @dataclass(frozen=True)
@@ -97,11 +104,8 @@ def draw(
     """
     solid = np.flatnonzero(surface.areas > 0.0)
     if not len(solid):
-        raise InputRejected(
-            "zero_size",
-            f"none of {len(surface.faces)} faces has an area, so there is nothing to see",
-            value=0.0,
-        )
+        why = f"none of {len(surface.faces)} faces has an area, so there is nothing to see"
+        raise InputRejected("zero_size", why, value=0.0)
     sharp_count = int(SHARP_SHARE * count) if len(folds.edges) else 0
     on_edges = _on_edges(surface, folds, sharp_count, rng)
     covered = rng.permutation(_largest(surface.areas, solid, most_covered))
@@ -115,9 +119,8 @@ def _on_edges(surface: Surface, folds: SharpEdges, count: int, rng: np.random.Ge
     ends = surface.vertices[surface.edges.ends[edges]]
     along = rng.random(len(edges))[:, None]
     # Any of the faces there, also in the half that decides where labels go.
-    face = surface.edges.first[edges] + (
-        rng.random(len(edges)) * surface.edges.counts[edges]
-    ).astype(np.int64)
+    any_of = rng.random(len(edges)) * surface.edges.counts[edges]
+    face = surface.edges.first[edges] + any_of.astype(np.int64)
     return Cloud(
         points=ends[:, 0] * (1.0 - along) + ends[:, 1] * along,
         normals=folds.normals[chosen],
@@ -156,10 +159,50 @@ def _weighted(weights: FloatArray, count: int, rng: np.random.Generator) -> IntA
 
 
 def _joined(one: Cloud, other: Cloud) -> Cloud:
-    return Cloud(
-        points=np.concatenate([one.points, other.points]),
-        normals=np.concatenate([one.normals, other.normals]),
-        faces=np.concatenate([one.faces, other.faces]),
-        sharp=np.concatenate([one.sharp, other.sharp]),
-        components=np.concatenate([one.components, other.components]),
+    names = [each.name for each in fields(Cloud)]
+    return Cloud(*(np.concatenate([getattr(c, name) for c in (one, other)]) for name in names))
+
+
+@dataclass(frozen=True)
+class SharpEdges:
+    """Where a surface folds.
+
+    Attributes:
+        edges: indices into the surface's edges, shape [sharp_count].
+        normals: mean of two unit face normals there, *not* normalised, as the network knows it,
+            shape [sharp_count, 3].
+        lengths: [length units], shape [sharp_count].
+    """
+
+    edges: IntArray
+    normals: FloatArray
+    lengths: FloatArray
+
+
+def sharp_edges(surface: Surface) -> SharpEdges:
+    """Return the edges where some two faces fold by more than 30 and less than 150 degrees."""
+    edges = surface.edges
+    chosen = np.full(len(edges.ends), -1)
+    other = np.full(len(edges.ends), -1)
+    counts = edges.counts
+    for i in range(min(int(counts.max(initial=0)), MOST_FACES_COMPARED) - 1):
+        for j in range(i + 1, min(int(counts.max()), MOST_FACES_COMPARED)):
+            open_ = np.flatnonzero((counts > j) & (chosen < 0))
+            one = edges.faces[edges.first[open_] + i]
+            two = edges.faces[edges.first[open_] + j]
+            folds = _folds(surface, one, two)
+            chosen[open_[folds]] = one[folds]
+            other[open_[folds]] = two[folds]
+    sharp = np.flatnonzero(chosen >= 0)
+    ends = surface.vertices[edges.ends[sharp]]
+    return SharpEdges(
+        edges=sharp,
+        normals=(surface.normals[chosen[sharp]] + surface.normals[other[sharp]]) / 2.0,
+        lengths=np.asarray(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)),
     )
+
+
+def _folds(surface: Surface, one: IntArray, two: IntArray) -> IntArray:
+    cosine = np.einsum("ij,ij->i", surface.normals[one], surface.normals[two])
+    solid = (surface.areas[one] > 0.0) & (surface.areas[two] > 0.0)
+    return np.flatnonzero(solid & (np.cos(MOST_FOLD) < cosine) & (cosine < np.cos(LEAST_FOLD)))

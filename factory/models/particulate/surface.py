@@ -67,15 +67,13 @@ class Surface:
         """Return the surface of any triangles; each face keeps its index and its exact corners."""
         used = vertices[np.unique(faces)] if len(faces) else np.zeros((1, 3))
         low = used.min(axis=0)
-        step = WELD_SHARE * max(
-            float((used.max(axis=0) - low).max()), np.finfo(np.float64).tiny / WELD_SHARE
-        )
-        cells = np.rint((np.clip(vertices, low, used.max(axis=0)) - low) / step).astype(np.int64)
+        high = used.max(axis=0)
+        step = WELD_SHARE * max(float((high - low).max()), np.finfo(np.float64).tiny / WELD_SHARE)
+        cells = np.rint((np.clip(vertices, low, high) - low) / step).astype(np.int64)
         # A coordinate has at most 1e8 steps, 27 bits: two of them fit one sort key.
         order = np.lexsort((cells[:, 2], (cells[:, 0] << 28) | cells[:, 1]))
-        new = np.concatenate([[True], (np.diff(cells[order], axis=0) != 0).any(axis=1)])[
-            : len(order)
-        ]
+        differs = (np.diff(cells[order], axis=0) != 0).any(axis=1)
+        new = np.concatenate([[True], differs])[: len(order)]
         group = np.empty(len(vertices), dtype=np.int64)
         group[order] = np.cumsum(new) - 1
         return cls(vertices[order[new]], group[faces])
@@ -98,9 +96,8 @@ class Surface:
     def normals(self) -> FloatArray:
         """Return the unit normals, zero for faces without area, shape [face_count, 3]."""
         solid = self.areas > 0.0
-        return np.asarray(
-            self.crosses * np.where(solid, 0.5 / np.where(solid, self.areas, 1.0), 0.0)[:, None]
-        )
+        scale = np.where(solid, 0.5 / np.where(solid, self.areas, 1.0), 0.0)
+        return np.asarray(self.crosses * scale[:, None])
 
     @cached_property
     def edges(self) -> Edges:
@@ -122,9 +119,8 @@ class Surface:
         twins = np.stack([original, proper], axis=1)[original != proper]
         edges = _edges(self.faces, np.sort(proper[first]))
         begin = edges.first[:-1][edges.counts == 2]
-        return np.concatenate(
-            [np.stack([edges.faces[begin], edges.faces[begin + 1]], axis=1), twins]
-        )
+        pairs = np.stack([edges.faces[begin], edges.faces[begin + 1]], axis=1)
+        return np.concatenate([pairs, twins])
 
     @cached_property
     def components(self) -> IntArray:
@@ -169,10 +165,7 @@ def _edges(faces: IntArray, chosen: IntArray) -> Edges:
 
 def has_three_corners(faces: IntArray) -> BoolArray:
     """Return whether a face's corners are different vertices, shape [face_count]."""
-    return np.asarray(
-        (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0]),
-        dtype=np.bool_,
-    )
+    return np.asarray((faces != np.roll(faces, 1, axis=1)).all(axis=1), dtype=np.bool_)
 
 
 def _squared(vectors: FloatArray) -> FloatArray:

@@ -57,12 +57,9 @@ class Answering:
         texts = {}
         if prediction.closest_points is not None:
             texts["token"] = self._hold(prediction.closest_points)
-        arrays = {
-            each.name: value
-            for each in fields(Prediction)
-            if each.name != "closest_points"
-            and (value := getattr(prediction, each.name)) is not None
-        }
+        told = {each.name: getattr(prediction, each.name) for each in fields(Prediction)}
+        del told["closest_points"]
+        arrays = {name: values for name, values in told.items() if values is not None}
         return Message("prediction", texts, arrays)
 
     def _closest(self, asked: Message) -> Message:
@@ -70,9 +67,8 @@ class Answering:
             closest = self._held.get(asked.texts["token"])
         if closest is None:
             raise WireError("that answer is not held any more")
-        return Message(
-            "points", {}, {"points": closest(asked.arrays["part_ids"], asked.arrays["rows"])}
-        )
+        points = closest(asked.arrays["part_ids"], asked.arrays["rows"])
+        return Message("points", {}, {"points": points})
 
     def _hold(self, closest: ClosestPoints) -> str:
         with self._holding:
@@ -92,17 +88,11 @@ def _cloud(asked: Message, name: str) -> Cloud:
     """Return what a network looks at of a cloud; which faces its points lie on is nothing to it."""
     points = asked.arrays[f"{name}.points"]
     components = asked.arrays[f"{name}.components"]
+    normals = asked.arrays[f"{name}.normals"]
     nowhere = np.zeros(len(points), dtype=np.int64)
-    return Cloud(
-        points, asked.arrays[f"{name}.normals"], nowhere, nowhere.astype(np.bool_), components
-    )
+    return Cloud(points, normals, nowhere, nowhere.astype(np.bool_), components)
 
 
 def identity_of(config: ParticulateConfig, digests: tuple[str, ...]) -> str:
-    """Return what tells a network's answers: the same identity, the same bits.
-
-    Args:
-        config: how the network is run.
-        digests: of the files of weights.
-    """
+    """Return what tells a network's answers: the same identity, the same bits."""
     return "/".join((*digests, config.precision, device_for(config.device), str(config.driving)))

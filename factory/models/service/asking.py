@@ -59,9 +59,7 @@ def call_asking(address: Address | None, function: Callable[..., T], *args: Any)
 def network_for(identity: str, own: Callable[[], Network]) -> Network:
     """Return the service's network if there is a service, else one's own.
 
-    Args:
-        identity: of the network wanted; a service that has another one is not listened to.
-        own: loads it here.
+    A service that has a network of another identity is not listened to.
     """
     address = _ADDRESS.get()
     return own() if address is None else ServedNetwork(address, identity, own)

@@ -1,11 +1,14 @@
-"""The process that holds the network for a job: started, killed and restarted with it."""
+"""The process that holds the network for a job, and its socket: bounded in all that it takes."""
 
 from __future__ import annotations
 
+import os
 import shutil
+import socket
 import tempfile
 import threading
 import time
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 
@@ -17,15 +20,56 @@ from ...runtime.store import digest_file
 from ..particulate.device import device_for
 from ..particulate.loading import load_network, weight_files
 from ..weights.sources import fetch
-from .answering import Answering, identity_of, refusal
+from .answering import Answer, Answering, identity_of, refusal
 from .asking import Address
-from .listening import answer_all, listening_socket
+from .wire import WireError, receive, send
 
+#: Askers at a time; the next one is turned away, and asks its own network.
+MOST_ASKERS = 256
+#: Longest that a question may take to arrive, and an answer to be taken [s].
+PATIENCE_S = 30.0
 #: Longest life [s]; a week is as good as for ever, and a number that every kernel can wait for.
 LIFE_S = 7 * 86400.0
 #: Deaths within a minute of the start, in a row, after which it is given up.
 MOST_DEATHS = 3
 YOUNG_S = 60.0
+
+
+def listening_socket(path: str) -> socket.socket:
+    """Return a socket that accepts askers on return, of this user only; replaces a dead one's."""
+    with suppress(FileNotFoundError):
+        os.unlink(path)
+    listening = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    mask = os.umask(0o177)
+    try:
+        listening.bind(path)
+    finally:
+        os.umask(mask)
+    listening.listen(MOST_ASKERS)
+    return listening
+
+
+def answer_all(listening: socket.socket, answer: Answer, most_askers: int = MOST_ASKERS) -> None:
+    """Answer one question per asker, each in its own thread, until the socket is closed."""
+    places = threading.BoundedSemaphore(most_askers)
+    while True:
+        try:
+            asker, _ = listening.accept()
+        except OSError:
+            return
+        if not places.acquire(blocking=False):
+            asker.close()
+            continue
+        threading.Thread(target=_answer_one, args=(asker, answer, places), daemon=True).start()
+
+
+def _answer_one(asker: socket.socket, answer: Answer, places: threading.BoundedSemaphore) -> None:
+    try:
+        with asker, suppress(OSError, WireError):
+            reply = answer(receive(asker, time.monotonic() + PATIENCE_S))
+            send(asker, reply, time.monotonic() + PATIENCE_S)
+    finally:
+        places.release()
 
 
 class ModelService:
@@ -35,7 +79,6 @@ class ModelService:
     given up.
 
     Args:
-        config: which network, and how it is run.
         at_once: clouds worked on at the same time; by default as many as there are processors, on
             another device one.
     """
@@ -77,9 +120,8 @@ class ModelService:
         deaths = 0
         while not self._stopping.is_set() and deaths < MOST_DEATHS:
             started = time.monotonic()
-            outcome = self._child.call(
-                serve, self._config, self.address.path, self._at_once, limits=Limits(wall_s=LIFE_S)
-            )
+            asked = (self._config, self.address.path, self._at_once)
+            outcome = self._child.call(serve, *asked, limits=Limits(wall_s=LIFE_S))
             self._child.close()
             if outcome.failure is Failure.RAISED:
                 break

@@ -52,42 +52,26 @@ def pack(message: Message) -> bytes:
         name: np.asarray(array, _wire_dtype(array), order="C")
         for name, array in message.arrays.items()
     }
-    header = json.dumps(
-        {
-            "kind": message.kind,
-            "texts": dict(message.texts),
-            "arrays": [
-                [name, array.dtype.str, list(array.shape)] for name, array in arrays.items()
-            ],
-        }
-    ).encode()
+    listed = [[name, array.dtype.str, list(array.shape)] for name, array in arrays.items()]
+    said = {"kind": message.kind, "texts": dict(message.texts), "arrays": listed}
+    header = json.dumps(said).encode()
     body = b"".join(array.tobytes() for array in arrays.values())
     _check_lengths(len(header), len(body))
     return _LENGTHS.pack(len(header), len(body)) + header + body
 
 
 def unpack(data: bytes) -> Message:
-    """Return the message that some bytes hold.
-
-    Raises:
-        WireError: they hold none.
-    """
+    """Return the message that some bytes hold. Raises WireError: they hold none."""
     header_bytes, body_bytes = _lengths(data)
-    if len(data) != _LENGTHS.size + header_bytes + body_bytes:
-        raise WireError(
-            f"a message of {len(data)} bytes says it has "
-            f"{_LENGTHS.size + header_bytes + body_bytes}"
-        )
+    announced = _LENGTHS.size + header_bytes + body_bytes
+    if len(data) != announced:
+        raise WireError(f"a message of {len(data)} bytes says it has {announced}")
     try:
         header = json.loads(data[_LENGTHS.size : _LENGTHS.size + header_bytes])
-        kind = header["kind"]
-        texts = header["texts"]
-        listed = header["arrays"]
-        shapes = [
-            (str(name), DTYPES[dtype], tuple(int(size) for size in shape))
-            for name, dtype, shape in listed
-        ]
-        texts = {str(name): str(text) for name, text in texts.items()}
+        kind = str(header["kind"])
+        listed = ((str(name), DTYPES[code], shape) for name, code, shape in header["arrays"])
+        shapes = [(name, dtype, tuple(map(int, shape))) for name, dtype, shape in listed]
+        texts = {str(name): str(text) for name, text in header["texts"].items()}
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise WireError(f"its header cannot be read: {type(error).__name__}: {error}") from error
     arrays = {}
@@ -100,7 +84,7 @@ def unpack(data: bytes) -> Message:
         start += count * dtype.itemsize
     if start != len(data):
         raise WireError(f"{len(data) - start} bytes are left over")
-    return Message(str(kind), texts, arrays)
+    return Message(kind, texts, arrays)
 
 
 def send(connection: socket.socket, data: bytes, deadline: float) -> None:
@@ -141,10 +125,8 @@ def _lengths(data: bytes) -> tuple[int, int]:
 
 def _check_lengths(header: int, body: int) -> None:
     if header > MOST_HEADER_BYTES or body > MOST_BYTES:
-        raise WireError(
-            f"a header of {header} and a body of {body} bytes; "
-            f"{MOST_HEADER_BYTES} and {MOST_BYTES} at most"
-        )
+        most = f"{MOST_HEADER_BYTES} and {MOST_BYTES} at most"
+        raise WireError(f"a header of {header} and a body of {body} bytes; {most}")
 
 
 def _left(deadline: float) -> float:

@@ -12,9 +12,8 @@ from ...errors import ConfigError
 from ..network.shape import parameter_count, read_shape
 from ..partfield.shape import read_partfield_shape
 from .pickled import read_pickled
-from .safetensors import read_safetensors, write_safetensors
+from .safetensors import Checkpoint, Shape, Tensor, read_safetensors, write_safetensors
 from .sources import PARTFIELD, PARTICULATE, WeightsProvenance
-from .stored import Checkpoint, Shape, Tensor
 
 UNSTATED = "Not stated in the file. The published weights of this network:"
 
@@ -57,26 +56,18 @@ def open_checkpoint(file: Path) -> Checkpoint:
         if start == b"PK":
             return read_pickled(file)
         if start == b"\x80\x02":
-            raise ConfigError(
-                f"{file}: saved in torch's format from before 2020; "
-                "load and save it again with torch"
-            )
+            old = "saved in torch's format from before 2020"
+            raise ConfigError(f"{file}: {old}; load and save it again with torch")
         return read_safetensors(file)
     except OSError as error:
         raise ConfigError(f"{file}: cannot be read: {error.strerror or error}") from error
     except (MemoryError, RecursionError) as error:
-        raise ConfigError(
-            f"{file}: its description is too large or too deep to be a checkpoint's"
-        ) from error
+        why = "its description is too large or too deep to be a checkpoint's"
+        raise ConfigError(f"{file}: {why}") from error
 
 
 def load_tensors(checkpoint: Checkpoint, leave: tuple[str, ...] = ()) -> dict[str, Tensor]:
-    """Return every tensor, as float32 where it is any kind of float.
-
-    Args:
-        checkpoint: to read.
-        leave: beginnings of the names that are not wanted.
-    """
+    """Return tensors, floats as float32, but those whose names begin with one of ``leave``."""
     loaded = {}
     for name, stored in checkpoint.tensors.items():
         if leave and name.startswith(leave):
@@ -87,14 +78,7 @@ def load_tensors(checkpoint: Checkpoint, leave: tuple[str, ...] = ()) -> dict[st
 
 
 def filled(kind: Any, shape: Any, tensors: dict[str, Tensor], device: str) -> Any:
-    """Return a network with its weights, ready to answer.
-
-    Args:
-        kind: makes it of its shape.
-        shape: its sizes.
-        tensors: all of its weights, by name.
-        device: as torch names it.
-    """
+    """Return a network with its weights, ready to answer."""
     import torch
 
     with torch.device("meta"):
@@ -149,31 +133,24 @@ def convert(source: Path, target: Path) -> WeightsInfo:
     checkpoint = open_checkpoint(source)
     tensors = {name: stored.load() for name, stored in checkpoint.tensors.items()}
     # A network's own metadata say how it is to be read.
-    write_safetensors(
-        target,
-        tensors,
-        {"published_terms": info.terms, **checkpoint.metadata, "network": info.network},
-    )
+    told = {"published_terms": info.terms, **checkpoint.metadata, "network": info.network}
+    write_safetensors(target, tensors, told)
     return describe(target)
 
 
 def _identify(shapes: Mapping[str, Shape]) -> tuple[WeightsProvenance, dict[str, str]]:
     if any(name.startswith("triplane_transformer.") for name in shapes):
         field = read_partfield_shape(shapes)
-        return PARTFIELD, {
-            "features": str(field.features),
-            "planes": f"3 x {field.resolution} x {field.resolution}",
-        }
+        planes = f"3 x {field.resolution} x {field.resolution}"
+        return PARTFIELD, {"features": str(field.features), "planes": planes}
     network = read_shape(shapes)
+    inputs = ["points", *["normals"] * network.normals]
+    inputs += [f"{network.features} features"] * bool(network.features)
     return PARTICULATE, {
         "blocks": str(network.blocks),
         "width": str(network.hidden),
         "heads": str(network.heads),
-        "inputs": " + ".join(
-            ["points"]
-            + ["normals"] * network.normals
-            + [f"{network.features} features"] * bool(network.features)
-        ),
+        "inputs": " + ".join(inputs),
         "axes": network.axis_form.value,
         "mask hypotheses": str(network.hypotheses),
     }

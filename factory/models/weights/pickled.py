@@ -26,8 +26,7 @@ from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 from asset_factory.sim_checks.processes.scratch import scratch
 
 from ...errors import ConfigError
-from .safetensors import read_safetensors, write_safetensors
-from .stored import Checkpoint, Tensor
+from .safetensors import Checkpoint, Tensor, read_safetensors, write_safetensors
 
 #: For all that the child does, importing torch and writing the tensors included [s].
 _WALL_S = 300.0
@@ -93,20 +92,16 @@ def _unpacked(file: Path, _inode: int, _size: int, _changed_ns: int) -> Path:
     if isinstance(outcome.error, ConfigError):
         raise outcome.error
     if outcome.failure is not None:
-        raise ConfigError(
-            f"{file}: its description cannot be read within {_READING_S} s and "
-            f"{_READING_BYTES / 2**30:g} GiB: {outcome.detail[:_LETTERS_SAID]}"
-        )
+        within = f"within {_READING_S} s and {_READING_BYTES / 2**30:g} GiB"
+        why = outcome.detail[:_LETTERS_SAID]
+        raise ConfigError(f"{file}: its description cannot be read {within}: {why}")
     return target
 
 
 def unpack(file: Path, target: Path, most_s: int) -> None:
     """Write an archive's tensors as safetensors; called in the child.
 
-    Args:
-        file: the archive, by its real path.
-        target: to be written.
-        most_s: processor time that the description may take [s].
+    ``file`` is its real path; its description may take ``most_s`` of processor time [s].
 
     Raises:
         ConfigError: as :func:`read_pickled`.
@@ -114,10 +109,8 @@ def unpack(file: Path, target: Path, most_s: int) -> None:
     try:
         import torch
     except ImportError as error:
-        raise ConfigError(
-            f"{file}: what torch saved is read by torch: pip install torch, or convert it to "
-            "safetensors where there is one"
-        ) from error
+        advice = "pip install torch, or convert it to safetensors where there is one"
+        raise ConfigError(f"{file}: what torch saved is read by torch: {advice}") from error
     size = file.stat().st_size
     try:
         stored = _stored_bytes(file)
@@ -129,22 +122,16 @@ def unpack(file: Path, target: Path, most_s: int) -> None:
     except ConfigError:
         raise
     except (zipfile.BadZipFile, zipfile.LargeZipFile, EOFError) as error:
-        raise ConfigError(
-            f"{file}: damaged, cut off, or not written by torch.save: {error}"
-        ) from error
+        why = "damaged, cut off, or not written by torch.save"
+        raise ConfigError(f"{file}: {why}: {error}") from error
     except Exception as error:
         # Archives from anybody: torch and the decompressors have errors of many types.
         raise ConfigError(f"{file}: its description cannot be read: {_said(error)}") from error
     weights = top.get("state_dict", top) if isinstance(top, Mapping) else top
     if not isinstance(weights, Mapping):
         raise ConfigError(f"{file}: holds no mapping from names to tensors")
-    tensors = {
-        name: tensor
-        for name, tensor in weights.items()
-        if isinstance(name, str)
-        and isinstance(tensor, torch.Tensor)
-        and tensor.layout == torch.strided
-    }
+    named = ((n, t) for n, t in weights.items() if isinstance(n, str) and torch.is_tensor(t))
+    tensors = {name: tensor for name, tensor in named if tensor.layout == torch.strided}
     if not tensors:
         raise ConfigError(f"{file}: holds no tensors")
     _require_stored(file, tensors, stored)
@@ -174,32 +161,24 @@ def _stored_bytes(file: Path) -> Counter[int]:
         records = archive.infolist()
         described = [record for record in records if record.filename.endswith("data.pkl")]
         if len(described) != 1:
-            raise ConfigError(
-                f"{file}: a zip archive, but not one of torch.save: "
-                f"{len(described)} descriptions in it, want 1"
-            )
-        if described[0].file_size > _MAX_DESCRIPTION:
-            raise ConfigError(
-                f"{file}: its description takes {described[0].file_size} bytes, "
-                f"at most {_MAX_DESCRIPTION}"
-            )
+            there = f"{len(described)} descriptions in it, want 1"
+            raise ConfigError(f"{file}: a zip archive, but not one of torch.save: {there}")
+        size = described[0].file_size
+        if size > _MAX_DESCRIPTION:
+            most = f"at most {_MAX_DESCRIPTION}"
+            raise ConfigError(f"{file}: its description takes {size} bytes, {most}")
         prefix = described[0].filename.removesuffix("data.pkl")
         for record in records:
             if record.filename.removeprefix(prefix) == "byteorder":
                 _refuse_big_endian(file, archive, record)
-    return Counter(
-        record.file_size
-        for record in records
-        if record.filename.startswith(f"{prefix}data/")
-        and record.compress_type == zipfile.ZIP_STORED
-    )
+    plain = [record for record in records if record.compress_type == zipfile.ZIP_STORED]
+    return Counter(r.file_size for r in plain if r.filename.startswith(f"{prefix}data/"))
 
 
 def _refuse_big_endian(file: Path, archive: zipfile.ZipFile, record: zipfile.ZipInfo) -> None:
     if record.file_size > _MAX_NOTE or archive.read(record).strip() != b"little":
-        raise ConfigError(
-            f"{file}: saved on a big-endian machine; save it again on a little-endian one"
-        )
+        advice = "save it again on a little-endian one"
+        raise ConfigError(f"{file}: saved on a big-endian machine; {advice}")
 
 
 def _require_stored(file: Path, tensors: Mapping[str, Tensor], stored: Counter[int]) -> None:
@@ -209,22 +188,18 @@ def _require_stored(file: Path, tensors: Mapping[str, Tensor], stored: Counter[i
         held = tensor.untyped_storage().nbytes()
         # Rows that share their numbers take no room in a file, and gigabytes once they are written.
         if tensor.nbytes > held:
-            raise ConfigError(
-                f"{file}: {name}: shape {list(tensor.shape)} does not fit the "
-                f"{held // tensor.element_size()} numbers stored"
-            )
+            numbers = f"the {held // tensor.element_size()} numbers stored"
+            raise ConfigError(f"{file}: {name}: shape {list(tensor.shape)} does not fit {numbers}")
         if held:
             described[tensor.untyped_storage().data_ptr()] = held
     missing = Counter(described.values()) - stored
     if missing:
-        raise ConfigError(
-            f"{file}: a tensor's {min(missing)} bytes are missing, compressed or cut off"
-        )
+        lost = f"a tensor's {min(missing)} bytes are missing, compressed or cut off"
+        raise ConfigError(f"{file}: {lost}")
     total = sum(tensor.nbytes for tensor in tensors.values())
     if total > _MOST_SHARED * sum(described.values()):
-        raise ConfigError(
-            f"{file}: its tensors take {total} bytes, but it holds {sum(described.values())}"
-        )
+        held_bytes = sum(described.values())
+        raise ConfigError(f"{file}: its tensors take {total} bytes, but it holds {held_bytes}")
 
 
 def _said(error: Exception) -> str:

@@ -10,6 +10,7 @@ import json
 import os
 import struct
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from types import ModuleType
@@ -20,7 +21,46 @@ import numpy.typing as npt
 
 from ...errors import ConfigError
 from ...runtime.store import writing
-from .stored import Checkpoint, StoredTensor, Tensor
+
+Tensor = Any
+Shape = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class StoredTensor:
+    """One tensor of a file.
+
+    Attributes:
+        dtype: its type, as the safetensors format names it, e.g. ``F32``.
+        shape: elements per dimension.
+        load: reads it: a torch tensor, contiguous, in memory of its own. Raises ConfigError if the
+            file ends before the tensor does.
+    """
+
+    dtype: str
+    shape: Shape
+    load: Callable[[], Tensor] = field(repr=False, compare=False)
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """A file of tensors.
+
+    Attributes:
+        file: where.
+        tensors: by name.
+        metadata: what the file says about itself.
+    """
+
+    file: Path
+    tensors: Mapping[str, StoredTensor]
+    metadata: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def shapes(self) -> dict[str, Shape]:
+        """Name to shape."""
+        return {name: tensor.shape for name, tensor in self.tensors.items()}
+
 
 Array = npt.NDArray[Any]
 _LENGTH = struct.Struct("<Q")
@@ -39,13 +79,11 @@ def read_safetensors(file: Path) -> Checkpoint:
     header = _header(file)
     try:
         with library.safe_open(file, framework="numpy") as opened:
-            slices = {name: opened.get_slice(name) for name in opened.keys()}  # noqa: SIM118
-            tensors = {
-                name: StoredTensor(
-                    part.get_dtype(), tuple(part.get_shape()), partial(_load, file, name)
-                )
-                for name, part in slices.items()
-            }
+            tensors = {}
+            for name in opened.keys():  # noqa: SIM118
+                part = opened.get_slice(name)
+                shape = tuple(part.get_shape())
+                tensors[name] = StoredTensor(part.get_dtype(), shape, partial(_load, file, name))
             metadata = opened.metadata() or {}
         json.loads(header, object_pairs_hook=_without_doubles)
     except (library.SafetensorError, ValueError) as error:
@@ -75,11 +113,6 @@ def write_safetensors(
     file: Path, tensors: Mapping[str, Tensor], metadata: Mapping[str, str]
 ) -> None:
     """Write tensors, the whole file or none; the same tensors give the same bytes.
-
-    Args:
-        file: where; replaced if it is there.
-        tensors: torch tensors by name.
-        metadata: about the file.
 
     Raises:
         ConfigError: the format has no name for a tensor's type.
@@ -139,10 +172,8 @@ def _header(file: Path) -> bytes:
             raise ConfigError(f"{file}: {size} bytes are too few for a safetensors file")
         length = int(_LENGTH.unpack(prefix)[0])
         if length > min(_MAX_HEADER, size - _LENGTH.size):
-            raise ConfigError(
-                f"{file}: not safetensors, or cut off: says its header takes {length} "
-                f"of {size} bytes"
-            )
+            says = f"says its header takes {length} of {size} bytes"
+            raise ConfigError(f"{file}: not safetensors, or cut off: {says}")
         return stream.read(length)
 
 

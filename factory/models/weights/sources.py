@@ -105,10 +105,8 @@ def parse_address(address: str) -> HubFile:
     """
     found = _ADDRESS.fullmatch(address)
     if found is None:
-        raise ConfigError(
-            f"{address}: want {ADDRESS}, as {PARTICULATE.source}; "
-            "a commit has 40 hexadecimal digits, a SHA-256 64"
-        )
+        digits = "a commit has 40 hexadecimal digits, a SHA-256 64"
+        raise ConfigError(f"{address}: want {ADDRESS}, as {PARTICULATE.source}; {digits}")
     return HubFile(**found.groupdict())
 
 
@@ -117,9 +115,6 @@ def fetch(checkpoint: str) -> Path:
 
     Within :func:`weights_at`, the file that it names. A download is what its address says before
     anybody reads it; where that says no commit or no digest, this is told once, with both.
-
-    Args:
-        checkpoint: a path, ``shipped``, or :data:`ADDRESS`.
 
     Raises:
         ConfigError: no such file, a malformed address, a download that failed, or one with another
@@ -131,9 +126,8 @@ def fetch(checkpoint: str) -> Path:
         own = resources.files("asset_factory") / "configs" / "weights" / "small.safetensors"
         path = Path(str(own)) if checkpoint == SHIPPED else Path(checkpoint).expanduser()
         if not path.is_file():
-            raise ConfigError(
-                f"{checkpoint}: no such file; want a checkpoint, {SHIPPED}, or {ADDRESS}"
-            )
+            want = f"want a checkpoint, {SHIPPED}, or {ADDRESS}"
+            raise ConfigError(f"{checkpoint}: no such file; {want}")
         return path
     wanted = parse_address(checkpoint)
     path = _downloaded(wanted)
@@ -167,9 +161,8 @@ def _downloaded(wanted: HubFile) -> Path:
             LocalEntryNotFoundError,
         )
     except ImportError as error:
-        raise ConfigError(
-            f"{wanted}: downloads need huggingface_hub: pip install huggingface_hub"
-        ) from error
+        needs = "downloads need huggingface_hub: pip install huggingface_hub"
+        raise ConfigError(f"{wanted}: {needs}") from error
     try:
         place = hf_hub_download(
             repo_id=wanted.repository, filename=wanted.file, revision=wanted.revision

@@ -2,34 +2,21 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from ..entry import Entry
-from ..split import SPLITS
+from ..entry import SPLITS, Entry
 
 UNKNOWN = "unknown"
 #: Licenses that the hub knows by this name.
-_HUB_LICENSES = frozenset(
-    {
-        "apache-2.0",
-        "bsd-2-clause",
-        "bsd-3-clause",
-        "cc-by-4.0",
-        "cc-by-nc-4.0",
-        "cc-by-sa-4.0",
-        "cc0-1.0",
-        "mit",
-    }
+_HUB_LICENSES = (
+    *("apache-2.0", "bsd-2-clause", "bsd-3-clause", "mit"),
+    *("cc0-1.0", "cc-by-4.0", "cc-by-nc-4.0", "cc-by-sa-4.0"),
 )
-#: (from assets, to assets, what the hub calls it)
-_SIZES = (
-    (0, 1_000, "n<1K"),
-    (1_000, 10_000, "1K<n<10K"),
-    (10_000, 100_000, "10K<n<100K"),
-    (100_000, 1_000_000, "100K<n<1M"),
-    (1_000_000, 10_000_000, "1M<n<10M"),
-)
+#: What the hub calls so many assets: fewer than the first number, than the second, and so on.
+_SIZES = ("n<1K", "1K<n<10K", "10K<n<100K", "100K<n<1M", "1M<n<10M", "n>10M")
+_SIZES_END = (1_000, 10_000, 100_000, 1_000_000, 10_000_000)
 _TEXT = """\
 # Articulated assets
 
@@ -91,21 +78,18 @@ def licenses_text(entries: Sequence[Entry]) -> str:
     counts = Counter({license: len(ids) for license, ids in by_license.items()})
     text = f"# Licenses\n\n{_table(('license', 'assets'), _sorted(counts))}"
     if UNKNOWN in by_license:
-        text += (
-            "\nNobody said under which terms those of unknown license are: "
-            "ask before handing them on.\n"
-        )
-    for license in sorted(by_license):
-        text += f"\n## {_cell(license)}\n\n" + "".join(
-            f"- {asset_id}\n" for asset_id in sorted(by_license[license])
-        )
+        text += "\nNobody said under which terms those of unknown license are: "
+        text += "ask before handing them on.\n"
+    for license, ids in sorted(by_license.items()):
+        text += f"\n## {_cell(license)}\n\n" + "".join(f"- {each}\n" for each in sorted(ids))
     return text
 
 
 def _front_matter(entries: Sequence[Entry], tables: Mapping[str, bytes]) -> str:
     licenses = {entry.license.lower() for entry in entries}
-    license = next(iter(licenses)) if len(licenses) == 1 and licenses <= _HUB_LICENSES else "other"
-    size = next((name for lower, upper, name in _SIZES if lower <= len(entries) < upper), "n>10M")
+    known = len(licenses) == 1 and licenses.issubset(_HUB_LICENSES)
+    license = next(iter(licenses)) if known else "other"
+    size = _SIZES[bisect_right(_SIZES_END, len(entries))]
     files = "".join(
         f"      - split: {split}\n        path: {name}\n"
         for split in SPLITS

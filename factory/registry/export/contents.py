@@ -1,7 +1,9 @@
-"""The files of an export, in a fixed order."""
+"""The files of an export, in a fixed order, with tables that can be read without the assets."""
 
 from __future__ import annotations
 
+import importlib
+import io
 import json
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
@@ -9,16 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import RegistryError
-from ...runtime.layout import MANIFEST, NOTES, REPORT
+from ...runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT
 from ...runtime.store import digest_bytes
-from ..entry import Entry
+from ..entry import SPLITS, Entry
 from ..folders import read_record
-from ..names import is_safe_path
 from ..notes import note_path
 from ..registry import Registry
 from ..report_file import read_report
 from .card import card_text, licenses_text
-from .metadata import described, metadata_files
 
 #: ``plain``: assets and lists. ``huggingface``: the same with a card and tables as its hub shows
 #: them.
@@ -27,18 +27,18 @@ ENTRIES_NAME = "entries.jsonl"
 SUMS_NAME = "SHA256SUMS"
 LICENSES_NAME = "LICENSES.md"
 CARD_NAME = "README.md"
+_LISTS = (ENTRIES_NAME, SUMS_NAME, LICENSES_NAME, CARD_NAME)
 #: Everything that an export may begin with.
-TOP_NAMES = (
-    "assets",
-    "rejected",
-    NOTES,
-    "metadata",
-    ENTRIES_NAME,
-    SUMS_NAME,
-    LICENSES_NAME,
-    CARD_NAME,
-)
+TOP_NAMES = (ASSETS, REJECTED, NOTES, "metadata", *_LISTS)
 _TRIES = 3
+#: Longest name of a file or folder in an export, and longest path.
+MAX_NAME = 255
+MAX_PATH = 1024
+#: What a row has of its entry.
+_COLUMNS = (
+    *("id", "name", "category", "split", "status", "reason", "message", "parts", "joints", "hulls"),
+    *("license", "solved", "tags", "key"),
+)
 
 
 def contents(
@@ -46,11 +46,8 @@ def contents(
 ) -> Iterator[tuple[str, bytes]]:
     """Yield an export's files, path and content; the last, ``SHA256SUMS``, has all digests.
 
-    Args:
-        registry: others may use it meanwhile; assets no longer in it, or no longer passing, are
-            left out.
-        entries: what to export.
-        layout: one of :data:`LAYOUTS`.
+    Others may use the registry meanwhile; assets no longer in it, or no longer passing, are left
+    out.
 
     Raises:
         RegistryError: a file differs from the published one.
@@ -118,3 +115,71 @@ def _content(folder: Path, name: str) -> bytes:
     if not is_safe_path(name) or path.is_symlink():
         raise RegistryError(f"{path}: is no file of this asset")
     return path.read_bytes()
+
+
+def is_safe_path(name: str) -> bool:
+    """Return whether a path stays in the folder that it is put into, on every system.
+
+    Relative, with ``/`` between its parts, none of them empty, ``.`` or ``..``; no backslash, colon
+    or control character.
+    """
+    if not 0 < len(name.encode("utf-8", "replace")) <= MAX_PATH or "\\" in name or ":" in name:
+        return False
+    if not name.isprintable():
+        return False
+    return all(
+        part not in ("", ".", "..") and len(part.encode()) <= MAX_NAME for part in name.split("/")
+    )
+
+
+def described(entry: Entry, folder: str, manifest: bytes | None) -> dict[str, Any]:
+    """Return one row: the entry, where its files are in the export, and its manifest's physics."""
+    data: dict[str, Any] = json.loads(manifest) if manifest is not None else {}
+    lower, upper = data.get("closed_bounds") or ([0.0] * 3, [0.0] * 3)
+    moving = [joint["kind"] for joint in data.get("joints", ()) if joint["kind"] != "fixed"]
+    values = asdict(entry)
+    return {
+        **{name: list(values[name]) if name == "tags" else values[name] for name in _COLUMNS},
+        "folder": folder,
+        "urdf": f"{folder}/{data['urdf']}" if "urdf" in data else "",
+        "mjcf": f"{folder}/{data['mjcf']}" if data.get("mjcf") else "",
+        "joint_types": moving,
+        "mass_kg": float(data.get("mass", 0.0)),
+        "size_m": [round(b - a, 6) for a, b in zip(lower, upper, strict=True)],
+    }
+
+
+def metadata_files(rows: list[dict[str, Any]]) -> dict[str, bytes]:
+    """Return one table per split that has assets: Parquet with pyarrow, else JSON lines."""
+    try:
+        writer: Any = importlib.import_module("pyarrow.parquet")
+        arrow: Any = importlib.import_module("pyarrow")
+    except ImportError:
+        writer = arrow = None
+    files = {}
+    for split in SPLITS:
+        chosen = [row for row in rows if row["split"] == split]
+        if not chosen:
+            continue
+        if arrow is None:
+            lines = "".join(json.dumps(row) + "\n" for row in chosen)
+            files[f"metadata/{split}.jsonl"] = lines.encode()
+        else:
+            buffer = io.BytesIO()
+            writer.write_table(arrow.Table.from_pylist(chosen, schema=_schema(arrow)), buffer)
+            files[f"metadata/{split}.parquet"] = buffer.getvalue()
+    return files
+
+
+def _schema(arrow: Any) -> Any:
+    """Return the types that do not depend on what the first rows happen to hold."""
+    text = arrow.string()
+    texts = arrow.list_(arrow.string())
+    special = {
+        **dict.fromkeys(("parts", "joints", "hulls"), arrow.int64()),
+        **dict.fromkeys(("tags", "joint_types"), texts),
+        "mass_kg": arrow.float64(),
+        "size_m": arrow.list_(arrow.float64()),
+    }
+    names = (*_COLUMNS, "folder", "urdf", "mjcf", "joint_types", "mass_kg", "size_m")
+    return arrow.schema([(name, special.get(name, text)) for name in names])

@@ -48,7 +48,10 @@ def write_export(files: Iterable[tuple[str, bytes]], target: str) -> Written:
         if is_url(target):
             _write_url(files, target)
         elif target.endswith(TAR_ENDINGS):
-            _write_archive_file(files, Path(target))
+            file = Path(target)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            with writing(file) as stream:
+                write_archive(files, stream, compressed=not target.endswith(".tar"))
         else:
             _write_folder(files, Path(target))
     except OSError as error:
@@ -70,9 +73,8 @@ def write_archive(
     """Write a tar archive without times, owners or anything else of this machine."""
     with ExitStack() as stack:
         if compressed:
-            stream = cast(
-                IO[bytes], stack.enter_context(gzip.GzipFile("", "wb", fileobj=stream, mtime=0))
-            )
+            packed = gzip.GzipFile("", "wb", fileobj=stream, mtime=0)
+            stream = cast(IO[bytes], stack.enter_context(packed))
         archive: Any = stack.enter_context(
             tarfile.open(fileobj=stream, mode="w|", format=tarfile.PAX_FORMAT)
         )
@@ -85,17 +87,10 @@ def write_archive(
             archive.members = []
 
 
-def _write_archive_file(files: Iterable[tuple[str, bytes]], target: Path) -> None:
-    target.parent.mkdir(parents=True, exist_ok=True)
-    with writing(target) as stream:
-        write_archive(files, stream, compressed=not target.name.endswith(".tar"))
-
-
 def _write_folder(files: Iterable[tuple[str, bytes]], target: Path) -> None:
     if target.is_file() or (target.is_dir() and any(target.iterdir())):
-        raise RegistryError(
-            f"{target}: is there already; name a folder that is not, or an archive (.tar, .tar.gz)"
-        )
+        advice = "name a folder that is not, or an archive (.tar, .tar.gz)"
+        raise RegistryError(f"{target}: is there already; {advice}")
     target.parent.mkdir(parents=True, exist_ok=True)
     temporary = Path(tempfile.mkdtemp(dir=target.parent, prefix=WRITING_PREFIX))
     try:

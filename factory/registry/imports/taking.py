@@ -81,9 +81,8 @@ def import_export(
         for arrival in arrivals:
             _take_note(registry, arrival, content)
     published = {arrival.entry.id for arrival in fresh}
-    return TakenIn(
-        tuple(sorted(published)), tuple(a.entry.id for a in arrivals if a.entry.id not in published)
-    )
+    ids = (arrival.entry.id for arrival in arrivals)
+    return TakenIn(tuple(sorted(published)), tuple(each for each in ids if each not in published))
 
 
 def _require_digests(source: Path, content: Path) -> None:
@@ -91,22 +90,16 @@ def _require_digests(source: Path, content: Path) -> None:
     found = folder_digests(content, without=(SUMS_NAME,))
     wrong = sorted(name for name in sums.keys() | found.keys() if sums.get(name) != found.get(name))
     if wrong:
-        state = (
-            "is missing"
-            if wrong[0] not in found
-            else "is not listed"
-            if wrong[0] not in sums
-            else "is altered"
-        )
+        absent = "is not listed" if wrong[0] in found else "is missing"
+        state = "is altered" if wrong[0] in sums.keys() & found.keys() else absent
         more = f", and {len(wrong) - 1} more files are wrong" if len(wrong) > 1 else ""
         raise RegistryError(f"{source}: {wrong[0]!r} {state} (SHA-256){more}; nothing was imported")
 
 
 def _folders(content: Path) -> list[Path]:
     places = [content / name for name in (ASSETS, REJECTED) if (content / name).is_dir()]
-    return sorted(
-        (folder for place in places for folder in place.iterdir()), key=lambda folder: folder.name
-    )
+    folders = (folder for place in places for folder in place.iterdir())
+    return sorted(folders, key=lambda folder: folder.name)
 
 
 def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
@@ -119,18 +112,15 @@ def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
     except (RegistryError, ValueError, KeyError, TypeError) as error:
         raise RegistryError(f"{source}: {error}; nothing was imported") from error
     found = file_digests(folder)
-    if registered != found:
-        raise RegistryError(
-            f"{source}: {entry.id}: its files are not those of its report; nothing was imported"
-        )
-    if entry.status is Status.PASSED and not stored.passed:
-        raise RegistryError(
-            f"{source}: {entry.id}: has passed, its report says otherwise; nothing was imported"
-        )
-    if entry.status is not Status.PASSED and found:
-        raise RegistryError(
-            f"{source}: {entry.id}: is {entry.status}, yet has files; nothing was imported"
-        )
+    passed = entry.status is Status.PASSED
+    faults = {
+        "its files are not those of its report": registered != found,
+        "has passed, its report says otherwise": passed and not stored.passed,
+        f"is {entry.status}, yet has files": not passed and found,
+    }
+    for fault, there in faults.items():
+        if there:
+            raise RegistryError(f"{source}: {entry.id}: {fault}; nothing was imported")
     # Anybody can write down any key; a build that asks for it would be told that its input has
     # passed.
     return _Arrival(entry if trusted else dataclasses.replace(entry, key=""), folder, told)
@@ -150,16 +140,13 @@ def _is_there(registry: Registry, arrival: _Arrival) -> bool:
 
 def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arrival]) -> None:
     places = (registry.assets, registry.rejected)
-    others = [
-        a.entry.id for a in arrivals if any((place / a.entry.id).exists() for place in places)
-    ]
+    ids = [arrival.entry.id for arrival in arrivals]
+    others = [each for each in ids if any((place / each).exists() for place in places)]
     if others:
         more = f" and {len(others) - _NAMED} more" if len(others) > _NAMED else ""
         named = ", ".join(others[:_NAMED]) + more
-        raise RegistryError(
-            f"{source}: the registry has other assets of the same ids: {named}; "
-            "--replace takes these"
-        )
+        others_there = f"the registry has other assets of the same ids: {named}"
+        raise RegistryError(f"{source}: {others_there}; --replace takes these")
 
 
 def _take_note(registry: Registry, arrival: _Arrival, content: Path) -> None:

@@ -15,8 +15,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from ...errors import RegistryError
-from ..export.contents import SUMS_NAME, TOP_NAMES
-from ..names import is_safe_path
+from ..export.contents import SUMS_NAME, TOP_NAMES, is_safe_path
 
 #: What the reader of archives raises besides its own errors when headers are nonsense.
 _TAR_BUGS = (ValueError, IndexError, KeyError, OverflowError, struct.error)
@@ -47,6 +46,11 @@ class ImportLimits:
     files: int = 5_000_000
 
 
+def _too_much(source: str, limits: ImportLimits) -> RegistryError:
+    most = f"{limits.total_bytes / 1e9:g} GB"
+    return RegistryError(f"{source}: more than {most}; --max-gb allows more")
+
+
 class Tally:
     """Counts files against limits; ``bytes`` is the size of all so far."""
 
@@ -58,27 +62,21 @@ class Tally:
     def add(self, name: str, size: int) -> None:
         """Count one more file. Raises RegistryError if it is too large, or one too many."""
         limits = self._limits
-        self._files = self._files + 1
-        self.bytes = self.bytes + size
+        self._files += 1
+        self.bytes += size
         if not 0 <= size <= limits.file_bytes:
-            raise RegistryError(
-                f"{self._source}: {name!r} has {size} bytes, want at most {limits.file_bytes}"
-            )
+            most = f"want at most {limits.file_bytes}"
+            raise RegistryError(f"{self._source}: {name!r} has {size} bytes, {most}")
         if self._files > limits.files:
             raise RegistryError(f"{self._source}: more than {limits.files} files")
         if self.bytes > limits.total_bytes:
-            raise RegistryError(
-                f"{self._source}: more than {limits.total_bytes / 1e9:g} GB; --max-gb allows more"
-            )
+            raise _too_much(self._source, limits)
 
 
 def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
     """Copy an export's files.
 
-    Args:
-        source: a folder, or a .tar or .tar.gz file.
-        target: an empty folder.
-        limits: on the content.
+    ``source`` is a folder, or a .tar or .tar.gz file; ``target`` an empty folder.
 
     Raises:
         RegistryError: it is no export, too large, or has something that no export has: links,
@@ -90,9 +88,8 @@ def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
         elif source.is_file():
             _unpack_archive(source, target, limits)
         else:
-            raise RegistryError(
-                f"{source}: no such file or folder; `factory registry export` writes one"
-            )
+            advice = "`factory registry export` writes one"
+            raise RegistryError(f"{source}: no such file or folder; {advice}")
     except (OSError, EOFError, zlib.error, tarfile.TarError, *_TAR_BUGS) as error:
         raise RegistryError(f"{source}: cannot be unpacked ({error})") from error
 
@@ -156,9 +153,8 @@ def _scan(source: Path, stream: IO[bytes], limits: ImportLimits) -> int:
             raise RegistryError(f"{source}: {header.name!r} has {header.size} bytes")
         if header.type in _HEADERS:
             if header.size > _MAX_HEADER:
-                raise RegistryError(
-                    f"{source}: a header of {header.size} bytes, want at most {_MAX_HEADER}"
-                )
+                most = f"want at most {_MAX_HEADER}"
+                raise RegistryError(f"{source}: a header of {header.size} bytes, {most}")
         elif header.type in _FILES:
             tally.add(header.name, header.size)
         elif header.type not in _FOLDERS:
@@ -176,9 +172,7 @@ def _decompress(source: Path, target: Path, limits: ImportLimits) -> None:
         while chunk := stream.read(_CHUNK):
             written += len(chunk)
             if written > limits.total_bytes:
-                raise RegistryError(
-                    f"{source}: more than {limits.total_bytes / 1e9:g} GB; --max-gb allows more"
-                )
+                raise _too_much(str(source), limits)
             output.write(chunk)
 
 
@@ -190,9 +184,8 @@ def _require_safe(source: str, name: str) -> None:
 def _require_room(target: Path, size: int) -> None:
     free = shutil.disk_usage(target).free
     if size > free:
-        raise RegistryError(
-            f"{target.parent}: {size / 1e9:.3g} GB are needed, {free / 1e9:.3g} GB are free"
-        )
+        needed = f"{size / 1e9:.3g} GB are needed, {free / 1e9:.3g} GB are free"
+        raise RegistryError(f"{target.parent}: {needed}")
 
 
 def _write(path: Path, stream: IO[bytes], size: int) -> None:
@@ -211,18 +204,15 @@ def read_sums(path: Path) -> dict[str, str]:
             raise RegistryError(f"{path}: is no list of digests")
         lines = path.read_text(encoding="utf-8").splitlines()
     except FileNotFoundError as error:
-        raise RegistryError(
-            f"{path.parent}: no {path.name}; want an export as `factory registry export` writes it"
-        ) from error
+        want = "want an export as `factory registry export` writes it"
+        raise RegistryError(f"{path.parent}: no {path.name}; {want}") from error
     except (OSError, UnicodeDecodeError) as error:
         raise RegistryError(f"{path}: cannot be read ({error})") from error
     sums: dict[str, str] = {}
     for number, line in enumerate(lines, start=1):
         found = _LINE.fullmatch(line)
         if found is None or found[2] in sums:
-            raise RegistryError(
-                f"{path}, line {number}: want a digest, "
-                "two spaces and a path that is not listed yet"
-            )
+            want = "want a digest, two spaces and a path that is not listed yet"
+            raise RegistryError(f"{path}, line {number}: {want}")
         sums[found[2]] = found[1]
     return sums

@@ -1,19 +1,33 @@
-"""The folder of nights: its files, and how nights are named."""
+"""The folder of nights: its files, how nights are named, and their pages from templates."""
 
 from __future__ import annotations
 
 import json
 import re
+from collections.abc import Sequence
+from dataclasses import asdict
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from asset_factory.sim_checks import Status
 
 from ...errors import ConfigError
+from ...intake.licenses import is_allowed
 from ...runtime.store import write_json, write_whole
-from .night import Night, night_from
-from .render import night_page, nights_page
+from ..pages import BASE_CSS, trusted
+from ..pages import environment as templates
+from ..summary import JobState
+from . import figures, formats
+from .night import Night, night_from, share
+from .outcome import SEVERE
 from .report import NightlyReport, message, summary
 from .table import write_table
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
 
 SUMMARY = "summary.json"  # figures; what the trend is made of
 TABLE = "attempts.parquet"  # a row per try of an input
@@ -40,9 +54,8 @@ def nights_of(output: Path) -> Path:
 def names(nights: Path) -> tuple[str, ...]:
     """Return the names of all nights there are, finished or not, sorted."""
     folders = nights.iterdir() if nights.is_dir() else ()
-    return tuple(
-        sorted(path.name for path in folders if path.is_dir() and _NAME.fullmatch(path.name))
-    )
+    named = (path.name for path in folders if path.is_dir())
+    return tuple(sorted(name for name in named if _NAME.fullmatch(name)))
 
 
 def unfinished(nights: Path) -> tuple[str, ...]:
@@ -115,3 +128,43 @@ def publish(folder: Path, report: NightlyReport) -> None:
     write_json(folder / SUMMARY, summary(report))
     write_whole(folder.parent / PAGE, nights_page(stored_nights(folder.parent)).encode())
     write_whole(folder.parent / MESSAGE, told)
+
+
+def night_page(report: NightlyReport) -> str:
+    """Return the page of a night, as HTML: the same report gives the same bytes."""
+    names = ("reasons", "stage_times", "slowest", "licenses")
+    told = {name: getattr(figures, name)(report.attempts) for name in names}
+    return environment().get_template("night.html.j2").render(report=report, **told)
+
+
+def nights_page(nights: Sequence[Night]) -> str:
+    """Render the page that lists all nights, the last one first; ``nights`` in their order."""
+    rows = [_row(night, before) for night, before in zip(nights, (None, *nights), strict=False)]
+    return environment().get_template("nights.html.j2").render(nights=nights, rows=rows[::-1])
+
+
+def _row(night: Night, before: Night | None) -> dict[str, Any]:
+    """Return what the list of nights says of one of them."""
+    return {
+        **asdict(night),
+        "took": formats.clock_span(night.seconds),
+        "yield": formats.percent(night.yielded),
+        "change": formats.points(before.yielded if before else None, night.yielded),
+        "anew": night.attempted - night.known,
+        "damaged": None if night.verified is None else night.damaged,
+    }
+
+
+@cache
+def environment() -> Environment:
+    """Return where the templates are found, and what they may call upon; all output is escaped."""
+    made = templates(__package__, is_allowed=is_allowed, share=share)
+    names = ("clock_span", "counted", "percent", "points", "readable", "span", "figure")
+    made.filters |= {name: getattr(formats, name) for name in names}
+    made.globals |= {"FINISHED": JobState.FINISHED, "PASSED": Status.PASSED}
+    night_css = Path(__file__).parent / "templates" / "night.css"
+    css = "".join(file.read_text(encoding="utf-8") for file in (BASE_CSS, night_css))
+    # One file that runs no script.
+    made.globals |= {"alone": {"css": trusted(css), "digest": trusted("'none'")}}
+    made.globals |= {"UNJUDGED": Status.UNJUDGED, "STATUSES": tuple(Status), "SEVERE": SEVERE}
+    return made

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 
 from ...errors import Exit
 from ..summary import JobState
-from .drift import SourceRules, SourceYield
-from .figures import Changes
+from .figures import Changes, SourceRules, SourceYield
 from .formats import counted, percent
 from .night import Night, share
 

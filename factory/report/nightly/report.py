@@ -10,8 +10,7 @@ from typing import Any
 from ...registry import Entry
 from ...registry.verify import Problem, Settled
 from ..summary import JobState
-from .drift import SourceYield
-from .figures import Changes, InputChange, licenses, reasons, slowest, stage_times
+from .figures import Changes, InputChange, SourceYield, licenses, reasons, slowest, stage_times
 from .formats import clock_span, counted, percent, points
 from .night import Night, NightResult, latest, night_to, share
 

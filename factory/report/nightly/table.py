@@ -24,9 +24,7 @@ def write_table(path: Path, tried: Sequence[NightResult]) -> None:
     A column for each field of an attempt, ``attempt`` and ``last``, and a column
     ``seconds_<stage>`` for each stage that any of them went through.
 
-    Args:
-        path: a reader sees the old file or the new one, never half of it.
-        tried: in the order in which they ended.
+    A reader sees the old file or the new one, never half of it.
     """
     import pyarrow as pa
     from pyarrow import parquet

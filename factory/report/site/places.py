@@ -7,11 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from asset_factory.sim_checks import Finding
-from asset_factory.sim_checks.measurements import (
-    MeasuredContact,
-    MeasuredJoint,
-    penetrations,
-)
+from asset_factory.sim_checks.measurements import MeasuredContact, MeasuredJoint, penetrations
 
 from ...display.pictures import Fault
 from ...display.scene import SceneGraph
@@ -43,12 +39,7 @@ class SweepTold:
 
 
 class Places:
-    """The poses and points of an asset's findings.
-
-    Args:
-        scene: whose joints are posed.
-        measurements: of its report.
-    """
+    """The poses and points of an asset's findings."""
 
     def __init__(self, scene: SceneGraph, measurements: Mapping[str, Any]) -> None:
         self._upper = {joint.name: joint.upper for joint in scene.movable}

@@ -29,10 +29,7 @@ def asset_html(
 ) -> str:
     """Return the page of an asset in a site: pictures, model and scripts lie beside it.
 
-    Args:
-        page: of the asset.
-        films: names of files in the registry's folder of them, ``<id>-<joint>-<robot>.mp4``.
-        seconds: that its last build took, by stage [s].
+    ``films`` are named ``<id>-<joint>-<robot>.mp4``; ``seconds`` [s] are its stages'.
     """
     shown = {"films": films, "folder": f"../../../{SOLVING}/", "seconds": seconds or {}}
     return _templates().get_template("asset.html.j2").render(page=page, alone=None, **shown)
@@ -41,9 +38,7 @@ def asset_html(
 def alone_html(page: AssetPage, live: bool = False) -> str:
     """Return the page of an asset as one file that needs nothing else.
 
-    Args:
-        page: of the asset.
-        live: it is served, and files may be dropped on it.
+    If ``live``, it is served, and files may be dropped on it.
     """
     model = packed(page.model)
     texts = {name: (STATIC / name).read_text(encoding="utf-8") for name in STATIC_FILES}
@@ -60,13 +55,7 @@ def alone_html(page: AssetPage, live: bool = False) -> str:
 
 
 def grid_html(rows: Sequence[Mapping[str, Any]], lists: int, title: str) -> str:
-    """Return the grid's page.
-
-    Args:
-        rows: of all assets.
-        lists: how many plain lists there are.
-        title: of the registry.
-    """
+    """Return the grid's page."""
     counts = {status: sum(row["status"] == status for row in rows) for status in Status}
     template = _templates().get_template("grid.html.j2")
     return template.render(total=len(rows), counts=counts, lists=lists, title=title)
@@ -85,9 +74,5 @@ def packed(model: bytes) -> str:
 
 @cache
 def _templates() -> Environment:
-    known = {
-        "PASSED": Status.PASSED,
-        "STATUSES": tuple(Status),
-        "SEVERITIES": tuple(Severity),
-    }
+    known = {"PASSED": Status.PASSED, "STATUSES": tuple(Status), "SEVERITIES": tuple(Severity)}
     return environment(__package__, **known)

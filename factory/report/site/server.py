@@ -77,10 +77,8 @@ class PageServer:
 def serve(answer: Answer, port: int = 0, most_bytes: int = 0) -> Iterator[PageServer]:
     """Yield a server; nothing of the file system is within its reach but by its answers.
 
-    Args:
-        answer: returns the content of a path; called from several threads at once.
-        port: 0: any that is free.
-        most_bytes: what a request may bring.
+    ``answer`` is called from several threads at once. Port 0 is any that is free; a request may
+    bring ``most_bytes``.
 
     Raises:
         ConfigError: the port is taken.

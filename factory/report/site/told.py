@@ -14,10 +14,9 @@ from asset_factory.sim_checks.grouping import group_findings, told_once
 
 from ...display.camera import Viewpoint
 from ...display.described import scene_of_file
-from ...display.glb import glb_of
+from ...display.glb import glb_of, read_model, scene_from
 from ...display.pictures import Fault
 from ...display.scene import SceneGraph
-from ...display.stored import read_model, scene_from
 from ...errors import InputRejected, RegistryError
 from ...export.manifest import Manifest
 from ...manufacture.repair import Repair
@@ -100,12 +99,8 @@ class AssetPage:
     @property
     def groups(self) -> tuple[FindingGroup, ...]:
         """Return the findings by severity and code; in order, they follow one another already."""
-        return tuple(
-            FindingGroup(code, severity, meaning_of(severity, code), tuple(group))
-            for (severity, code), group in groupby(
-                self.findings, key=lambda told: (told.finding.severity, told.finding.code)
-            )
-        )
+        kinds = groupby(self.findings, lambda told: (told.finding.severity, told.finding.code))
+        return tuple(FindingGroup(c, s, meaning_of(s, c), tuple(group)) for (s, c), group in kinds)
 
     @property
     def snippets(self) -> tuple[Snippet, ...]:
@@ -149,10 +144,6 @@ def about(entry: Entry) -> str:
 def asset_page(root: Path, entry: Entry) -> AssetPage:
     """Return what the page of a registered asset says.
 
-    Args:
-        root: of the registry.
-        entry: its row.
-
     Raises:
         RegistryError: its report cannot be read.
     """
@@ -180,9 +171,7 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
 def with_model(page: AssetPage, model: bytes) -> AssetPage:
     """Return a page with a model: findings lead to poses, and the script has its data.
 
-    Args:
-        page: without one.
-        model: GLB of ours. Raises ValueError for another.
+    ``model`` is a GLB of ours. Raises ValueError for another.
     """
     scene = scene_from(model)
     places = Places(scene, page.report.measurements)

@@ -10,10 +10,9 @@ import pytest
 import trimesh
 from export_samples import box, boxes_asset, cabinet, hull_of, image
 
-from asset_factory.factory.display.glb import KEYS, glb_of
+from asset_factory.factory.display.glb import KEYS, glb_of, scene_from
 from asset_factory.factory.display.made import scene_of
 from asset_factory.factory.display.scene import SceneGraph, SceneJoint
-from asset_factory.factory.display.stored import scene_from
 from asset_factory.factory.mesh import Material
 
 TEXTURED = Material("oak", (1.0, 0.9, 0.8, 1.0), image((120, 80, 40)))

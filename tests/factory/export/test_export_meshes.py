@@ -13,7 +13,7 @@ from PIL import Image
 
 from asset_factory.factory.export.meshes import hull_obj, material_mtl, visual_obj
 from asset_factory.factory.export.text import number, vector
-from asset_factory.factory.export.textures import TextureFolder, png_bytes
+from asset_factory.factory.export.visuals import TextureFolder, png_bytes
 from asset_factory.factory.mesh import Material, Mesh, Texture
 
 

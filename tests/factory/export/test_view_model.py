@@ -10,9 +10,8 @@ from export_samples import PROVENANCE, box, cabinet
 from registry_samples import BAD_REPORT, REJECTED
 
 from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.display.stored import scene_from
-from asset_factory.factory.export.bundle import export_bundle
-from asset_factory.factory.export.model import write_input, write_model
+from asset_factory.factory.display.glb import scene_from
+from asset_factory.factory.export.bundle import export_bundle, write_input, write_model
 from asset_factory.factory.intake.source import Source
 from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.registry import Registry

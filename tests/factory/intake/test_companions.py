@@ -36,6 +36,13 @@ def test_names_with_spaces(inputs):
     assert "red paint.png" in companions(inputs / "painted" / "painted.obj")
 
 
+@pytest.mark.parametrize("suffix", [".mtl", ".png", ".bin"])
+def test_a_name_ends_with_its_suffix(tmp_path, suffix):
+    (tmp_path / f"other{suffix}").touch()
+    (tmp_path / "box.obj").write_text(f"# other{suffix}us other{suffix}_old\n")
+    assert companions(tmp_path / "box.obj") == {"box.obj"}
+
+
 def test_one_mesh_does_not_bring_another(inputs):
     assert companions(inputs / "box_0.stl") == {"box_0.stl"}
 

@@ -17,7 +17,7 @@ from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.soup import unique_names
 from asset_factory.factory.intake.discover import find_inputs
-from asset_factory.factory.intake.formats import gltf_document, mtl, obj
+from asset_factory.factory.intake.formats import gltf_document, obj
 from asset_factory.factory.intake.images import load_texture
 from asset_factory.factory.intake.importers import prediction as prediction_reader
 from asset_factory.factory.intake.load import load
@@ -111,7 +111,7 @@ def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(monk
     path.write_text("mtllib cube.mtl\n" * 500 + path.read_text())
     (tmp_path / "cube.mtl").write_text("newmtl red wood\n" + "map_Kd wood.png\n" * 500)
     libraries = counted(monkeypatch, obj, "read_mtl")
-    pictures = counted(monkeypatch, mtl, "load_texture")
+    pictures = counted(monkeypatch, obj, "load_texture")
     assert any(material.texture for material in load(path, IntakeConfig()).mesh.materials)
     assert (len(libraries), len(pictures)) == (1, 1)
 

@@ -12,8 +12,8 @@ from registry_samples import REPORT, dump, named, publish
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.export import contents, write_export
+from asset_factory.factory.registry.export.contents import is_safe_path
 from asset_factory.factory.registry.imports import ImportLimits, import_export
-from asset_factory.factory.registry.names import is_safe_path
 from asset_factory.factory.registry.rebuild import rebuild
 from asset_factory.factory.registry.verify import verify
 from asset_factory.factory.runtime.store import digest_bytes

@@ -15,8 +15,8 @@ from asset_factory.learn.objects import make_object
 
 torch = pytest.importorskip("torch")
 
+from asset_factory.factory.models.detector.canvas import KINDS  # noqa: E402
 from asset_factory.factory.models.detector.decode import Found  # noqa: E402
-from asset_factory.factory.models.detector.kinds import KINDS  # noqa: E402
 from asset_factory.factory.models.detector.network import DenseAnswers, Detector  # noqa: E402
 from asset_factory.factory.views.raster import Side  # noqa: E402
 from asset_factory.learn.detector.evaluate import compared  # noqa: E402

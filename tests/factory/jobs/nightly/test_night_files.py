@@ -7,8 +7,7 @@ import pytest
 from nights_made import ATTEMPTS
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.jobs.nightly.journal import journal, log, read_journal
-from asset_factory.factory.jobs.nightly.lock import locked
+from asset_factory.factory.jobs.nightly.journal import journal, locked, log, read_journal
 
 
 def test_the_journal_survives_being_cut_at_any_byte(tmp_path):
@@ -32,7 +31,7 @@ def test_the_journal_survives_being_cut_at_any_byte(tmp_path):
 HOLDER = """
 import sys
 from pathlib import Path
-from asset_factory.factory.jobs.nightly.lock import locked
+from asset_factory.factory.jobs.nightly.journal import locked
 with locked(Path(sys.argv[1])) as announce:
     announce("0007")
     print("held", flush=True)

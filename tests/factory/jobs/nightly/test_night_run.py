@@ -14,7 +14,7 @@ from asset_factory.factory.jobs.nightly.settings import NightConfig, Upkeep
 from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.result import Result
 from asset_factory.factory.registry.verify import Problem, Settled
-from asset_factory.factory.report.nightly.drift import SourceRules
+from asset_factory.factory.report.nightly.figures import SourceRules
 from asset_factory.factory.report.nightly.files import JOURNAL
 from asset_factory.factory.report.nightly.outcome import FailureRules
 from asset_factory.factory.report.nightly.table import read_table

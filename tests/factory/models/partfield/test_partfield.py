@@ -9,20 +9,21 @@ from tiny_model import TINY_FIELD as TINY
 from weight_rule import weights
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.models.partfield.encoder import PartFieldEncoder, sample_field
+from asset_factory.factory.models.partfield.encoder import (
+    GRID,
+    PartFieldEncoder,
+    PointVoxelConv,
+    sample_field,
+    scatter_mean,
+    scatter_to_planes,
+    voxelize,
+)
 from asset_factory.factory.models.partfield.shape import (
     PartFieldShape,
     expected_tensors,
     read_partfield_shape,
 )
 from asset_factory.factory.models.partfield.unet import PlaneExchange
-from asset_factory.factory.models.partfield.voxels import (
-    GRID,
-    PointVoxelConv,
-    scatter_mean,
-    scatter_to_planes,
-    voxelize,
-)
 from asset_factory.factory.models.particulate.field import FeatureField
 
 

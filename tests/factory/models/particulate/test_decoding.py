@@ -11,8 +11,12 @@ from asset_factory.factory.articulate.draft import Draft, ordered
 from asset_factory.factory.articulation import Joint
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import Mesh
-from asset_factory.factory.models.particulate.confidence import assigned
-from asset_factory.factory.models.particulate.decoding import DecodeRules, TreeOver, decode
+from asset_factory.factory.models.particulate.decoding import (
+    DecodeRules,
+    TreeOver,
+    assigned,
+    decode,
+)
 from asset_factory.factory.models.particulate.frames import UnitBox
 from asset_factory.factory.models.particulate.labels import Refinement
 from asset_factory.factory.models.particulate.motion import holding_zero, read_motion

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from stored_arrays import arrays
 
 from asset_factory.factory.geometry.edges import label_linked
-from asset_factory.factory.models.particulate.confidence import assigned
+from asset_factory.factory.models.particulate.decoding import assigned
 from asset_factory.factory.models.particulate.labels import (
     Refinement,
     by_component,

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from stored_arrays import arrays
 
-from asset_factory.factory.models.particulate.arborescence import induced, spanning_arborescence
+from asset_factory.factory.models.particulate.decoding import induced, spanning_arborescence
 
 
 def weight(logits, edges):

@@ -9,7 +9,7 @@ torch = pytest.importorskip("torch")
 from ray_calls import answer  # noqa: E402 - after the skip
 
 from asset_factory.factory.config import ParticulateConfig  # noqa: E402
-from asset_factory.factory.models.network.precision import product_dtype  # noqa: E402
+from asset_factory.factory.models.network.shape import product_dtype  # noqa: E402
 
 if not torch.cuda.is_available():
     pytest.skip("no GPU here: torch sees no CUDA device", allow_module_level=True)

@@ -13,8 +13,7 @@ from tiny_model import TINY, plainly, random_cloud, tiny_model
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.layers import Attention, SinusoidEmbedding
-from asset_factory.factory.models.network.precision import product_dtype
-from asset_factory.factory.models.network.shape import AxisForm
+from asset_factory.factory.models.network.shape import AxisForm, product_dtype
 from asset_factory.factory.models.network.streaming import QueryPass, drive, embed_chunks
 from asset_factory.factory.models.network.transformer import pair_logits
 from asset_factory.factory.models.particulate.model import Particulate, PointCloud, load_model

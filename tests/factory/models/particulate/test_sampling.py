@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from stored_arrays import arrays
 
 from asset_factory.factory.models.particulate.frames import UnitBox
-from asset_factory.factory.models.particulate.sampling import draw, sample
-from asset_factory.factory.models.particulate.sharp import sharp_edges
+from asset_factory.factory.models.particulate.sampling import draw, sample, sharp_edges
 from asset_factory.factory.models.particulate.surface import Surface
 
 SHARP_MESHES = ("box", "cyl10", "ico", "plus", "thin_wedge")

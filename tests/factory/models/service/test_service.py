@@ -20,7 +20,7 @@ from asset_factory.factory.models.particulate.prediction import Prediction
 from asset_factory.factory.models.particulate.sampling import Cloud
 from asset_factory.factory.models.service import Address, ModelService, asking, network_for, wire
 from asset_factory.factory.models.service.answering import HELD, Answering
-from asset_factory.factory.models.service.listening import answer_all, listening_socket
+from asset_factory.factory.models.service.process import answer_all, listening_socket
 from asset_factory.factory.models.service.wire import Message, WireError, pack, unpack
 
 

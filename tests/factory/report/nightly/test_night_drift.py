@@ -7,8 +7,7 @@ from pathlib import PurePath
 import pytest
 from nights_made import attempt, night
 
-from asset_factory.factory.report.nightly.drift import SourceRules, source_yields
-from asset_factory.factory.report.nightly.figures import Changes
+from asset_factory.factory.report.nightly.figures import Changes, SourceRules, source_yields
 from asset_factory.factory.report.nightly.files import SUMMARY, read_sources
 from asset_factory.factory.report.nightly.outcome import FailureRules, concerns, exit_code
 

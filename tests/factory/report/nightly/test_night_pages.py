@@ -11,8 +11,8 @@ from nights_made import attempt, night
 
 from asset_factory.factory.registry.verify import Problem
 from asset_factory.factory.report.nightly.figures import compare
+from asset_factory.factory.report.nightly.files import environment, night_page, nights_page
 from asset_factory.factory.report.nightly.night import Night
-from asset_factory.factory.report.nightly.render import environment, night_page, nights_page
 from asset_factory.factory.report.nightly.report import LeftOut, NightlyReport
 
 pytest.importorskip("jinja2")

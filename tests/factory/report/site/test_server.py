@@ -8,7 +8,7 @@ from threading import Thread
 import pytest
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.report.site.dropped import DroppedFiles, unpack_drop
+from asset_factory.factory.report.site.alone import DroppedFiles, unpack_drop
 from asset_factory.factory.report.site.server import HOST, serve
 
 PAGE = DroppedFiles("<p>here</p>", lambda file: None)

@@ -7,8 +7,7 @@ import pytest
 from browser import until
 from shown_registry import bundle_in
 
-from asset_factory.factory.report.site.alone import page_of_file
-from asset_factory.factory.report.site.dropped import MOST_BYTES, DroppedFiles
+from asset_factory.factory.report.site.alone import MOST_BYTES, DroppedFiles, page_of_file
 from asset_factory.factory.report.site.server import serve
 
 pytestmark = pytest.mark.browser
