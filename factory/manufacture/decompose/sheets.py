@@ -10,10 +10,11 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from ...asset import Hull
+from ...geometry.edges import shared_edges
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
 from .convex import hull_of
-from .solids import OpenSurface, neighbours
+from .solids import OpenSurface
 
 #: Share of its outline's convex hull that a flat patch may leave empty, for rounding's sake.
 SPARE_SHARE = 0.002
@@ -86,7 +87,7 @@ def _grow(surface: OpenSurface, vectors: FloatArray, error_m: float) -> list[_Pa
         i: _Patch(surface.vertices[face], vector)
         for i, (face, vector) in enumerate(zip(surface.faces, vectors, strict=True))
     }
-    for a, b in neighbours(surface.faces)[0].tolist():
+    for a, b in shared_edges(surface.faces).faces.tolist():
         patches[a].near.add(b)
         patches[b].near.add(a)
     queue: list[tuple[float, int, int]] = []

@@ -9,10 +9,10 @@ import numpy as np
 from ...articulation import Articulation
 from ...mesh import BoolArray, FloatArray, IntArray
 from ...part import Handle
+from ..decompose.solids import component_labels
 from .protrusions import (
     LOOKS_OUT,
     ProtrudingFront,
-    component_labels,
     front_of,
     looking,
     opening_direction,
