@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..articulation import Articulation, Joint
+from ..articulation import Articulation, Joint, JointKind
 from ..mesh import FloatArray
 
 #: Beyond a turn of so many quarters poses grow sparser.
@@ -40,6 +40,23 @@ def relative_poses(
     return [
         np.asarray(np.linalg.inv(_pose(above_a, given)) @ _pose(above_b, given)) for given in values
     ]
+
+
+def closed_values(articulation: Articulation) -> dict[str, float]:
+    """Return the value at which each joint is closed [rad] or [m]; of those that have ends."""
+    ended = (joint for joint in articulation.joints if joint.kind is not JointKind.CONTINUOUS)
+    return {joint.name: joint.lower for joint in ended}
+
+
+def moved(points: FloatArray, pose: FloatArray) -> FloatArray:
+    """Return points [m], shape [n, 3], moved by a pose, shape [4, 4]."""
+    return np.asarray(points @ pose[:3, :3].T + pose[:3, 3])
+
+
+def arms_from(joint: Joint, points: FloatArray) -> FloatArray:
+    """Return the arms from a joint's axis to points [m], shape [n, 3], across the axis."""
+    arms = points - joint.origin
+    return np.asarray(arms - np.outer(arms @ joint.axis, joint.axis))
 
 
 def joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:

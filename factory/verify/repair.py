@@ -17,9 +17,7 @@ from .repairs.geometry import (
     separate_hulls,
 )
 from .repairs.give_up import give_up_guesses
-from .repairs.mend import mend_joints
-from .repairs.pull_in import pull_in
-from .repairs.rehang import rehang_doors
+from .repairs.mend import mend_joints, pull_in, rehang_doors
 from .repairs.shorten import freeze_small, shorten_or_freeze
 from .validate import Verdict
 

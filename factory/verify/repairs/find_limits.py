@@ -57,13 +57,9 @@ def _free_about_the_drawn_pose(asset: Asset, joint: Joint) -> Joint:
 
     But for so much on the way as the cut that follows may plane off.
     """
-    hulls = [body.hulls for body in asset.bodies]
     onwards = replace(joint, kind=JointKind.REVOLUTE, lower=0.0, upper=MOST_TURN)
     backwards = replace(onwards, axis=-joint.axis)
-    lower, upper = (
-        free_until(asset.articulation, hulls, way, PLANED_M, FREE_M, GAP_M)
-        for way in (backwards, onwards)
-    )
+    lower, upper = (free_until(asset, way, PLANED_M, FREE_M, GAP_M) for way in (backwards, onwards))
     return replace(onwards, lower=-lower, upper=upper)
 
 

@@ -87,12 +87,11 @@ def _free_end(asset: Asset | None, name: str, clear_until: float) -> float | Non
     if asset is None:
         return clear_until
     joint = asset.articulation.joint(name)
-    hulls = [body.hulls for body in asset.bodies]
     for share in SHORTER:
         shorter = replace(joint, upper=joint.lower + share * (clear_until - joint.lower))
         # The pose as modelled is never left out.
         if shorter.upper < 0.0 or shorter.range <= 0.0:
             continue
-        if swept_m(asset.articulation, hulls, shorter, FREE_M, GAP_M) <= FREE_M:
+        if swept_m(asset, shorter, FREE_M, GAP_M) <= FREE_M:
             return shorter.upper
     return None
