@@ -54,13 +54,8 @@ def find_targets(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) ->
 
 def held_part(articulation: Articulation, joint: Joint) -> int | None:
     """Return the first part with a surface that a joint moves: its child, or what that carries."""
-    carried = {joint.child}
-    for other in articulation.joints[joint.child - 1 :]:
-        if other.child in carried or other.parent in carried:
-            carried.add(other.child)
-            if len(shape_of(articulation, other.child).faces):
-                return other.child
-    return None
+    carried = articulation.carried(joint.child)
+    return next((part for part in carried if len(shape_of(articulation, part).faces)), None)
 
 
 def _holds(task: HoldSearch) -> list[Target]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 
 from ...articulation import Articulation
 from ...asset import Hull
@@ -138,10 +139,10 @@ class HandView:
         below, above = self._boxes
         return np.asarray(((above >= low) & (below <= high)).all(axis=1))
 
-    def free(self, low: FloatArray, high: FloatArray) -> bool:
-        """Return whether nothing lies in a box of the frame [m]."""
-        low = low + TOUCH_M
-        high = high - TOUCH_M
+    def free(self, lowest: npt.ArrayLike, highest: npt.ArrayLike) -> bool:
+        """Return whether nothing lies in a box of the frame, between two corners [m]."""
+        low = np.asarray(lowest) + TOUCH_M
+        high = np.asarray(highest) - TOUCH_M
         if (high <= low).any():
             return True
         met = self._local[self._met(low, high)]
@@ -153,11 +154,13 @@ class HandView:
         probes = (low + high) / 2.0 + PROBES * (high - low) * 0.9
         return not self.everything.inside(self.point + probes @ self.axes).any()
 
-    def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
+    def within(self, lowest: npt.ArrayLike, highest: npt.ArrayLike) -> FloatArray:
         """Return the own geometry in a box of the frame: triangles cut to it [m], [any, 3, 3]."""
+        low = np.asarray(lowest)
+        high = np.asarray(highest)
         return clip_to_box(self._local[self.own & self._met(low, high)], low, high)
 
-    def spans(self, low: FloatArray, high: FloatArray, gap: float) -> FloatArray:
+    def spans(self, low: npt.ArrayLike, high: npt.ArrayLike, gap: float) -> FloatArray:
         """Return what of the own geometry lies in a box, along the first axis.
 
         Returns:
