@@ -9,6 +9,7 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
+from ..poses import moved
 from .clip import carved, cut_apart, depth_at, meeting
 
 #: For each piece more a cut must lose less, by this share.
@@ -76,13 +77,13 @@ def cut_apart_along(
     # Pose by pose: what meets first is cut first, a little at a time.
     steps = steps_along(poses)
     for _ in range(MOST_PASSES):
-        moved = False
+        pushed = False
         for step in steps:
             for i, j in near_pairs(solids_a, solids_b, step.pose, clearance_m, step.behind):
                 before = solids_a[i], solids_b[j]
                 solids_a[i], solids_b[j] = _cut_by_planes(*before, [step], clearance_m)
-                moved |= any(map(_moved, before, (solids_a[i], solids_b[j])))
-        if not moved:
+                pushed |= any(map(_pushed, before, (solids_a[i], solids_b[j])))
+        if not pushed:
             break
     return [solid for solid in solids_a if solid], [solid for solid in solids_b if solid]
 
@@ -194,7 +195,7 @@ def _cut_by_planes(
     return one, other
 
 
-def _moved(before: Hull | None, after: Hull | None) -> bool:
+def _pushed(before: Hull | None, after: Hull | None) -> bool:
     """Tell whether a hull is as large as before, but elsewhere."""
     if before is None or after is None or before is after:
         return False
@@ -203,7 +204,7 @@ def _moved(before: Hull | None, after: Hull | None) -> bool:
 
 def _seen(solid: Hull, pose: FloatArray, behind: FloatArray) -> FloatArray:
     """Return the corners of a moved hull, there and where it slid there from [m], shape [n, 3]."""
-    points = solid.vertices @ pose[:3, :3].T + pose[:3, 3]
+    points = moved(solid.vertices, pose)
     return np.concatenate([points, points + behind]) if behind.any() else points
 
 
@@ -253,7 +254,7 @@ def _boxes(solids: Sequence[Hull | None], pose: FloatArray) -> tuple[FloatArray,
     there = [number for number, solid in enumerate(solids) if solid is not None]
     corners = [solid.vertices for solid in solids if solid is not None]
     if there:
-        points = np.concatenate(corners) @ pose[:3, :3].T + pose[:3, 3]
+        points = moved(np.concatenate(corners), pose)
         starts = np.cumsum([0, *map(len, corners[:-1])])
         low[there] = np.minimum.reduceat(points, starts)
         high[there] = np.maximum.reduceat(points, starts)

@@ -16,6 +16,7 @@ from ..decompose.convex import depth_below
 from ..decompose.outside import ROUNDING_M, outside
 from ..decompose.solids import manifold_of_hull, union
 from ..decompose.spread import spread_over
+from ..poses import arms_from
 
 #: Points spread over a part's visible surface, by area; its corners are looked at besides.
 SPREAD = 1500
@@ -268,7 +269,5 @@ def _beside(points: FloatArray, hinges: Sequence[Joint], radius_m: float) -> npt
     """Return which points lie near a hinge's line, shape [n]."""
     near = np.zeros(len(points), dtype=bool)
     for hinge in hinges:
-        arm = points - hinge.origin
-        radial = arm - np.outer(arm @ hinge.axis, hinge.axis)
-        near |= np.linalg.norm(radial, axis=1) < radius_m
+        near |= np.linalg.norm(arms_from(hinge, points), axis=1) < radius_m
     return near

@@ -11,6 +11,7 @@ from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
 from ...runtime.numbers import DECIMALS
 from ..decompose.convex import hull_of
+from ..poses import moved
 
 #: A hull no thicker than this is a sheet [m].
 SHEET_M = 0.003
@@ -67,10 +68,15 @@ class HullMeeting:
 
 def depth_at(a: Hull, b: Hull, pose: FloatArray) -> float:
     """Return an upper bound of how deep two hulls lie in one another [m], the second moved."""
-    points_b = b.vertices @ pose[:3, :3].T + pose[:3, 3]
+    _, ends, starts = _along_normals(a, b, pose)
+    return float((ends - starts).min())
+
+
+def _along_normals(a: Hull, b: Hull, pose: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the face normals of two hulls, where the first ends along each, the second begins."""
     directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
     ends = (a.vertices @ directions.T).max(axis=0)
-    return float((ends - (points_b @ directions.T).min(axis=0)).min())
+    return directions, ends, (moved(b.vertices, pose) @ directions.T).min(axis=0)
 
 
 def meeting(
@@ -86,11 +92,9 @@ def meeting(
         behind: from there to where it slid here from, in the first hull's frame [m], shape [3];
             all of that way counts.
     """
-    points_b = b.vertices @ pose[:3, :3].T + pose[:3, 3]
-    directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
-    ends = (a.vertices @ directions.T).max(axis=0)
+    directions, ends, starts = _along_normals(a, b, pose)
     lags = np.zeros(len(directions)) if behind is None else np.minimum(directions @ behind, 0.0)
-    starts = (points_b @ directions.T).min(axis=0) + lags
+    starts = starts + lags
     # Triangles of one face reach equally far but for last digits, which must not choose among them.
     order = np.argsort(np.round(ends - starts, ROUNDING_DECIMALS), kind="stable")
     best = order[:most]

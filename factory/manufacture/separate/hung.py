@@ -12,6 +12,7 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.outside import outside
 from ..hinges import is_crooked
+from ..poses import arms_from
 from .budget import SeenSurface
 
 #: A part that reaches beyond its axis by this share of its reach turns about its middle.
@@ -51,7 +52,7 @@ def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig
     """Tell whether a part reaches to its axis, and no further beyond it than may be cut back."""
     if surface is None:
         return False
-    arms = _arms(surface, joint)
+    arms = arms_from(joint, surface.points)
     near = max(float(np.linalg.norm(arms, axis=1).min()), _reach(arms)[1])
     return near <= trimmed_limit(config, surface.diagonal)
 
@@ -60,7 +61,7 @@ def about_its_middle(surface: SeenSurface | None, joint: Joint) -> bool:
     """Tell whether a part reaches about as far to one side of its axis as to the other."""
     if surface is None:
         return True
-    ahead, behind = _reach(_arms(surface, joint))
+    ahead, behind = _reach(arms_from(joint, surface.points))
     return behind >= MIDDLE_SHARE * ahead
 
 
@@ -72,7 +73,7 @@ def seat_roundness(
     1: it turns in a round seat. A lever whose arm stands out to one side of a collar has one; a
     door has none, however it is hung, nor a lever whose axis lies beside the collar: 0.
     """
-    arms = _arms(surface, joint)[outside(holder, surface.points) <= near_m]
+    arms = arms_from(joint, surface.points)[outside(holder, surface.points) <= near_m]
     across = arms @ np.linalg.svd(joint.axis[None])[2][1:].T
     turned = np.arctan2(across[:, 1], across[:, 0]) / (2.0 * np.pi)
     sector = np.round(SEAT_SECTORS * turned).astype(int) % SEAT_SECTORS
@@ -88,13 +89,7 @@ def trimmed_limit(config: SeparateConfig, diagonal: float) -> float:
 
 def reach_m(surface: SeenSurface, joint: Joint) -> float:
     """Return how far a part reaches from a joint's axis [m]."""
-    return float(np.linalg.norm(_arms(surface, joint), axis=1).max())
-
-
-def _arms(surface: SeenSurface, joint: Joint) -> FloatArray:
-    """Return the arms from a joint's axis to each point, across the axis [m], shape [n, 3]."""
-    arms = surface.points - joint.origin
-    return np.asarray(arms - np.outer(arms @ joint.axis, joint.axis))
+    return float(np.linalg.norm(arms_from(joint, surface.points), axis=1).max())
 
 
 def _reach(arms: FloatArray) -> tuple[float, float]:

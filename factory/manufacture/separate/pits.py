@@ -17,6 +17,7 @@ from ...asset import Hull
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of
 from ..decompose.solids import manifold_of_hull, union
+from ..poses import moved
 from .along import Sides, hull_depth, near_pairs
 from .clip import carved, clipped
 
@@ -144,8 +145,7 @@ def _before(
 
 def _room(hull: Hull, poses: Sequence[FloatArray]) -> Hull | None:
     """Return all the room that a hull takes on its way, as one."""
-    moved = [hull.vertices @ pose[:3, :3].T + pose[:3, 3] for pose in poses]
-    return hull_of(np.concatenate(moved))
+    return hull_of(np.concatenate([moved(hull.vertices, pose) for pose in poses]))
 
 
 def _around(piece: Hull, room: Hull, clearance_m: float) -> list[Hull]:

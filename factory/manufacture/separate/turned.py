@@ -16,6 +16,7 @@ import numpy as np
 from ...articulation import Joint
 from ...asset import Hull
 from ...mesh import FloatArray
+from ..poses import arms_from
 from .along import cut_apart_along, hull_depth, near_pairs
 from .clip import ROUNDING_M, ROUNDING_SHARE, SHARES, clipped
 
@@ -94,14 +95,14 @@ class Turned:
 
         Nothing, where the rest would be less than ``most`` [m3].
         """
-        arms = self._arms(outer)
+        arms = arms_from(self.joint, outer.vertices)
         toward = arms.mean(axis=0)
         length = float(np.linalg.norm(toward))
         if length == 0.0:
             return None, None
         toward = toward / length
         start = float((arms @ toward).min())
-        end = float(np.linalg.norm(self._arms(inner), axis=1).max())
+        end = float(np.linalg.norm(arms_from(self.joint, inner.vertices), axis=1).max())
         needed = max(0.0, end - start + clearance_m)
         least = start + (1.0 - share) * needed + float(self.joint.origin @ toward)
         second = clipped(outer, -toward, -least)
@@ -118,11 +119,6 @@ class Turned:
             normal = np.cos(angle) * first + np.sin(angle) * second
             left = clipped(left, normal, radius_m + float(self.joint.origin @ normal))
         return left
-
-    def _arms(self, hull: Hull) -> FloatArray:
-        """Return the arms from the axis to each corner, across it [m], shape [n, 3]."""
-        arms = hull.vertices - self.joint.origin
-        return np.asarray(arms - np.outer(arms @ self.joint.axis, self.joint.axis))
 
 
 def _ways(

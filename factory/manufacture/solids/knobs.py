@@ -8,6 +8,7 @@ from ...articulation import Joint, JointKind
 from ...asset import Hull
 from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import depth_below, hull_of
+from ..poses import moved
 from ..separate.clip import carved, clipped, meeting
 from .box import Box
 from .bump import Bump
@@ -64,12 +65,12 @@ def _way(joint: Joint) -> list[FloatArray]:
 
 def _passed(bump: Bump, joint: Joint) -> FloatArray:
     """Return its corners all along its way [m], shape [n, 3]."""
-    return _moved(bump.hull.vertices, _way(joint))
+    return _all_along(bump.hull.vertices, _way(joint))
 
 
-def _moved(points: FloatArray, way: list[FloatArray]) -> FloatArray:
+def _all_along(points: FloatArray, way: list[FloatArray]) -> FloatArray:
     """Return the points at all poses of a way [m], shape [n, 3]."""
-    return np.concatenate([points @ pose[:3, :3].T + pose[:3, 3] for pose in way])
+    return np.concatenate([moved(points, pose) for pose in way])
 
 
 def _box(points: FloatArray) -> Box:
@@ -119,8 +120,7 @@ def give_way(work: Workpiece, part: int) -> None:
     before = work.hulls.get(host, ())
     after = before
     for hull in work.hulls[part]:
-        way = [np.eye(4), *motions(joint, PRESSES)]
-        after = _all_around(after, _moved(hull.vertices, way))
+        after = _all_around(after, _all_along(hull.vertices, _way(joint)))
     left = sum(hull.volume for hull in after)
     if left >= PANEL_LEFT * sum(hull.volume for hull in before):
         work.hulls[host] = after
