@@ -101,11 +101,9 @@ def part_inertial(
 
 
 def carrier_inertial(child: Inertial, origin: FloatArray) -> Inertial:
-    """Return a small sphere for a link without geometry: light beside what hangs on it.
+    """Return a small sphere for a link without geometry: light beside the child that hangs on it.
 
-    Args:
-        child: of the link that hangs on it.
-        origin: of the joint between them [m], shape [3]; the sphere's centre.
+    Its centre is the ``origin`` of the joint between them [m], shape [3].
     """
     mass = max(CARRIER_SHARE * child.mass, MIN_MASS_KG)
     return Inertial(
@@ -116,10 +114,8 @@ def carrier_inertial(child: Inertial, origin: FloatArray) -> Inertial:
 def weighing(inertials: Sequence[Inertial], total: float, density: float) -> list[Inertial]:
     """Return links that together weigh ``total`` [kg], distributed as they are.
 
-    Args:
-        inertials: of all links, of a material of ``density`` [kg/m3].
-        total: less where the material would become denser than steel.
-        density: more than 0.
+    They weigh less where their material, of some ``density`` [kg/m3], would become denser than
+    steel.
     """
     factor = min(total / sum(each.mass for each in inertials), STEEL / density)
     factors = [max(factor, MIN_MASS_KG / each.mass) for each in inertials]

@@ -14,17 +14,11 @@ MOST_QUARTERS = 2.0
 def relative_poses(
     articulation: Articulation, a: int, b: int, count: int, share: float = 1.0
 ) -> list[FloatArray]:
-    """Return where part ``b`` is as seen from ``a``, [4, 4] each.
+    """Return where part ``b`` is as seen from ``a``: as modelled, closed, and as joints move it.
 
-    As modelled, closed, and along each joint between them.
-
-    Args:
-        articulation: parts and joints.
-        a: index of a part.
-        b: of another.
-        count: poses along each joint; along a hinge that turns further than a quarter turn, in
-            each quarter.
-        share: of each joint's range, from its lower end, that they lie in.
+    That is at ``count`` poses, [4, 4] each, along each joint between them, in a ``share`` of its
+    range from its lower end; along a hinge that turns further than a quarter turn at so many in
+    each quarter.
     """
     lower = {joint.name: joint.lower for joint in articulation.movable_joints}
     values: list[dict[str, float]] = [{}, lower]

@@ -23,7 +23,7 @@ from .decompose.room import Rooms
 from .inertia import carrier_inertial, part_inertial, weighing
 from .plan import Plan, as_planned
 from .separate import Separation, separate
-from .solids.kept import solid_parts
+from .solids.build import solid_parts
 from .targets.find import find_targets
 from .targets.handles import find_handle
 
@@ -40,14 +40,8 @@ def manufacture(
 ) -> tuple[Asset, tuple[Finding, ...]]:
     """Make all that a simulator needs beside the joints; with the factory's own findings.
 
-    Where its joints are best held no simulator asks: see :func:`with_targets`.
-
-    Args:
-        articulation: parts and joints.
-        plan: what a repair wants done differently.
-        intake: the input's name, category and density.
-        stages: with the settings; told how long each stage took, and asked whether it was done
-            before.
+    Where its joints are best held no simulator asks: see :func:`with_targets`. The stages have the
+    settings, are told how long each stage took, and asked whether it was done before.
     """
     whole = as_planned(articulation, Plan(given_up=plan.given_up, rehung=plan.rehung))
     usual = usual_of(intake.provenance.category or articulation.looks_like)

@@ -133,15 +133,9 @@ def _by_coacd(
     config: DecomposeConfig,
     limits: Limits,
 ) -> _Attempt:
-    """Return CoACD on a lighter solid, unless that is intricate.
+    """Return CoACD on a solid as light as it stays closed, unless that is intricate.
 
-    Args:
-        name: of the attempt.
-        solid: a closed manifold [m].
-        light: the same, simplified as far as it stays closed.
-        error_m: largest concavity left [m].
-        config: the most faces, and CoACD's settings.
-        limits: of the child process.
+    No concavity larger than ``error_m`` is to be left [m].
     """
     # One pass leaves what the next one takes away.
     within = solid.simplify(0.5 * error_m).simplify(0.5 * error_m)
@@ -159,10 +153,7 @@ def _by_coacd(
 def complaint(solid: Manifold, hulls: list[Hull], outside_m: float) -> str | None:
     """Return the fault of ``hulls`` as a cover of ``solid``; ``None`` if they have none.
 
-    Args:
-        solid: what they should cover.
-        hulls: convex pieces.
-        outside_m: how far they may lie outside, averaged over the solid's surface [m].
+    Averaged over the solid's surface they may lie ``outside_m`` outside [m].
     """
     if not hulls:
         return "no piece is a body"

@@ -26,15 +26,8 @@ UPWARD = 0.7
 def as_shell(surface: OpenSurface, error_m: float, room: Room) -> Hull | None:
     """Return the hull of an open surface close below it, where nobody misses what that fills.
 
-    Such are knobs, caps, panels without a back.
-
-    Args:
-        surface: an open piece.
-        error_m: deepest dent of the surface itself that may be filled [m].
-        room: that other parts take.
-
-    Returns:
-        ``None`` where the surface is not convex, where a hand gets in, or another part is in it.
+    Such are knobs, caps, panels without a back. ``None`` where dents of the surface itself are
+    deeper than ``error_m`` [m], where a hand gets in, or another part is in it.
     """
     hull = hull_of(surface.vertices)
     if hull is None or concavity(surface.vertices, surface.faces, hull) > error_m:
@@ -61,12 +54,8 @@ def closed(surface: OpenSurface, room: Room) -> Manifold | None:
 def capped(surface: OpenSurface, share: float = OPENING_SHARE) -> Manifold | None:
     """Return the solid that a surface encloses once its small openings are closed, outward.
 
-    Args:
-        surface: an open piece.
-        share: of the surface's area that openings may have.
-
-    Returns:
-        ``None`` where the openings are more than that, or closing them does not close it.
+    ``None`` where the openings are more than a share of the surface's area, or closing them does
+    not close it.
     """
     loops = _boundary_loops(surface.faces)
     if not loops:

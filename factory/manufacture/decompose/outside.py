@@ -17,11 +17,9 @@ ROUNDING_M = 1e-12
 
 
 def outside(hulls: Sequence[Hull], points: FloatArray) -> FloatArray:
-    """Return how far each point lies outside all hulls [m], shape [n]; zero within one.
+    """Return how far each point [m], shape [n, 3], lies outside all hulls [m], shape [n].
 
-    Args:
-        hulls: infinitely far away where there are none.
-        points: [m], shape [n, 3].
+    Zero within one, infinite where there are none.
     """
     if not hulls:
         return np.full(len(points), np.inf)

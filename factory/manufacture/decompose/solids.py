@@ -111,14 +111,10 @@ def union(solids: list[Manifold]) -> Manifold:
 
 
 def gate(vertices: FloatArray, faces: IntArray) -> Gated:
-    """Sort triangles into solids, cavities and sheets.
+    """Sort triangles, of welded positions [m], into solids, cavities and sheets.
 
     Duplicated faces count once, double-sided ones too; where the rest closes without these they are
     sheets. Inverted bodies are turned; an inverted body inside another one is a cavity.
-
-    Args:
-        vertices: welded positions [m], shape [n, 3].
-        faces: shape [m, 3].
     """
     faces = _without_repeats(vertices, faces)
     closed: list[Manifold] = []
@@ -175,11 +171,7 @@ def grouped(label: IntArray) -> list[IntArray]:
 def two_sided_patches(faces: IntArray) -> list[IntArray]:
     """Split faces where over two meet at an edge; drop back sides, wind each patch one way.
 
-    Args:
-        faces: shape [m, 3].
-
-    Returns:
-        Faces of each patch, shape [k, 3].
+    Faces have shape [m, 3], those of each patch [k, 3].
     """
     kept, _ = distinct_rows(np.sort(faces, axis=1))
     faces = faces[np.sort(kept)]
@@ -249,11 +241,6 @@ def wound_around(vertices: FloatArray, faces: IntArray, points: FloatArray) -> B
     """Return which points [m], shape [n, 3], a closed surface winds around, shape [n].
 
     The solid angles are those of van Oosterom and Strackee 1983.
-
-    Args:
-        vertices: of the surface [m], shape [vertex_count, 3].
-        faces: shape [face_count, 3].
-        points: to be asked about.
     """
     found = np.zeros(len(points), dtype=bool)
     for start in range(0, len(points), TOGETHER):

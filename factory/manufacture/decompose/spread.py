@@ -11,13 +11,8 @@ from ...mesh import FloatArray, Mesh
 def spread_over(mesh: Mesh, count: int, most_corners: int) -> FloatArray:
     """Return points over a surface [m], shape [n, 3]: ``count`` by area, then corners.
 
-    Args:
-        mesh: none of its vertices unused.
-        count: points by area; they stand for equal areas each.
-        most_corners: of more, so many are drawn.
-
-    Returns:
-        No points where there is no area.
+    Those by area stand for equal areas each; of more than ``most_corners`` so many are drawn. No
+    points where there is no area. All vertices must be used.
     """
     generator = np.random.default_rng(0)
     areas = face_areas(mesh)

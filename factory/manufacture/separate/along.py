@@ -97,12 +97,7 @@ def carved_apart_along(
 ) -> tuple[list[Hull], list[Hull]]:
     """Return the same, but a hull may become several around what another takes of it.
 
-    Args:
-        a: hulls of one part, object frame at rest.
-        b: hulls of another.
-        poses: where the second part is as seen from the first, [4, 4] each.
-        clearance_m: to be left between them [m].
-        whole: what a cut takes of each part is weighed against this [m3].
+    Arguments as of :func:`cut_apart_along`; cuts of each part are weighed against ``whole`` [m3].
     """
     pieces_a = [[hull] for hull in a]
     pieces_b = [[hull] for hull in b]
@@ -232,12 +227,8 @@ def near_pairs(
 ) -> list[tuple[int, int]]:
     """Return the indices of hulls whose boxes come within ``margin`` [m] of one another.
 
-    Args:
-        a: hulls of one part; ``None`` for one of which nothing is left.
-        b: of another.
-        pose: by which the second are moved, [4, 4].
-        margin: counted as near [m].
-        behind: see :func:`~.clip.meeting`.
+    ``None`` stands for a hull of which nothing is left. The second hulls are moved by ``pose``, [4,
+    4]; for ``behind`` see :func:`~.clip.meeting`.
     """
     low_a, high_a = _boxes(a, np.eye(4))
     low_b, high_b = _boxes(b, pose)

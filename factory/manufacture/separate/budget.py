@@ -124,15 +124,7 @@ def loss(
     excuse: Excuse,
     config: SeparateConfig,
 ) -> Loss:
-    """Return what a part loses.
-
-    Args:
-        surface: its visible one.
-        before: its hulls.
-        after: their remains.
-        excuse: where that is allowed.
-        config: limits of distance and of reporting.
-    """
+    """Return what a part with some visible surface loses where its hulls become others."""
     if not after:
         return Loss(1.0, 1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
     whole = sum(hull.volume for hull in before)
@@ -209,15 +201,10 @@ def overdone(
     limits: CutLimits,
     config: SeparateConfig,
 ) -> str | None:
-    """Say why a cut takes too much, or what can be seen; ``None`` if it does neither.
+    """Say why a cut of two parts takes too much, or visible surface; ``None`` if it does neither.
 
-    Args:
-        names: of both.
-        losses: of both.
-        solid: whether each encloses a volume to speak of: the slabs over an open surface come and
-            go whole, and a thin sheet is cut back to half of itself.
-        limits: for the two.
-        config: the other limits.
+    ``solid`` tells whether each encloses a volume to speak of: the slabs over an open surface come
+    and go whole, and a thin sheet is cut back to half of itself.
     """
     for depths, limit in (
         ([each.bared_m for each in losses], limits.free_m),

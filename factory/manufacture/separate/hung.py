@@ -33,11 +33,7 @@ def well_hung(
 ) -> bool:
     """Tell whether a joint runs straight, and turns its part about an edge, its middle or its seat.
 
-    Args:
-        surface: of the part that it moves; ``None`` for a carrier.
-        joint: to be looked at.
-        holder: hulls of what holds that part.
-        config: how far beyond its axis a part that hangs at an edge may reach; how near is touched.
+    The surface of a carrier is ``None``; ``holder`` are the hulls that hold the part.
     """
     if is_crooked(joint.axis):
         return False

@@ -40,12 +40,7 @@ def thickness_m(solid: Manifold | None) -> float:
 def overlap_m(a: Manifold, b: Manifold, pose: FloatArray) -> float:
     """Return the thickness of the thickest piece of two solids' intersection [m].
 
-    An upper estimate, exact for slabs.
-
-    Args:
-        a: a solid at rest.
-        b: another.
-        pose: motion of ``b`` as seen from ``a``, shape [4, 4].
+    An upper estimate, exact for slabs. ``pose`` is the motion of ``b`` as seen from ``a``, [4, 4].
     """
     shared = a ^ b.transform(np.array(pose[:3], order="C"))
     if shared.status() != manifold3d.Error.NoError:

@@ -173,9 +173,7 @@ class PartPair:
     def overdone(self, losses: Sequence[Loss], share: float) -> str | None:
         """Return why a cut takes too much, or what can be seen; ``None`` if it does neither.
 
-        Args:
-            losses: of both.
-            share: the largest of either's collision volume that may go.
+        No more than a share of either's collision volume may go.
         """
         config = self.bodies.config
         limits = CutLimits(self._free_m, self._trimmed_m + config.clearance_m, share)

@@ -77,10 +77,7 @@ def swept_share(
 ) -> float:
     """Return how many times the room it takes in its holder as modelled a part needs on its way.
 
-    Args:
-        holder: hulls, object frame at rest.
-        mover: of the other part.
-        poses: of the mover as seen from the holder, the first as modelled, [4, 4] each.
+    The poses are the mover's as seen from the holder, the first as modelled, [4, 4] each.
     """
     rest = _taken(holder, mover, poses[:1])
     return _taken(holder, mover, poses) / rest if rest > 0.0 else np.inf

@@ -20,13 +20,9 @@ POSES = 33
 def swept_m(asset: Asset, joint: Joint, enough_m: float = np.inf, gap_m: float = 0.0) -> float:
     """Return the worst deepening of any two parts along one joint, the others closed [m].
 
-    An upper bound at the poses that are looked at: only face normals separate.
-
-    Args:
-        asset: whose joint of that name is replaced by this one.
-        joint: to be moved from lower to upper.
-        enough_m: deeper than this is not looked into [m].
-        gap_m: hulls nearer than this count as touching [m].
+    An upper bound at the poses that are looked at: only face normals separate. Deeper than
+    ``enough_m`` is not looked into, and hulls nearer than ``gap_m`` count as touching [m]. The
+    joint stands for the asset's of its name.
     """
     worst = 0.0
     for ones, others, poses in _ways(asset, joint, POSES):
@@ -40,14 +36,9 @@ def swept_m(asset: Asset, joint: Joint, enough_m: float = np.inf, gap_m: float =
 def free_until(asset: Asset, joint: Joint, passed_m: float, free_m: float, gap_m: float) -> float:
     """Return where a hinge is free last before it runs into something [rad], from lower on.
 
-    As many poses are looked at in each quarter turn as along any joint.
-
-    Args:
-        asset: whose joint of that name is replaced by this one.
-        joint: to be turned.
-        passed_m: deeper than this two parts do not pass one another [m].
-        free_m: where it ends they are no deeper than this [m].
-        gap_m: hulls nearer than this count as touching [m].
+    As many poses are looked at in each quarter turn as along any joint. Deeper than ``passed_m``
+    two parts do not pass one another; where the hinge ends they are no deeper than ``free_m``;
+    hulls nearer than ``gap_m`` count as touching [m].
     """
     quarters = max(1, int(np.ceil(joint.range / (np.pi / 2.0))))
     values = np.linspace(joint.lower, joint.upper, POSES * quarters)

@@ -45,15 +45,10 @@ class Bump:
 
 
 def find_bump(points: FloatArray, rim: FloatArray, joint: Joint) -> Bump | None:
-    """Return a knob, a button or a wheel.
+    """Return a knob, a button or a wheel; ``None`` where a part would not turn on the spot.
 
-    Args:
-        points: of the part's surface [m], shape [n, 3].
-        rim: those on its border with other parts [m], shape [m, 3].
-        joint: that holds it.
-
-    Returns:
-        ``None`` where it is none: it would not turn on the spot.
+    Points of its surface, and its rim of those on its border with other parts, have shape [n, 3]
+    [m].
     """
     options = [cut for cut in (_cut(points, rim, way) for way in _ways(joint)) if cut is not None]
     if options:

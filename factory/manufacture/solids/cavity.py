@@ -88,18 +88,12 @@ def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> B
 def _merged(slices: list[Box], alike: float) -> tuple[Box, ...]:
     kept: list[Box] = []
     for box in slices:
-        sides = (
-            None
-            if not kept
-            else np.abs(
-                np.concatenate([box.low[:2] - kept[-1].low[:2], box.high[:2] - kept[-1].high[:2]])
-            )
-        )
-        if kept and sides is not None and (sides < alike).all():
-            kept[-1] = Box(
-                np.append(np.maximum(kept[-1].low[:2], box.low[:2]), kept[-1].low[2]),
-                np.append(np.minimum(kept[-1].high[:2], box.high[:2]), box.high[2]),
-            )
-        else:
+        last = kept[-1] if kept else box
+        off = np.abs([box.low - last.low, box.high - last.high])[:, :2]
+        if not kept or off.max() >= alike:
             kept.append(box)
+            continue
+        low = np.append(np.maximum(last.low[:2], box.low[:2]), last.low[2])
+        high = np.append(np.minimum(last.high[:2], box.high[:2]), box.high[2])
+        kept[-1] = Box(low, high)
     return tuple(box for box in kept if kept[-1].high[2] - kept[0].low[2] >= LEAST_M)

@@ -38,10 +38,8 @@ class Lattice:
     def over(cls, bounds: FloatArray, cells: int, planes: list[list[float]]) -> Lattice:
         """Return even cells over a box, with some planes exactly where they are wanted.
 
-        Args:
-            bounds: corners [m], shape [2, 3].
-            cells: along the longest side.
-            planes: wanted ones across each axis [m].
+        The longest side of the box [m], shape [2, 3], has so many cells; planes are given across
+        each axis [m].
         """
         size = bounds[1] - bounds[0]
         step = float(size.max()) / cells

@@ -109,18 +109,10 @@ def opens(joint: Joint, panel: Panel) -> bool:
 def find_panel(
     mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: View, opposite: View | None
 ) -> FlatPanel | None:
-    """Measure a part that is a panel, on the view that it faces.
+    """Measure a part that is a panel, on the view of the side on which it opens.
 
-    Args:
-        mesh: the whole mesh.
-        faces: the part's.
-        part: its index in the view.
-        joint: that holds it.
-        view: of the side on which it opens.
-        opposite: of the side across; ``None`` of a lid.
-
-    Returns:
-        ``None`` where it is none after all: ragged, or thicker than wide.
+    The view of the side across is ``None`` of a lid. Returns ``None`` where the part is no panel
+    after all: ragged, or thicker than wide.
     """
     seen = view.part == part
     rectangle = _rectangle(view, seen)

@@ -259,10 +259,8 @@ def _filled(lattice: Lattice, weights: Weights, span: Span, planes: FloatArray) 
 def _within(planes: FloatArray, corners: FloatArray, step: float) -> FloatArray:
     """Return planes below which a hull fills cells; of one thinner than cells, those it crosses.
 
-    Args:
-        planes: of the hull, outward normals and offsets, shape [n, 4].
-        corners: of the hull [m], shape [n, 3].
-        step: how large cells are [m].
+    The hull's planes have outward normals and offsets, shape [n, 4], its corners shape [n, 3];
+    cells are as large as ``step`` [m].
     """
     middle = corners.mean(axis=0)
     axes = np.linalg.svd(corners - middle, full_matrices=False)[2]

@@ -69,14 +69,9 @@ def relief(view: View, panel: FlatPanel) -> FrontRelief:
 
 
 def handles(face: FrontRelief, local: FloatArray) -> tuple[Hull, ...]:
-    """Return one hull for each thing that stands out of a face.
+    """Return one hull for each thing that stands out of a panel's face, in its side's frame.
 
-    Args:
-        face: of the panel.
-        local: points of the panel's surface in its side's frame [m], shape [n, 3].
-
-    Returns:
-        Hulls in the side's frame.
+    Points of the panel's surface, shape [n, 3], are in that frame too [m].
     """
     above = face.above(local)
     blob = face.blob(local)

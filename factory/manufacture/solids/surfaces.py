@@ -38,14 +38,9 @@ def boundary(triangles: Triangles) -> FloatArray:
 def rim(edges: FloatArray, column: Box, back: float, sides: BoolArray) -> Triangles:
     """Return the strips from the edges of a cut to a plane, facing out of the column.
 
-    Args:
-        edges: of the part's surface in its panel's frame [m], shape [n, 2, 3].
-        column: along whose sides the mesh was cut.
-        back: depth of the plane [m].
-        sides: left, right, lower and upper: which to take, shape [4].
-
-    Returns:
-        Triangles [m], shape [m, 3, 3].
+    Edges, shape [n, 2, 3], the column along whose sides the mesh was cut, and the depth ``back`` of
+    the plane are in the panel's frame [m]; of the sides left, right, lower and upper some are
+    taken.
     """
     ends = np.stack([column.low[:2], column.high[:2]], axis=-1).ravel()
     off = np.abs(edges[:, :, [0, 0, 1, 1]] - ends)
@@ -63,12 +58,9 @@ def rim(edges: FloatArray, column: Box, back: float, sides: BoolArray) -> Triang
 
 
 def plate(outline: FloatArray, holes: Sequence[FloatArray], depth: float) -> Triangles:
-    """Return a flat face at some depth, seen from behind.
+    """Return a flat face at some depth [m], seen from behind.
 
-    Args:
-        outline: convex outline (right, up) [m], shape [n, 2].
-        holes: other outlines, cut out of it.
-        depth: at which it lies [m].
+    Holes are cut out of its convex outline; both are (right, up) [m], shape [n, 2].
     """
     section = manifold3d.CrossSection([outline])
     for hole in holes:

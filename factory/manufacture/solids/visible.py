@@ -13,11 +13,10 @@ from ...geometry.rows import distinct_rows
 from ...geometry.triangles import areas_of
 from ...mesh import BoolArray, FloatArray, IntArray, Material, Mesh
 from ..decompose.outside import outside
+from .boards import SHELF_M, WALL_M
 from .box import Box
-from .drawer import WALL_M
 from .panel import FlatPanel
 from .seam import CutSkin
-from .shelves import THICKNESS_M as SHELF_M
 from .surfaces import boundary, flipped, inside_of, outline_of, outside_of, plate, rectangle, rim
 from .work import Workpiece
 
@@ -32,7 +31,7 @@ SPREAD = np.array([(i, j, 12 - i - j) for i in range(1, 12, 3) for j in range(1,
 def panel_surfaces(work: Workpiece, part: int) -> None:
     """Add a panel's back and rim, the opening that it leaves, hollows, and a drawer's box."""
     panel = work.panels[part]
-    own = work.skin.corners[work.skin.part == part] @ panel.side.frame.T
+    own = work.skin.of_part(part) @ panel.side.frame.T
     column = panel.reach(0.0, panel.back)
     edges = boundary(own)
     thickness = panel.thickness
@@ -101,8 +100,7 @@ def bump_surfaces(work: Workpiece, part: int) -> None:
     if bump.normal is None:
         work.add(part, corners, "wheel", bump.rule)
         return
-    own = work.skin.corners[work.skin.part == part]
-    edges = boundary(own)
+    edges = boundary(work.skin.of_part(part))
     on_base = (np.abs(edges @ bump.normal - bump.base) < 1e-5).all(axis=1)
     across, along = _across(bump.normal)
     points = edges[on_base].reshape(-1, 3)
@@ -126,7 +124,7 @@ def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
 def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
     """Add all of a part's pieces, where its own surface is only a shred."""
     triangles = [hull.vertices[hull.faces] for hull in hulls]
-    own = areas_of(work.skin.corners[work.skin.part == part]).sum()
+    own = areas_of(work.skin.of_part(part)).sum()
     if triangles and own < SHRED * sum(areas_of(each).sum() for each in triangles):
         work.add(part, np.concatenate(triangles), "body", "pieces")
 

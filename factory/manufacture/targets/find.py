@@ -35,10 +35,7 @@ def find_targets(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) ->
     """Find where a robot may open each movable joint: tree order, best first, few of each.
 
     Every movable joint that moves any geometry gets at least one; its score says what it is worth.
-
-    Args:
-        articulation: at rest, joint values 0.
-        hulls: collision geometry of each part; empty ones where only the mesh is known.
+    Of a part without hulls only the mesh is known.
     """
     everything = surroundings_of(articulation, hulls)
     targets: list[Target] = []

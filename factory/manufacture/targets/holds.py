@@ -200,10 +200,7 @@ def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
 def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Target | None:
     """Return how to push a place that faces against the opening: straight, hooked, or ``None``.
 
-    Args:
-        task: the joint to open.
-        point: on the surface [m], shape [3].
-        outward: the surface's normal there, shape [3].
+    ``point`` is on the surface [m] and ``outward`` its normal there, shape [3] each.
     """
     axes = _frame(task, outward)
     view = task.view(point, axes)

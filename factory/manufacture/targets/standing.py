@@ -44,13 +44,7 @@ class StandingPlace:
 def standing_place(asset: Asset, joint: Joint, target: Target) -> StandingPlace | None:
     """Find the place nearest to comfort that reaches a closed object's target, clear of its way.
 
-    Args:
-        asset: closed, but for the joint.
-        joint: opened through all of its range.
-        target: how.
-
-    Returns:
-        ``None`` if there is no room within the longest distance.
+    The joint opens through all of its range. ``None`` if no place is near enough.
     """
     closed = closed_values(asset.articulation)
     point, facing = _aim(asset, closed, target)

@@ -79,12 +79,7 @@ class Surroundings:
 
 
 def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) -> Surroundings:
-    """Gather the meshes and hulls of all parts.
-
-    Args:
-        articulation: at rest.
-        hulls: collision geometry of each part; none where only the mesh is known.
-    """
+    """Gather the meshes and hulls of all parts, at rest; of some only the mesh is known."""
     mesh = articulation.mesh
     corners = [mesh.vertices[mesh.faces]]
     owners = [face_parts(articulation)]
