@@ -12,7 +12,8 @@ from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .pieces import MOST_CORNERS
 
-#: A knob begins this far before the surface that it stands on [m].
+#: Pieces of two parts are so far apart, at rest and on the way: a knob begins this far before the
+#: surface that it stands on [m].
 CLEAR_M = 0.0025
 #: Share of its height that may be cut off below for that.
 LEAST_LEFT = 0.35

@@ -33,16 +33,16 @@ def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> list[list[fl
     planes: list[list[float]] = [[], [], []]
     for part, bump in bumps.items():
         room = _box(_passed(bump, joints[part - 1]))
-        foot = () if bump.normal is None else (bump.base, bump.base + LAYER_M)
-        across = -1 if bump.normal is None else int(np.abs(bump.normal).argmax())
+        ends = np.stack([room.low, room.high], axis=1).tolist()
+        if bump.normal is not None:
+            # Pieces that end a little too high are seen to enter a thin layer at its foot; a
+            # thin one below would be a foil of its own.
+            across = int(np.abs(bump.normal).argmax())
+            side = float(np.sign(bump.normal[across]))
+            foot = [bump.base * side, (bump.base + LAYER_M) * side]
+            ends[across] = foot + [end for end in ends[across] if abs(end - foot[0]) > LAYER_M]
         for axis in range(3):
-            ends = [float(room.low[axis]), float(room.high[axis])]
-            if bump.normal is not None and axis == across:
-                # Pieces that end a little too high are seen to enter a thin layer at its foot; a
-                # thin one below would be a foil of its own.
-                at = [height * float(np.sign(bump.normal[axis])) for height in foot]
-                ends = [*at, *(end for end in ends if abs(end - at[0]) > LAYER_M)]
-            planes[axis] += ends
+            planes[axis] += ends[axis]
     return planes
 
 

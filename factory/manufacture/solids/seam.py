@@ -11,8 +11,8 @@ from ...geometry.triangles import areas_of, ends_of
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from .box import Box
 
-#: Corners this near to a plane lie on it [m].
-ON_PLANE_M = 1e-6
+#: Corners this near to a plane lie on it, and such corners are one [m].
+SAME_M = 1e-6
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class CutSkin:
 def cut(skin: CutSkin, normal: FloatArray, offset: float, which: BoolArray) -> CutSkin:
     """Return the mesh with some triangles, ``which``, cut where ``normal . x = offset`` [m]."""
     height = skin.corners @ normal - offset
-    height[np.abs(height) < ON_PLANE_M] = 0.0
+    height[np.abs(height) < SAME_M] = 0.0
     low, high = ends_of(height)
     crossing = which & (low < 0.0) & (high > 0.0)
     if not crossing.any():

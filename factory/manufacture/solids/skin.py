@@ -148,7 +148,7 @@ def _solid_behind(articulation: Articulation, part: int, crossed: Crossings) -> 
     return float(met[looked].mean()) if looked.any() else 0.0
 
 
-def _window(raster: Raster, local: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def _window(raster: Raster, local: FloatArray) -> BoolArray:
     """Return the pixels well within a part's rectangle, shape [rows * columns]."""
     low = local[:, :2].min(axis=0)
     high = local[:, :2].max(axis=0)
