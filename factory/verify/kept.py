@@ -29,11 +29,7 @@ class Kept:
 
     def to_dict(self) -> dict[str, float]:
         """Return the shares as a report has them."""
-        return {
-            "range": round(self.range, 4),
-            "coverage": round(self.coverage, 4),
-            "worst_coverage": round(self.worst_coverage, 4),
-        }
+        return {name: round(share, 4) for name, share in vars(self).items()}
 
 
 def kept_of(hypothesis: Articulation, made: Articulation, measured: Mapping[str, Any]) -> Kept:
