@@ -6,7 +6,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...asset import Hull
-from ...geometry.triangles import doubled_normals
+from ...geometry.triangles import areas_of, doubled_normals
 from ...mesh import FloatArray, IntArray
 from .convex import concavity, hull_of, thickness
 from .room import Room
@@ -66,19 +66,18 @@ def capped(surface: OpenSurface, share: float = OPENING_SHARE) -> Manifold | Non
     for loop in loops:
         center = surface.vertices[loop].mean(axis=0)
         spokes = surface.vertices[loop] - center
-        opening += (
-            float(np.linalg.norm(np.cross(spokes, np.roll(spokes, -1, axis=0)), axis=1).sum()) / 2.0
-        )
+        spread = np.cross(spokes, np.roll(spokes, -1, axis=0))
+        opening += float(np.linalg.norm(spread, axis=1).sum()) / 2.0
         apex = len(surface.vertices) + len(vertices) - 1
         vertices.append(center[None])
         faces.append(np.column_stack([np.roll(loop, -1), loop, np.full(len(loop), apex)]))
-    vectors = doubled_normals(surface.vertices[surface.faces])
-    if opening > share * (float(np.linalg.norm(vectors, axis=1).sum()) / 2.0):
+    if opening > share * float(areas_of(surface.vertices[surface.faces]).sum()):
         return None
-    solid = manifold_of(np.concatenate(vertices), np.concatenate(faces))
-    if solid is not None and solid.volume() < 0.0:
-        return manifold_of(np.concatenate(vertices), np.concatenate(faces)[:, ::-1])
-    return solid
+    points = np.concatenate(vertices)
+    triangles = np.concatenate(faces)
+    solid = manifold_of(points, triangles)
+    inverted = solid is not None and solid.volume() < 0.0
+    return manifold_of(points, triangles[:, ::-1]) if inverted else solid
 
 
 def _keeps_hands_out(surface: OpenSurface) -> bool:

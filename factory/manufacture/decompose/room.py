@@ -15,11 +15,8 @@ from ...mesh import FloatArray
 from ..poses import moved, relative_poses
 from .convex import depth_below
 from .solids import inside
-from .spread import spread_over
+from .spread import SPREAD, spread_over
 
-#: Points spread over another part's visible surface; its corners are looked at besides, up to as
-#: many.
-SPREAD = 1500
 #: Poses along each joint that moves another part against this one.
 POSES = 13
 #: One point is kept in a cube of this side [m].

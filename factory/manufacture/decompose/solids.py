@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import manifold3d
@@ -18,7 +19,6 @@ from ...mesh import BoolArray, FloatArray, IntArray
 
 #: Less volume than this is nothing to collide with [m3]: a cube of a tenth of a millimetre.
 LEAST_VOLUME_M3 = 1e-12
-LEAST_FACES = 4
 #: Points that are held against a solid at once.
 TOGETHER = 64
 
@@ -75,7 +75,8 @@ def closes(faces: IntArray) -> bool:
 
     Asked before anything native: manifold3d 3.5 dies of a segmentation fault on some open meshes.
     """
-    if len(faces) < LEAST_FACES:
+    # A tetrahedron has the fewest.
+    if len(faces) < 4:
         return False
     starts = faces.ravel()
     ends = np.roll(faces, -1, axis=1).ravel()
@@ -108,6 +109,12 @@ def flipped(manifold: Manifold) -> Manifold:
 def union(solids: list[Manifold]) -> Manifold:
     """Return the boolean union; empty for none."""
     return Manifold.batch_boolean(solids, manifold3d.OpType.Add) if solids else Manifold()
+
+
+def volume_within(hulls: Iterable[Hull], others: Iterable[Hull]) -> float:
+    """Return the volume of hulls that lies in any of others [m3]."""
+    room = union([manifold_of_hull(other) for other in others])
+    return sum(float((manifold_of_hull(hull) ^ room).volume()) for hull in hulls)
 
 
 def gate(vertices: FloatArray, faces: IntArray) -> Gated:

@@ -7,6 +7,9 @@ import numpy as np
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, Mesh
 
+#: Points spread over a part's visible surface, by area; its corners are looked at besides.
+SPREAD = 1500
+
 
 def spread_over(mesh: Mesh, count: int, most_corners: int) -> FloatArray:
     """Return points over a surface [m], shape [n, 3]: ``count`` by area, then corners.

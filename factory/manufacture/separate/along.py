@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import chain
 
 import numpy as np
 
@@ -34,7 +35,7 @@ class Step:
     """
 
     pose: FloatArray
-    behind: FloatArray
+    behind: FloatArray = field(default_factory=lambda: np.zeros(3))
 
 
 def steps_along(poses: Sequence[FloatArray]) -> list[Step]:
@@ -85,7 +86,7 @@ def cut_apart_along(
                 pushed |= any(map(_pushed, before, (solids_a[i], solids_b[j])))
         if not pushed:
             break
-    return [solid for solid in solids_a if solid], [solid for solid in solids_b if solid]
+    return list(filter(None, solids_a)), list(filter(None, solids_b))
 
 
 def carved_apart_along(
@@ -101,17 +102,20 @@ def carved_apart_along(
     """
     pieces_a = [[hull] for hull in a]
     pieces_b = [[hull] for hull in b]
-    when: dict[tuple[int, int], list[Step]] = {}
-    whole_a = [pieces[0] for pieces in pieces_a]
-    whole_b = [pieces[0] for pieces in pieces_b]
-    for step in steps_along(poses):
-        for pair in near_pairs(whole_a, whole_b, step.pose, clearance_m, step.behind):
-            when.setdefault(pair, []).append(step)
-    for (i, j), way in sorted(when.items(), key=lambda found: found[0]):
+    for (i, j), way in when_near(a, b, steps_along(poses), clearance_m):
         pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m, whole)
-    return [hull for hulls in pieces_a for hull in hulls], [
-        hull for hulls in pieces_b for hull in hulls
-    ]
+    return list(chain.from_iterable(pieces_a)), list(chain.from_iterable(pieces_b))
+
+
+def when_near(
+    a: Sequence[Hull], b: Sequence[Hull], steps: Iterable[Step], margin: float
+) -> list[tuple[tuple[int, int], list[Step]]]:
+    """Return the numbers of every two hulls that may come too near, and at which steps, sorted."""
+    when: dict[tuple[int, int], list[Step]] = {}
+    for step in steps:
+        for pair in near_pairs(a, b, step.pose, margin, step.behind):
+            when.setdefault(pair, []).append(step)
+    return [(pair, when[pair]) for pair in sorted(when)]
 
 
 def hull_depth(

@@ -14,12 +14,10 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray, Mesh
 from ..decompose.convex import depth_below
 from ..decompose.outside import ROUNDING_M, outside
-from ..decompose.solids import manifold_of_hull, union
-from ..decompose.spread import spread_over
+from ..decompose.solids import volume_within
+from ..decompose.spread import SPREAD, spread_over
 from ..poses import arms_from
 
-#: Points spread over a part's visible surface, by area; its corners are looked at besides.
-SPREAD = 1500
 #: Most corners that are looked at.
 MOST_CORNERS = 3000
 #: So many hulls are remembered with how far points of a surface lie beyond them.
@@ -131,7 +129,8 @@ def loss(
     share = 1.0 - sum(hull.volume for hull in after) / whole
     open_share = share
     if excuse.held and share > config.planed_volume:
-        open_share -= (_within(before, excuse.other) - _within(after, excuse.other)) / whole
+        was, left = (volume_within(hulls, excuse.other) for hulls in (before, after))
+        open_share -= (was - left) / whole
     depth = surface.beyond(after) - surface.beyond(before)
     taken = depth > SHAVED_M
     points = surface.points[taken]
@@ -244,12 +243,6 @@ def too_bare(names: Sequence[str], losses: Sequence[Loss], config: SeparateConfi
                 f"at most {config.most_untouched:.0%} may be"
             )
     return None
-
-
-def _within(hulls: Sequence[Hull], others: Sequence[Hull]) -> float:
-    """Return the volume of hulls that lies in any of others [m3]."""
-    room = union([manifold_of_hull(other) for other in others])
-    return sum(float((manifold_of_hull(hull) ^ room).volume()) for hull in hulls)
 
 
 def _beside(points: FloatArray, hinges: Sequence[Joint], radius_m: float) -> npt.NDArray[np.bool_]:

@@ -9,6 +9,7 @@ from manifold3d import Manifold
 from ...articulation import Articulation
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
+from ..decompose.convex import thickness
 from ..decompose.solids import gate, union
 
 #: Intersections smaller than this are rounding [m3]: a cube of a twentieth of a millimetre.
@@ -57,6 +58,5 @@ def _thickness(piece: Manifold) -> float:
     normals = doubled_normals(vertices[mesh.tri_verts.astype(np.int64)])
     length = np.linalg.norm(normals, axis=1)
     kept = length > 1e-9 * length.max() if len(length) else length > 0
-    heights = vertices @ (normals[kept] / length[kept, None]).T
-    width = float((heights.max(axis=0) - heights.min(axis=0)).min()) if heights.size else 0.0
+    width = thickness(vertices, normals[kept] / length[kept, None]) if kept.any() else 0.0
     return min(width, 3.0 * mean)

@@ -16,7 +16,7 @@ from ...articulation import Joint
 from ...asset import Hull
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of
-from ..decompose.solids import manifold_of_hull, union
+from ..decompose.solids import manifold_of_hull, volume_within
 from ..poses import moved
 from .along import Sides, hull_depth, near_pairs
 from .clip import carved, clipped
@@ -160,5 +160,4 @@ def _around(piece: Hull, room: Hull, clearance_m: float) -> list[Hull]:
 def _taken(holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray]) -> float:
     """Return the volume of the holder's hulls in the room of each hull of the mover [m3]."""
     rooms = [room for hull in mover if (room := _room(hull, poses)) is not None]
-    room = union([manifold_of_hull(each) for each in rooms])
-    return sum(float((manifold_of_hull(hull) ^ room).volume()) for hull in holder)
+    return volume_within(holder, rooms)

@@ -17,7 +17,7 @@ from ...articulation import Joint
 from ...asset import Hull
 from ...mesh import FloatArray
 from ..poses import arms_from
-from .along import cut_apart_along, hull_depth, near_pairs
+from .along import Step, cut_apart_along, hull_depth, when_near
 from .clip import ROUNDING_M, ROUNDING_SHARE, SHARES, clipped
 
 #: A cylinder is cut as a prism of so many sides.
@@ -42,16 +42,16 @@ class Turned:
         """See :func:`~.along.cut_apart_along`, which cuts hulls still too near afterwards."""
         ones: list[Hull | None] = list(a)
         others: list[Hull | None] = list(b)
-        for (i, j), way in sorted(_ways(a, b, poses, clearance_m).items()):
+        for (i, j), way in when_near(a, b, map(Step, poses), clearance_m):
             one = ones[i]
             other = others[j]
             if one is None or other is None:
                 continue
-            depths = (hull_depth([one], [other], pose, clearance_m) for pose in way)
+            depths = (hull_depth([one], [other], step.pose, clearance_m) for step in way)
             if any(depth > ROUNDING_M - clearance_m for depth in depths):
                 ones[i], others[j] = self._best(one, other, clearance_m)
-        left = [[hull for hull in hulls if hull is not None] for hulls in (ones, others)]
-        return cut_apart_along(left[0], left[1], poses, clearance_m)
+        first, second = (list(filter(None, hulls)) for hulls in (ones, others))
+        return cut_apart_along(first, second, poses, clearance_m)
 
     def _best(self, one: Hull, other: Hull, clearance_m: float) -> Hulls:
         """Cut two hulls apart across the axis or around it, off either or both: what leaves most.
@@ -119,17 +119,6 @@ class Turned:
             normal = np.cos(angle) * first + np.sin(angle) * second
             left = clipped(left, normal, radius_m + float(self.joint.origin @ normal))
         return left
-
-
-def _ways(
-    a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
-) -> dict[tuple[int, int], list[FloatArray]]:
-    """Return the poses at which two hulls may be too near to one another, by their numbers."""
-    found: dict[tuple[int, int], list[FloatArray]] = {}
-    for pose in poses:
-        for pair in near_pairs(a, b, pose, clearance_m):
-            found.setdefault(pair, []).append(pose)
-    return found
 
 
 def _volume(hulls: Hulls) -> float:
