@@ -8,7 +8,7 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from .convex import depth_below
+from .convex import depth_below, edges_of
 
 #: Points measured at a time: what is known of them stays small, and near the processor.
 BLOCK = 512
@@ -66,8 +66,7 @@ def _from_one(hull: Hull, points: FloatArray) -> FloatArray:
 
 def _from_edges(hull: Hull, points: FloatArray) -> FloatArray:
     """Return the distances of points from the nearest edge [m], shape [n]."""
-    pairs = hull.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-    start, end = np.moveaxis(hull.vertices[pairs[pairs[:, 0] < pairs[:, 1]]], 1, 0)
+    start, end = np.moveaxis(hull.vertices[edges_of(hull)], 1, 0)
     along = end - start
     length2 = (along**2).sum(axis=1)
     passed = points @ along.T - (start * along).sum(axis=1)

@@ -10,7 +10,7 @@ from ...asset import Hull
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
 from ...runtime.numbers import DECIMALS
-from ..decompose.convex import hull_of
+from ..decompose.convex import edges_of, hull_of
 from ..poses import moved
 
 #: A hull no thicker than this is a sheet [m].
@@ -200,14 +200,11 @@ def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
     height[np.abs(height) < FLUSH_M] = 0.0
     if height.max() <= 0.0:
         return hull
-    around = np.concatenate([hull.faces[:, [0, 1]], hull.faces[:, [1, 2]], hull.faces[:, [2, 0]]])
-    edges = np.unique(np.sort(around, axis=1), axis=0)
-    start = height[edges[:, 0]]
-    end = height[edges[:, 1]]
-    crossing = (start < 0.0) != (end < 0.0)
-    share = (start / np.where(crossing, start - end, 1.0))[crossing, None]
-    first = hull.vertices[edges[crossing, 0]]
-    second = hull.vertices[edges[crossing, 1]]
+    edges = edges_of(hull)
+    edges = edges[np.diff(height[edges] < 0.0, axis=1)[:, 0]]
+    start, end = height[edges].T
+    share = (start / (start - end))[:, None]
+    first, second = np.moveaxis(hull.vertices[edges], 1, 0)
     return hull_of(np.concatenate([hull.vertices[height <= 0.0], first + share * (second - first)]))
 
 
