@@ -86,10 +86,9 @@ def _turned(points: FloatArray, joint: Joint) -> Bump | None:
     hull = hull_of(points)
     if hull is None:
         return None
-    copies = []
-    for turn in range(TURNS):
-        rotation = rotation_about(joint.axis, 2.0 * np.pi * turn / TURNS)
-        copies.append((hull.vertices - joint.origin) @ rotation.T + joint.origin)
+    arms = hull.vertices - joint.origin
+    angles = (2.0 * np.pi * turn / TURNS for turn in range(TURNS))
+    copies = [arms @ rotation_about(joint.axis, angle).T + joint.origin for angle in angles]
     round_hull = hull_of(np.concatenate(copies))
     if round_hull is None or hull.volume < WHEEL_SHARE * round_hull.volume:
         return None

@@ -120,9 +120,7 @@ def carve_panel(work: Workpiece, part: int) -> None:
         work.block_box(other, carved, PATH)
     inner = work.lattice.span(slab)
     work.take(0, span)
-    work.owner[inner] = np.where(
-        work.whole[inner] & (work.owner[inner] == -1), part, work.owner[inner]
-    )
+    work.owner[inner][work.whole[inner] & (work.owner[inner] == -1)] = part
 
 
 def make_slab(work: Workpiece, part: int) -> None:
@@ -174,15 +172,14 @@ def _behind_face(
     frame = panel.side.frame
     lattice = work.lattice
     plain = Box(np.append(panel.low, -np.inf), np.append(panel.high, np.inf))
-    span = lattice.span(plain.turned(frame.T))
     inside = np.zeros(lattice.shape, dtype=bool)
-    inside[span] = True
+    inside[lattice.span(plain.turned(frame.T))] = True
     cells = np.argwhere(inside)
     behind = face.above(lattice.centers(cells) @ frame.T)
     inside[tuple(cells.T)] = np.isfinite(behind) & (behind < 0.0)
-    slab = panel.reach(-work.config.gap_m, panel.back).turned(frame.T)
-    solid = np.zeros(lattice.shape, dtype=bool)
-    solid[lattice.span(slab)] = inside[lattice.span(slab)]
+    slab = lattice.span(panel.reach(-work.config.gap_m, panel.back).turned(frame.T))
+    solid = np.zeros_like(inside)
+    solid[slab] = inside[slab]
     return solid, inside
 
 
@@ -192,11 +189,10 @@ def _lid_hollow(work: Workpiece, panel: FlatPanel) -> tuple[Box, ...]:
     frame = panel.side.frame * np.array([[1.0], [1.0], [-1.0]])
     room = _inner(work, (panel.part, 0), LID_WALL_M)
     column = panel.reach(-work.config.wall_m, panel.back)
-    low = np.append(np.maximum(column.low[:2], panel.low + LID_WALL_M), -panel.back)
-    high = np.append(
-        np.minimum(column.high[:2], panel.high - LID_WALL_M), -panel.front - LID_WALL_M
-    )
-    boxes = hollow(work.lattice, room, Box(low, high), frame)
+    low = np.maximum(column.low[:2], panel.low + LID_WALL_M)
+    high = np.minimum(column.high[:2], panel.high - LID_WALL_M)
+    inner = Box(np.append(low, -panel.back), np.append(high, -panel.front - LID_WALL_M))
+    boxes = hollow(work.lattice, room, inner, frame)
     turn = np.diag([1.0, 1.0, -1.0])
     return tuple(box.turned(turn) for box in boxes)
 
@@ -226,9 +222,7 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     wall = work.config.wall_m
     start = panel.back + work.config.behind_m
     far = float((work.source.mesh.bounds @ frame.T)[:, 2].max())
-    low = np.append(panel.low + wall, start)
-    high = np.append(panel.high - wall, far)
-    column = Box(low, high)
+    column = Box(np.append(panel.low + wall, start), np.append(panel.high - wall, far))
     if column.empty:
         return
     work.filled[part] = _filled_behind(work, column, frame)

@@ -38,16 +38,14 @@ def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) ->
     depths = np.linspace(column.low[2], column.high[2], SLICES + 1)
     found: list[Box] = []
     for front, back in pairwise(depths):
-        low = np.append(column.low[:2], front)
-        high = np.append(column.high[:2], back)
-        if found:
-            low[:2] = np.maximum(low[:2], found[-1].low[:2])
-            high[:2] = np.minimum(high[:2], found[-1].high[:2])
+        before = found[-1] if found else column
+        low = np.append(np.maximum(column.low[:2], before.low[:2]), front)
+        high = np.append(np.minimum(column.high[:2], before.high[:2]), back)
         box = _shrunk(lattice, room, Box(low, high), frame)
         if box is None:
             break
         found.append(box)
-        if box.high[2] < high[2] - 1e-9:
+        if box.high[2] < back - 1e-9:
             break
     return _merged(found, max(ALIKE_M, ALIKE_CELLS * lattice.step))
 
@@ -76,8 +74,9 @@ def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> B
         ends[axis][side] += -1 if side else 1
     if any(high <= low for low, high in ends):
         return None
-    low = np.maximum([line[end[0]] for line, end in zip(lines, ends, strict=True)], box.low)
-    high = np.minimum([line[end[1]] for line, end in zip(lines, ends, strict=True)], box.high)
+    reached = np.array([line[end] for line, end in zip(lines, ends, strict=True)])
+    low = np.maximum(reached[:, 0], box.low)
+    high = np.minimum(reached[:, 1], box.high)
     low[2] = box.low[2]
     if ends[2][1] == free.shape[2]:
         high[2] = box.high[2]

@@ -151,17 +151,19 @@ def smoothed(view: View, seen: BoolArray) -> FloatArray:
     rows, columns = np.nonzero(seen)
     least = min(int(np.ptp(rows)), int(np.ptp(columns))) + 1
     size = int(np.clip(0.3 * least, 3, 41)) | 1
-    window = (
-        slice(max(rows.min() - size, 0), rows.max() + size + 1),
-        slice(max(columns.min() - size, 0), columns.max() + size + 1),
-    )
+    window = tuple(slice(max(at.min() - size, 0), at.max() + size + 1) for at in (rows, columns))
     inner = seen[window]
-    nearest = ndimage.distance_transform_edt(~inner, return_distances=False, return_indices=True)
-    filled = view.away[window][tuple(nearest)]
+    filled = spread_out(view.away[window], inner)
     closed = ndimage.grey_closing(filled, size=(size, size))
     result = np.full(seen.shape, np.nan)
     result[window] = np.where(inner, closed, np.nan)
     return result
+
+
+def spread_out(values: FloatArray, seen: BoolArray) -> FloatArray:
+    """Return at each pixel the value of the nearest one that is seen, [rows, columns]."""
+    nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
+    return np.asarray(values[tuple(nearest)])
 
 
 def _rectangle(view: View, seen: BoolArray) -> tuple[FloatArray, FloatArray] | None:
@@ -171,12 +173,13 @@ def _rectangle(view: View, seen: BoolArray) -> tuple[FloatArray, FloatArray] | N
     sizes = np.bincount(label[seen], minlength=count + 1)
     sizes[0] = 0
     kept = seen & np.isin(label, np.flatnonzero(sizes >= 0.05 * sizes.max()))
-    ends = []
+    ends = np.zeros((2, 2))
     for axis, at in ((0, view.raster.right), (1, view.raster.up)):
         profile = kept.sum(axis=axis)
         full = np.flatnonzero(profile >= FRAYED * np.percentile(profile[profile > 0], 90))
-        ends.append((at[full[0]] - view.raster.pixel / 2.0, at[full[-1]] + view.raster.pixel / 2.0))
-    return np.array([ends[0][0], ends[1][0]]), np.array([ends[0][1], ends[1][1]])
+        ends[:, axis] = at[full[[0, -1]]]
+    half = view.raster.pixel / 2.0
+    return ends[0] - half, ends[1] + half
 
 
 def _rim(
@@ -217,10 +220,9 @@ def _back(
     is_lid: bool, front: float, deepest: float, rim: float | None, far: float
 ) -> tuple[float, str]:
     room = far - front
-    thickness = None if rim is None else rim - front
     most = 0.8 * room if is_lid else min(max(THICKEST_M, THICKEST_SHARE * room), 0.4 * room)
-    if thickness is not None and THINNEST_M <= thickness <= most:
-        back = rim if rim is not None else front
+    if rim is not None and THINNEST_M <= rim - front <= most:
+        back = rim
         rule = "rim"
     else:
         back = front + min(LID_M if is_lid else DOOR_M, 0.4 * room)
@@ -277,12 +279,9 @@ def _frames(view: View, part: int, low: FloatArray, high: FloatArray, back: floa
         start = low + inner
         end = high - inner
         gap = 0.5 * view.raster.pixel
-        if edge % 2:
-            start[axis] = high[axis] + gap
-            end[axis] = high[axis] + step
-        else:
-            start[axis] = low[axis] - step
-            end[axis] = low[axis] - gap
+        upper = edge % 2
+        start[axis] = high[axis] + gap if upper else low[axis] - step
+        end[axis] = high[axis] + step if upper else low[axis] - gap
         window = view.raster.window(start, end)
         depth = view.away[window]
         beside = (depth < back + SOLID_M) & (view.part[window] != part)

@@ -14,7 +14,6 @@ from ...geometry.triangles import areas_of
 from ...mesh import BoolArray, FloatArray, IntArray, Material, Mesh
 from ..decompose.outside import outside
 from .boards import SHELF_M, WALL_M
-from .box import Box
 from .panel import FlatPanel
 from .seam import CutSkin
 from .surfaces import boundary, flipped, inside_of, outline_of, outside_of, plate, rectangle, rim
@@ -44,9 +43,11 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
     if panel.is_lid:
         # Straps stand out above the seam; cuts along it left corners all round.
         points = points[points[:, 2] > panel.back - work.views[panel.side].raster.pixel]
-    outline = _clipped(outline_of(points), panel)
+    outline = outline_of(points)
     if len(outline) < 3:
         return
+    # Frames bound it.
+    outline = np.clip(outline, column.low[:2], column.high[:2])
     inner = work.lids.get(part, ())
     if not panel.through:
         back = plate(outline, [rectangle(box) for box in inner[:1]], panel.back)
@@ -63,8 +64,7 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
             work.add(0, walls, "hollow", "walls", panel=panel, thickness=wall, depth=depth)
         boards = work.shelves.get(part, ())
         if boards:
-            surface = outside_of(boards)
-            work.add(0, surface, "shelf", "usual", panel=panel, thickness=SHELF_M)
+            work.add(0, outside_of(boards), "shelf", "usual", panel=panel, thickness=SHELF_M)
     if inner:
         walls = inside_of(inner, inner[0].high[2])
         depth = inner[0].high[2] - inner[-1].low[2]
@@ -83,14 +83,6 @@ def _backed(work: Workpiece, panel: FlatPanel, triangles: FloatArray) -> FloatAr
     points = np.einsum("kc,ncd->nkd", SPREAD, triangles).reshape(-1, 3) @ panel.side.frame
     on = outside(work.hulls.get(0, ()), points) < BACKED_M
     return np.asarray(triangles[on.reshape(len(triangles), -1).mean(axis=1) >= 0.5])
-
-
-def _clipped(outline: FloatArray, panel: FlatPanel) -> FloatArray:
-    """Return an outline within a panel's rectangle, where frames bound it."""
-    if not len(outline):
-        return outline
-    reach = panel.reach(0.0, panel.back)
-    return np.clip(outline, reach.low[:2], reach.high[:2])
 
 
 def bump_surfaces(work: Workpiece, part: int) -> None:
@@ -138,8 +130,7 @@ def kept_skin(work: Workpiece) -> CutSkin:
         local = middles @ panel.side.frame.T
         column = panel.reach(0.0, panel.back + work.config.behind_m)
         hollows = work.hollows.get(part, ()) if work.closed_behind(part) else ()
-        boxes: tuple[Box, ...] = (column, *hollows)
-        for box in boxes:
+        for box in (column, *hollows):
             gone |= box.holds(local, -1e-6) & (skin.part == 0)
         for box in work.lids.get(part, ()):
             gone |= box.holds(local, -1e-6) & (skin.part == part)

@@ -94,7 +94,7 @@ class Workpiece:
     def take(self, part: int, span: Span) -> None:
         """Make cells nobody's that are a part's."""
         owner = self.owner[span]
-        self.owner[span] = np.where(owner == part, -1, owner)
+        owner[owner == part] = -1
 
     def add_boards(self, part: int, boards: Iterable[Box], panel: FlatPanel) -> None:
         """Add boards, in a panel's frame, to a part's pieces."""
