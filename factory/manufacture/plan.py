@@ -175,12 +175,9 @@ def _relocated(before: Articulation, made: Articulation) -> Articulation:
 def dispensable_joints(articulation: Articulation, share: float) -> Spare:
     """Find joints without which the object is still worth having, should they be wrong.
 
-    Small ones; and of joints that were guessed all but the best: a guess that is blocked is a
-    wrong guess. Never all that there are.
-
-    Args:
-        articulation: parts and joints.
-        share: largest diagonal of everything a small joint moves, over the object's.
+    Small ones, which move no more than a ``share`` of the object's diagonal; and of joints that
+    were guessed all but the best: a guess that is blocked is a wrong guess. Never all that there
+    are.
     """
     moved = _moved_shares(articulation)
     rated = [joint for joint in articulation.movable_joints if joint.confidence is not None]

@@ -54,20 +54,13 @@ class _Attempt:
 def search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
     """Return the pieces of one connected solid by the first engine that gives acceptable ones.
 
-    Args:
-        solid: a closed manifold [m], too curved to be cut along its own faces.
-        error_m: largest concavity left [m].
-        config: limits of the child processes, the search's seed and the face limit.
+    No concavity larger than ``error_m`` is left [m]. One convex hull where no engine does; nothing
+    if the solid is so thin that not even that is a body. A sentence tells of each engine that
+    failed.
 
-    Returns:
-        One convex hull where no engine does; nothing if the solid is so thin that not even that is
-        a body. A sentence tells of each engine that failed.
-
-    Raises:
-        ImportError: an engine is not installed.
-        RuntimeError: child processes cannot be started at all, say because the main module runs on
-            import.
-        Unjudged: an engine hung, or somebody ended it; a clock makes no hulls coarser.
+    Raises ImportError: an engine is not installed. RuntimeError: child processes cannot be started
+    at all, say because the main module runs on import. Unjudged: an engine hung, or somebody ended
+    it; a clock makes no hulls coarser.
     """
     degraded: tuple[str, ...] = ()
     searched = 0

@@ -41,13 +41,9 @@ def merge(
     """Join hulls where that fills little.
 
     Pairs are joined, the one that fills least first, as long as the joined hull's surface stays
-    within ``error_m`` of the hulls it was made from, see ``fills_little``.
-
-    Args:
-        hulls: convex pieces [m].
-        error_m: how far a joined hull's surface may be from its sources [m].
-        slot_m: width of slots that may be filled [m]; ``None``: twice the error.
-        room: that no joined hull may take where its sources do not.
+    within ``error_m`` [m] of the hulls it was made from, see ``fills_little``, and takes none of a
+    room that these do not take. Slots up to ``slot_m`` wide may be filled [m]; ``None``: twice the
+    error.
     """
     start = [_Cluster.of(hull, manifold_of_hull(hull)) for hull in hulls]
     return [cluster.hull for cluster in _halve_and_join(start, _Yardstick(error_m, slot_m, room))]

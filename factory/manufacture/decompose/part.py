@@ -41,18 +41,11 @@ def split_part(
     room: Room = NOWHERE,
     hollow: bool = False,
 ) -> SolidPieces | None:
-    """Return the convex hulls of the triangles of one part.
+    """Return the convex hulls of the triangles of one part; ``None`` if nothing in it is a body.
 
-    Args:
-        vertices: welded positions [m], shape [n, 3].
-        faces: shape [m, 3].
-        error_m: deepest dent that a hull may fill [m].
-        config: everything else; its ``error_m`` is the least, where others are near.
-        room: that other parts take.
-        hollow: open surfaces are walls: what they surround is never closed or filled.
-
-    Returns:
-        ``None`` if nothing in it is a body.
+    Vertices are welded [m], shape [n, 3]. No dent that a hull fills is deeper than ``error_m`` [m];
+    the configuration's error is the least, where others are near. Open surfaces of a ``hollow``
+    part are walls: what they surround is never closed or filled.
     """
     gated = gate(vertices, faces)
     single = None if hollow else _single(vertices, faces, gated, error_m, config)

@@ -24,14 +24,8 @@ def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float | No
     """Return whether ``hull`` may stand for ``solid``: its surface is within ``error_m`` of it.
 
     That is so where every pocket it fills is a dent no deeper than ``error_m``, or a slot or hole
-    no wider than ``slot_m``, whatever its depth: nobody's clearance shrinks by more than
-    ``error_m``.
-
-    Args:
-        hull: the convex hull of ``solid``.
-        solid: a closed manifold, or several that overlap, as one [m].
-        error_m: how far the hull's surface may be from the solid [m].
-        slot_m: width of slots that may be filled [m]; ``None``: twice the error.
+    no wider than ``slot_m`` [m], by default twice the error, whatever its depth: nobody's clearance
+    shrinks by more than ``error_m``. The solid may be several that overlap, as one.
     """
     slot_m = 2.0 * error_m if slot_m is None else slot_m
     core = shrunk(hull, SKIN_SHARE * error_m)

@@ -41,21 +41,13 @@ class _Patch:
 def slabs(
     surface: OpenSurface, error_m: float, thickness_m: float, center: FloatArray
 ) -> list[Hull]:
-    """Return the convex slabs over a surface.
+    """Return the convex slabs over an open surface, consistently wound: one per patch.
 
     Neighbouring faces are joined, cheapest first, as long as what they span stays within
-    ``error_m`` of them: no higher than that over their mean plane, and no wider than that beyond
-    their outline.
-
-    Args:
-        surface: an open piece, consistently wound.
-        error_m: how far a slab may leave the surface [m].
-        thickness_m: of the slabs, towards the inside [m].
-        center: a point on the inside of a surface that does not show its inside itself [m], shape
-            [3].
-
-    Returns:
-        One hull per patch; patches too small to be anything are left out.
+    ``error_m`` [m] of them: no higher than that over their mean plane, and no wider than that
+    beyond their outline. Slabs are ``thickness_m`` thick, towards the inside [m], on which
+    ``center`` [m], shape [3], lies where the surface does not show it. Patches too small to be
+    anything are left out.
     """
     corners = surface.vertices[surface.faces]
     vectors = doubled_normals(corners) / 2.0

@@ -170,12 +170,8 @@ def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> Float
     """Return the volume of a hull that :func:`clipped` leaves at each plane [m3], shape [n].
 
     By the divergence theorem, seen from a point of the plane, from where the cut face takes no
-    room: a triangle counts by the share of it that lies below.
-
-    Args:
-        hull: any.
-        normals: unit vectors, shape [n, 3].
-        offsets: the kept side has ``normal . x <= offset`` [m], shape [n].
+    room: a triangle counts by the share of it that lies below. The kept side has ``normal . x <=
+    offset`` [m]; normals are unit vectors, shape [n, 3].
     """
     center = hull.vertices.mean(axis=0)
     points = hull.vertices - center
@@ -215,16 +211,11 @@ def carved(
     most: int = MOST_PIECES,
     least_m3: float | None = None,
 ) -> list[Hull]:
-    """Return the rest of a hull outside some room, as convex pieces.
+    """Return the rest of a hull outside some room, as at most so many convex pieces.
 
-    Piece by piece the largest that one plane of the room leaves outside is kept.
-
-    Args:
-        solid: the hull.
-        room: points whose convex hull is to be free [m], shape [n, 3].
-        clearance_m: to be left around it [m].
-        most: pieces that are kept.
-        least_m3: smaller pieces are splinters [m3]; otherwise a share of the hull.
+    Piece by piece the largest that one plane of the room leaves outside is kept. The room is the
+    convex hull of points [m], shape [n, 3], with the clearance around it. Pieces smaller than
+    ``least_m3`` are splinters [m3]; by default a share of the hull.
     """
     around = hull_of(room)
     if around is None:

@@ -16,13 +16,8 @@ from ..decompose.solids import gate, union
 LEAST_VOLUME_M3 = 1.25e-13
 
 
-def part_solids(articulation: Articulation) -> tuple[Manifold | None, ...]:
-    """Return each part as one solid at rest, object frame; ``None`` if it encloses nothing."""
-    return tuple(_solid(articulation, index) for index in range(len(articulation.parts)))
-
-
-def _solid(articulation: Articulation, part: int) -> Manifold | None:
-    """Return one part as one solid, without its cavities."""
+def part_solid(articulation: Articulation, part: int) -> Manifold | None:
+    """Return one part as one solid, without its cavities; ``None`` if it encloses nothing."""
     if not len(articulation.parts[part].faces):
         return None
     mesh = articulation.part_mesh(part)

@@ -102,12 +102,9 @@ def stands_out_m(holder: Sequence[Hull], mover: Sequence[Hull], joint: Joint) ->
 
 
 def _spare(heights: FloatArray, before: list[tuple[float, float]], travel: float) -> float:
-    """Return the same along one direction.
+    """Return the same along one direction, in which the mover goes as far as it travels [m].
 
-    Args:
-        heights: of the mover [m], shape [n].
-        before: from where to where hulls of the holder lie in its shadow [m].
-        travel: how far it goes [m].
+    Its points have some heights, and hulls of the holder lie in its shadow between others [m].
     """
     first = float(heights.min())
     lead = float(heights.max())

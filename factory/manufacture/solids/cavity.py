@@ -25,14 +25,8 @@ SPILT = 0.02
 def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) -> tuple[Box, ...]:
     """Return the largest boxes, one behind the other, in which everything can be hollowed.
 
-    Args:
-        lattice: of the object.
-        room: cells that may be hollowed, at least a wall's thickness below the mesh.
-        column: where to look, in a panel's frame.
-        frame: rows of the panel's frame.
-
-    Returns:
-        Boxes in the panel's frame, the first one at the column's front; none without room.
+    They lie in a ``column`` and have, as that, the axes of a panel's frame (rows), the first one at
+    the column's front; none without room: cells at least a wall's thickness below the mesh.
     """
     # Slices share their ends to the last bit, or a skin would be left between them.
     depths = np.linspace(column.low[2], column.high[2], SLICES + 1)

@@ -31,13 +31,8 @@ def covering(
 ) -> tuple[Hull, ...]:
     """Return at most ``most`` pieces of a part's cells, stretched to its surface.
 
-    Args:
-        work: all parts.
-        part: index.
-        cells: that belong to it; those that must stay free of it do not.
-        points: of its surface [m], shape [n, 3].
-        most: pieces.
-        whole: cells that are within the mesh, if those before a panel's face are not.
+    Cells that must stay free of the part are left out; points of its surface have shape [n, 3] [m].
+    ``whole`` are the cells within the mesh, where those before a panel's face are not.
     """
     blocked = work.blocked(part)
     whole = work.whole if whole is None else whole

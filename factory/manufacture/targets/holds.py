@@ -231,12 +231,8 @@ def _hooked(
 ) -> Target | None:
     """Return a finger that comes against ``ahead``, its side towards the surface.
 
-    Args:
-        task: the joint to open.
-        near: the surroundings of the point.
-        outward: the surface's normal there.
-        ahead: across the normal; from there the hand comes.
-        tilt: how far the hand leans out over the edge that it hooks [rad], as it must in a hollow.
+    The hand comes from ``ahead``, across the surface's normal ``outward``, and leans out over the
+    edge that it hooks by ``tilt`` [rad], as it must in a hollow.
     """
     away = np.cos(tilt) * ahead - np.sin(tilt) * outward
     axes = np.stack([np.cos(tilt) * outward + np.sin(tilt) * ahead, np.cross(ahead, outward), away])

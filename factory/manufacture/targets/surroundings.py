@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 import numpy.typing as npt
@@ -73,9 +74,8 @@ class Surroundings:
         """
         low, high = self.boxes
         rows = np.flatnonzero(((low <= point + reach) & (high >= point - reach)).all(axis=1))
-        return HandView(
-            self, point, axes, self.triangles[rows], np.isin(self.parts[rows], list(own))
-        )
+        mine = np.isin(self.parts[rows], list(own))
+        return HandView(self, point, axes, self.triangles[rows], mine)
 
 
 def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) -> Surroundings:
@@ -83,19 +83,13 @@ def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]])
     mesh = articulation.mesh
     corners = [mesh.vertices[mesh.faces]]
     owners = [face_parts(articulation)]
-    boxes = []
     for part, pieces in enumerate(hulls):
-        for hull in pieces:
-            surface = hull.vertices[hull.faces]
-            corners.append(surface)
-            owners.append(np.full(len(surface), part))
-            boxes.append([hull.vertices.min(axis=0), hull.vertices.max(axis=0)])
-    return Surroundings(
-        np.concatenate(corners),
-        np.concatenate(owners),
-        tuple(hull for pieces in hulls for hull in pieces),
-        np.reshape(boxes, (-1, 2, 3)).astype(np.float64),
-    )
+        corners += [hull.vertices[hull.faces] for hull in pieces]
+        owners += [np.full(len(hull.faces), part) for hull in pieces]
+    solid = tuple(chain.from_iterable(hulls))
+    boxes = [[hull.vertices.min(axis=0), hull.vertices.max(axis=0)] for hull in solid]
+    ends = np.reshape(boxes, (-1, 2, 3)).astype(np.float64)
+    return Surroundings(np.concatenate(corners), np.concatenate(owners), solid, ends)
 
 
 @dataclass(frozen=True)
