@@ -15,13 +15,12 @@ from ..hinges import is_crooked
 from ..poses import arms_from
 from .budget import SeenSurface
 
-#: A part that reaches beyond its axis by this share of its reach turns about its middle.
-MIDDLE_SHARE = 0.5
-#: Around an axis a seat is looked at in so many directions;
+#: Around an axis a seat is looked at in so many directions.
 SEAT_SECTORS = 8
-#: and it reaches from the axis at least this share of its farthest in each: the axis is off its
-#: middle by a third of its radius at most.
-SEAT_SHARE = 0.5
+#: What turns about its middle, or in its seat, reaches from the axis at least this share of its
+#: farthest the other way, or in each direction: the axis is off the middle by a third of the radius
+#: at most.
+MIDDLE_SHARE = 0.5
 #: What turns in a seat as round as this is cut by surfaces of revolution; a lid on a box is not.
 ROUND_SHARE = 0.8
 #: A hub that stands deep in what holds it, rather than on it, need not sit as much in its middle.
@@ -41,7 +40,7 @@ def well_hung(
         return True
     if surface is None:
         return False
-    return seat_roundness(surface, joint, holder, config.clearance_m) > SEAT_SHARE
+    return seat_roundness(surface, joint, holder, config.clearance_m) > MIDDLE_SHARE
 
 
 def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig) -> bool:

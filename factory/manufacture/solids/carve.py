@@ -22,7 +22,7 @@ from .frame import turned_hull
 from .knobs import clear_of_bumps, keep_clear
 from .lattice import closed_up, marked
 from .matter import INSIDE, PATH
-from .panel import FlatPanel, hinge_edge
+from .panel import ALONG, FlatPanel, hinge_edge
 from .reach import FAR_M, covering
 from .slab import FLUSH_M, FrontRelief, handles, relief
 from .work import Workpiece
@@ -37,8 +37,6 @@ FILLED = 0.5
 #: What lies this close behind a panel's back is its own inner side [m].
 BEHIND_BACK_M = 0.05
 MOST_PIECES = 10
-#: Cosine between the vertical and a side of a panel that stands.
-UPRIGHT = 0.9
 MOST_FITTED = 12
 #: Share of a panel's surface behind its slab that is worth pieces of its own.
 BARE_SHARE = 0.1
@@ -302,7 +300,7 @@ def _give_shelves(
 ) -> None:
     """Put shelves into the space behind a panel that does not lie."""
     upward = np.abs(panel.side.frame[:2, 2])
-    if upward.max() > UPRIGHT:
+    if upward.max() > ALONG:
         work.shelves[panel.part] = shelf_boards(boxes, spacing, int(upward.argmax()))
 
 

@@ -25,7 +25,8 @@ BESIDE_M = 0.012
 #: How much further a panel without a frame reaches: nothing may be left standing there [m]. The
 #: post that one leaves which goes through is twice as wide.
 BEYOND_M = 0.015
-#: What opens along a direction does so to this cosine; what lies across one, to less than that.
+#: A panel opens along a direction, or stands, to this cosine; across one it lies to less than the
+#: next.
 ALONG = 0.9
 ACROSS = 0.35
 #: A rim of a door is believed between these [m].
