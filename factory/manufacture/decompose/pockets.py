@@ -34,10 +34,8 @@ def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float | No
         core = manifold_of_hull(hull)
     dust = max(LEAST_VOLUME_M3, DUST_SHARE * error_m**3)
     large = [pocket for pocket in (core - solid).decompose() if pocket.volume() > dust]
-    return all(
-        _narrow(pocket, hull, error_m, slot_m)
-        for pocket in sorted(large, key=lambda p: -p.volume())
-    )
+    large.sort(key=lambda pocket: -pocket.volume())
+    return all(_narrow(pocket, hull, error_m, slot_m) for pocket in large)
 
 
 def shrunk(hull: Hull, depth_m: float) -> Manifold | None:

@@ -90,15 +90,10 @@ def stands_out_m(holder: Sequence[Hull], mover: Sequence[Hull], joint: Joint) ->
     they stand out, as a drawer that runs the wrong way does, or meet something further on.
     """
     points = np.concatenate([hull.vertices for hull in mover])
-    ways = ((joint.upper, joint.axis), (-joint.lower, -joint.axis))
-    return min(
-        (
-            _spare(points @ axis, _before(holder, points, axis), travel)
-            for travel, axis in ways
-            if travel > 0.0
-        ),
-        default=np.inf,
-    )
+    ways = [(joint.upper, joint.axis), (-joint.lower, -joint.axis)]
+    ways = [(travel, axis) for travel, axis in ways if travel > 0.0]
+    spare = (_spare(points @ axis, _before(holder, points, axis), way) for way, axis in ways)
+    return min(spare, default=np.inf)
 
 
 def _spare(heights: FloatArray, before: list[tuple[float, float]], travel: float) -> float:

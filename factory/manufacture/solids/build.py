@@ -145,23 +145,15 @@ def _prepared(
     articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig, usual: Category
 ) -> Workpiece:
     seen = recognize(articulation, parts, config.behind_m)
-    others = [
-        part
-        for part in range(1, len(articulation.parts))
-        if part not in seen.panels and len(articulation.parts[part].faces)
-    ]
+    others = [part for part in range(1, len(articulation.parts)) if part not in seen.panels]
+    others = [part for part in others if len(articulation.parts[part].faces)]
     bumps, rest = recognize_bumps(articulation, others)
     hosts = {part: host_of(articulation, part) for part in bumps}
     skin = cut_bases(seen.skin, bumps, hosts)
     joints = list(articulation.joints)
-    planes = [
-        of_panels + of_bumps
-        for of_panels, of_bumps in zip(
-            planes_of_panels(seen.panels, joints, config),
-            planes_of_bumps(bumps, joints),
-            strict=True,
-        )
-    ]
+    of_panels = planes_of_panels(seen.panels, joints, config)
+    of_bumps = planes_of_bumps(bumps, joints)
+    planes = [some + more for some, more in zip(of_panels, of_bumps, strict=True)]
     lattice = Lattice.over(articulation.mesh.bounds, config.cells, planes)
     whole = enclosed(articulation.mesh, lattice)
     owner = np.where(whole, 0, -1).astype(np.int64)

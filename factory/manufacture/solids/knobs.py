@@ -82,12 +82,9 @@ def _free_above(work: Workpiece, host: int, bump: Bump) -> None:
     if bump.normal is None:
         return
     around = work.lattice.span(_box(bump.hull.vertices))
-    heights = sum(
-        (bump.normal[axis] * work.lattice.middles[axis][around[axis]]).reshape(
-            [-1 if axis == other else 1 for other in range(3)]
-        )
-        for axis in range(3)
-    )
+    spans = zip(work.lattice.middles, around, strict=True)
+    x, y, z = np.ix_(*(middle[part] for middle, part in spans))
+    heights = bump.normal[0] * x + bump.normal[1] * y + bump.normal[2] * z
     owner = work.owner[around]
     work.owner[around] = np.where((heights > bump.base) & (owner == host), -1, owner)
 

@@ -126,11 +126,8 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         others = list(_at_lines(asset.articulation, joint, lines))
         if shares[joint.name] < BLOCKED_SHARE and joint.lower == 0.0:
             others += _turned_as(asset.articulation, joint, lines)
-        change = min(
-            (each for each in (own, _freed(asset, others)) if each is not None),
-            key=lambda each: each.left_m,
-            default=None,
-        )
+        options = [each for each in (own, _freed(asset, others)) if each is not None]
+        change = min(options, key=lambda each: each.left_m, default=None)
         least = evidence.config.least_range_share
         stuck = shares[joint.name] < least and joint.name not in evidence.spare.joints
         if change is None and stuck:
