@@ -43,13 +43,7 @@ def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:
     """Return the same hinge at the outermost edge of its part, on the side where it is.
 
     About that edge every point of a flat door moves away from the parts beside and behind it.
-
-    Args:
-        articulation: over the mesh at rest [m].
-        joint: of it.
-
-    Returns:
-        ``None`` where the joint is no hinge that opens one way, or is there already.
+    ``None`` where the joint is no hinge that opens one way, or is there already.
     """
     return _at_edge(articulation, joint, np.max)
 

@@ -16,8 +16,6 @@ from dataclasses import dataclass, replace
 
 import manifold3d
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import breadth_first_order
 
 from ..asset import Hull, Inertial
 from ..config import InertiaConfig
@@ -26,6 +24,7 @@ from ..geometry.edges import label_linked, shared_edges
 from ..geometry.rows import distinct_rows
 from ..geometry.triangles import areas_of, doubled_normals
 from ..mesh import FloatArray, IntArray, Mesh
+from .decompose.solids import flips, grouped, triangles_of, union, wound_around
 
 #: Lighter bodies make constraint solvers ill-conditioned beside furniture of many kilograms [kg].
 MIN_MASS_KG = 0.005
@@ -102,11 +101,9 @@ def part_inertial(
 
 
 def carrier_inertial(child: Inertial, origin: FloatArray) -> Inertial:
-    """Return a small sphere for a link without geometry: light beside what hangs on it.
+    """Return a small sphere for a link without geometry: light beside the child that hangs on it.
 
-    Args:
-        child: of the link that hangs on it.
-        origin: of the joint between them [m], shape [3]; the sphere's centre.
+    Its centre is the ``origin`` of the joint between them [m], shape [3].
     """
     mass = max(CARRIER_SHARE * child.mass, MIN_MASS_KG)
     return Inertial(
@@ -117,10 +114,8 @@ def carrier_inertial(child: Inertial, origin: FloatArray) -> Inertial:
 def weighing(inertials: Sequence[Inertial], total: float, density: float) -> list[Inertial]:
     """Return links that together weigh ``total`` [kg], distributed as they are.
 
-    Args:
-        inertials: of all links, of a material of ``density`` [kg/m3].
-        total: less where the material would become denser than steel.
-        density: more than 0.
+    They weigh less where their material, of some ``density`` [kg/m3], would become denser than
+    steel.
     """
     factor = min(total / sum(each.mass for each in inertials), STEEL / density)
     factors = [max(factor, MIN_MASS_KG / each.mass) for each in inertials]
@@ -169,11 +164,8 @@ def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
 
 def _components(faces: IntArray) -> list[IntArray]:
     """Group faces over edges of exactly two faces: solids that merely touch stay apart."""
-    if not len(faces):
-        return []
     label = label_linked(len(faces), shared_edges(faces).faces)
-    order = np.argsort(label, kind="stable")
-    return np.split(faces[order], np.flatnonzero(np.diff(label[order])) + 1)
+    return [faces[component] for component in grouped(label)]
 
 
 def _consistently_wound(faces: IntArray) -> IntArray | None:
@@ -181,22 +173,13 @@ def _consistently_wound(faces: IntArray) -> IntArray | None:
     shared = shared_edges(faces)
     if 2 * len(shared.faces) < 3 * len(faces):
         return None
-    pairs = shared.faces
-    flipped = (~shared.alike).astype(np.int64)
-    if not flipped.any():
+    if shared.alike.all():
         return faces
-    count = len(faces)
-    # Weight 1: wound alike, 2: not; an explicit zero would be no edge.
-    graph = coo_matrix((flipped + 1, pairs.T), shape=(count, count)).tocsr()
-    graph = graph.maximum(graph.T)
-    order, before = breadth_first_order(graph, 0, directed=False)
-    turned = np.zeros(count, dtype=np.int64)
-    steps = np.asarray(graph[order[1:], before[order[1:]]]).reshape(-1)
-    for face, step in zip(order[1:], steps, strict=True):
-        turned[face] = turned[before[face]] ^ (int(step) - 1)
-    if ((turned[pairs[:, 0]] ^ turned[pairs[:, 1]]) != flipped).any():
+    turned = flips(shared, len(faces), [np.arange(len(faces))])
+    one, other = turned[shared.faces].T
+    if ((one == other) != shared.alike).any():
         return None
-    return np.where(turned[:, None] == 1, faces[:, ::-1], faces)
+    return np.where(turned[:, None], faces[:, ::-1], faces)
 
 
 def _solid_moments(vertices: FloatArray, faces: IntArray) -> _Moments:
@@ -239,21 +222,15 @@ def _union_moments(closed: list[tuple[FloatArray, IntArray]]) -> _Moments:
             # twice.
             total += _solid_moments(vertices, outward).scaled(-1.0 if hollow[index] else 1.0)
         elif hollow[index]:
-            body = manifold3d.Manifold.batch_boolean([body, *run], manifold3d.OpType.Add) - solid
+            body = union([body, *run]) - solid
             run = []
         else:
             run.append(solid)
-    body = manifold3d.Manifold.batch_boolean([body, *run], manifold3d.OpType.Add)
-    return total + _manifold_moments(body)
+    return total + _manifold_moments(union([body, *run]))
 
 
 def _manifold_moments(body: manifold3d.Manifold) -> _Moments:
-    if body.is_empty():
-        return _NOTHING
-    mesh = body.to_mesh64()
-    return _solid_moments(
-        np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, dtype=np.int64)
-    )
+    return _NOTHING if body.is_empty() else _solid_moments(*triangles_of(body))
 
 
 def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> list[bool]:
@@ -267,23 +244,13 @@ def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> 
     for index in range(len(closed)):
         around = (low < low[index]).all(axis=1) & (high > high[index]).all(axis=1)
         for outer in by_size[around[by_size]]:
-            if _encloses(closed[outer], closed[index][0][0]):
+            vertices, faces = closed[outer]
+            if wound_around(vertices, faces, closed[index][0][:1]).any():
                 hollow[index] = bool(signed[outer] * signed[index] < 0.0)
                 break
     return hollow
 
 
-def _encloses(component: tuple[FloatArray, IntArray], point: FloatArray) -> bool:
-    """Return whether a closed surface winds around a point (Van Oosterom and Strackee 1983)."""
-    vertices, faces = component
-    a, b, c = (vertices[faces[:, i]] - point for i in range(3))
-    la, lb, lc = (np.linalg.norm(p, axis=1) for p in (a, b, c))
-    dot = [np.einsum("ij,ij->i", p, q) for p, q in ((a, b), (b, c), (c, a))]
-    triple = np.einsum("ij,ij->i", a, np.cross(b, c))
-    angle = 2.0 * np.arctan2(triple, la * lb * lc + dot[0] * lc + dot[1] * la + dot[2] * lb)
-    return bool(abs(angle.sum()) > 2.0 * np.pi)
-
-
 def _hull_moments(hulls: Sequence[Hull], center: FloatArray) -> _Moments:
     solids = [manifold3d.Manifold.hull_points(hull.vertices - center) for hull in hulls]
-    return _manifold_moments(manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add))
+    return _manifold_moments(union(solids))

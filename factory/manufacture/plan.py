@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from ..articulate.locate import located
 from ..articulation import Articulation, Joint, JointKind
 from ..geometry.coupling import with_common_ranges
 from ..geometry.welding import welded
+from ..mesh import FloatArray
 from ..part import PartKind
 from .hinges import at_front_edge
-from .lying import lying_on
 from .repair import Pair, Repair, RepairKind
+from .separate.budget import SeenSurface
 from .solids.skin import plates
 
 #: Thin fronts of meshes of more faces are built at once: carved mouldings take minutes to search.
 MANY_FACES = 20_000
+#: What is no further off than this share of the object's diagonal is lain on.
+NEAR_SHARE = 0.03
 
 
 @dataclass(frozen=True)
@@ -114,6 +118,41 @@ def as_planned(articulation: Articulation, plan: Plan) -> Articulation:
     return _relocated(articulation, replace(articulation, joints=joints))
 
 
+def lying_on(articulation: Articulation, joints: Collection[str]) -> dict[str, int]:
+    """Return by joint the part that most of its own part's surface lies near, if any.
+
+    Parts that carry others are left out, and none lies on a part that these joints move.
+    """
+    leaving = {joint.child for joint in articulation.joints if joint.name in joints}
+    carriers = {joint.parent for joint in articulation.joints}
+    shown = {
+        index: SeenSurface.of(articulation.part_mesh(index)).points
+        for index, part in enumerate(articulation.parts)
+        if len(part.faces)
+    }
+    others = {index: points for index, points in shown.items() if index not in leaving}
+    near = NEAR_SHARE * articulation.mesh.diagonal
+    found = {}
+    for joint in articulation.joints:
+        if joint.name in joints and joint.child in shown and joint.child not in carriers:
+            nearest = _nearest(shown[joint.child], others, near)
+            if nearest is not None:
+                found[joint.name] = nearest
+    return found
+
+
+def _nearest(points: FloatArray, others: dict[int, FloatArray], near: float) -> int | None:
+    """Return which of some parts is the nearest of most points [m], shape [n, 3]."""
+    if not others:
+        return None
+    distances = np.array([cKDTree(other).query(points)[0] for other in others.values()])
+    touching = distances.min(axis=0) < near
+    if not touching.any():
+        return None
+    counts = np.bincount(distances.argmin(axis=0)[touching], minlength=len(others))
+    return list(others)[int(counts.argmax())]
+
+
 def _relocated(before: Articulation, made: Articulation) -> Articulation:
     """Return the tree as made; parts that were given limits say anew what they are: no knobs."""
     ended = {
@@ -136,12 +175,9 @@ def _relocated(before: Articulation, made: Articulation) -> Articulation:
 def dispensable_joints(articulation: Articulation, share: float) -> Spare:
     """Find joints without which the object is still worth having, should they be wrong.
 
-    Small ones; and of joints that were guessed all but the best: a guess that is blocked is a
-    wrong guess. Never all that there are.
-
-    Args:
-        articulation: parts and joints.
-        share: largest diagonal of everything a small joint moves, over the object's.
+    Small ones, which move no more than a ``share`` of the object's diagonal; and of joints that
+    were guessed all but the best: a guess that is blocked is a wrong guess. Never all that there
+    are.
     """
     moved = _moved_shares(articulation)
     rated = [joint for joint in articulation.movable_joints if joint.confidence is not None]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..articulation import Articulation, Joint
+from ..articulation import Articulation, Joint, JointKind
 from ..mesh import FloatArray
 
 #: Beyond a turn of so many quarters poses grow sparser.
@@ -14,17 +14,11 @@ MOST_QUARTERS = 2.0
 def relative_poses(
     articulation: Articulation, a: int, b: int, count: int, share: float = 1.0
 ) -> list[FloatArray]:
-    """Return where part ``b`` is as seen from ``a``, [4, 4] each.
+    """Return where part ``b`` is as seen from ``a``: as modelled, closed, and as joints move it.
 
-    As modelled, closed, and along each joint between them.
-
-    Args:
-        articulation: parts and joints.
-        a: index of a part.
-        b: of another.
-        count: poses along each joint; along a hinge that turns further than a quarter turn, in
-            each quarter.
-        share: of each joint's range, from its lower end, that they lie in.
+    That is at ``count`` poses, [4, 4] each, along each joint between them, in a ``share`` of its
+    range from its lower end; along a hinge that turns further than a quarter turn at so many in
+    each quarter.
     """
     lower = {joint.name: joint.lower for joint in articulation.movable_joints}
     values: list[dict[str, float]] = [{}, lower]
@@ -40,6 +34,23 @@ def relative_poses(
     return [
         np.asarray(np.linalg.inv(_pose(above_a, given)) @ _pose(above_b, given)) for given in values
     ]
+
+
+def closed_values(articulation: Articulation) -> dict[str, float]:
+    """Return the value at which each joint is closed [rad] or [m]; of those that have ends."""
+    ended = (joint for joint in articulation.joints if joint.kind is not JointKind.CONTINUOUS)
+    return {joint.name: joint.lower for joint in ended}
+
+
+def moved(points: FloatArray, pose: FloatArray) -> FloatArray:
+    """Return points [m], shape [n, 3], moved by a pose, shape [4, 4]."""
+    return np.asarray(points @ pose[:3, :3].T + pose[:3, 3])
+
+
+def arms_from(joint: Joint, points: FloatArray) -> FloatArray:
+    """Return the arms from a joint's axis to points [m], shape [n, 3], across the axis."""
+    arms = points - joint.origin
+    return np.asarray(arms - np.outer(arms @ joint.axis, joint.axis))
 
 
 def joints_between(articulation: Articulation, a: int, b: int) -> list[Joint]:

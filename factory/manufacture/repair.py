@@ -155,18 +155,15 @@ class Repair:
         blocked = "it runs into something"
         if self.free_share is not None:
             blocked += f" after {self.free_share:.0%} of its range"
-        return self.kind.sentence.format(
-            parts=", ".join(self.parts),
-            pairs=", ".join(f"{a} and {b}" for a, b in self.pairs),
-            joints=", ".join(self.joints),
-            part=self.parts[0] if self.parts else "",
-            others=" and ".join(self.parts[1:]) or "another",
-            before=self.before,
-            after=self.after,
-            unit=self.unit,
-            free_share=self.free_share,
-            why=self.why or blocked,
-        )
+        words = {
+            "parts": ", ".join(self.parts),
+            "pairs": ", ".join(f"{a} and {b}" for a, b in self.pairs),
+            "joints": ", ".join(self.joints),
+            "part": self.parts[0] if self.parts else "",
+            "others": " and ".join(self.parts[1:]) or "another",
+            "why": self.why or blocked,
+        }
+        return self.kind.sentence.format(**{**vars(self), **words})
 
     def to_dict(self) -> dict[str, Any]:
         """Return JSON data, without empty fields."""

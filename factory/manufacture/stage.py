@@ -22,8 +22,9 @@ from .decompose.fewer import fewer
 from .decompose.room import Rooms
 from .inertia import carrier_inertial, part_inertial, weighing
 from .plan import Plan, as_planned
+from .repair import Pair
 from .separate import Separation, separate
-from .solids.kept import solid_parts
+from .solids.build import solid_parts
 from .targets.find import find_targets
 from .targets.handles import find_handle
 
@@ -40,14 +41,8 @@ def manufacture(
 ) -> tuple[Asset, tuple[Finding, ...]]:
     """Make all that a simulator needs beside the joints; with the factory's own findings.
 
-    Where its joints are best held no simulator asks: see :func:`with_targets`.
-
-    Args:
-        articulation: parts and joints.
-        plan: what a repair wants done differently.
-        intake: the input's name, category and density.
-        stages: with the settings; told how long each stage took, and asked whether it was done
-            before.
+    Where its joints are best held no simulator asks: see :func:`with_targets`. The stages have the
+    settings, are told how long each stage took, and asked whether it was done before.
     """
     whole = as_planned(articulation, Plan(given_up=plan.given_up, rehung=plan.rehung))
     usual = usual_of(intake.provenance.category or articulation.looks_like)
@@ -193,29 +188,23 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
             f"{pair[0]!r} and {pair[1]!r} overlap by {depth * 1000:.2f} mm at rest; "
             "what is hidden there was cut out of the collision geometry"
         )
-        yield Finding(
-            "hidden_overlap",
-            Severity.WARNING,
-            message,
-            parts=pair,
-            value=round(depth * 1000, 4),
-            unit="mm",
-        )
+        yield _measured("hidden_overlap", message, pair, depth)
     for pair, trimmed in separation.trimmed.items():
         told = " and ".join(
             f"{each.depth_m * 1000:.1f} mm of {each.part!r} ({each.share:.1%} of it, "
             f"{each.area:.1%} of its surface)"
             for each in trimmed
         )
-        yield Finding(
-            "planed",
-            Severity.WARNING,
+        message = (
             f"so that {pair[0]!r} and {pair[1]!r} are clear of one another, their collision "
-            f"geometry was cut back where that can be seen: {told}",
-            parts=pair,
-            value=round(max(each.depth_m for each in trimmed) * 1000, 4),
-            unit="mm",
+            f"geometry was cut back where that can be seen: {told}"
         )
+        yield _measured("planed", message, pair, max(each.depth_m for each in trimmed))
+
+
+def _measured(code: str, message: str, parts: Pair, depth_m: float) -> Finding:
+    depth_mm = round(depth_m * 1000, 4)
+    return Finding(code, Severity.WARNING, message, parts=parts, value=depth_mm, unit="mm")
 
 
 def _inertials(

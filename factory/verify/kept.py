@@ -29,21 +29,11 @@ class Kept:
 
     def to_dict(self) -> dict[str, float]:
         """Return the shares as a report has them."""
-        return {
-            "range": round(self.range, 4),
-            "coverage": round(self.coverage, 4),
-            "worst_coverage": round(self.worst_coverage, 4),
-        }
+        return {name: round(share, 4) for name, share in vars(self).items()}
 
 
 def kept_of(hypothesis: Articulation, made: Articulation, measured: Mapping[str, Any]) -> Kept:
-    """Return the parts and joints left.
-
-    Args:
-        hypothesis: the articulation to make.
-        made: the one made.
-        measured: the validator's measurements of the asset's URDF.
-    """
+    """Return the parts and joints left of a hypothesis, made and measured as a URDF."""
     ranges = {joint.name: joint.range for joint in made.movable_joints}
     shares = [
         min(1.0, ranges.get(joint.name, 0.0) / joint.range) for joint in hypothesis.movable_joints

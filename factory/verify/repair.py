@@ -17,9 +17,7 @@ from .repairs.geometry import (
     separate_hulls,
 )
 from .repairs.give_up import give_up_guesses
-from .repairs.mend import mend_joints
-from .repairs.pull_in import pull_in
-from .repairs.rehang import rehang_doors
+from .repairs.mend import mend_joints, pull_in, rehang_doors
 from .repairs.shorten import freeze_small, shorten_or_freeze
 from .validate import Verdict
 
@@ -55,17 +53,10 @@ def allowed(repair: Repairer, kinds: str) -> bool:
 def next_plan(
     verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare, asset: Asset | None = None
 ) -> Plan | None:
-    """Return what to change so that the asset becomes better, if anything can.
+    """Return what to change so that the asset becomes better; ``None`` where nothing could help.
 
-    Args:
-        verdict: of the round just validated.
-        plan: which that round was made by.
-        config: how far repairs may go.
-        spare: what the object is still worth having without.
-        asset: that was validated; without it no joint is mended.
-
-    Returns:
-        The plan for another round, or ``None`` when nothing is left that could help.
+    The verdict is of the round just validated, which the plan made. Without the asset no joint is
+    mended.
     """
     evidence = RepairEvidence(verdict, config, spare, asset)
     for repair in REPAIRS:

@@ -57,9 +57,8 @@ class Rounds:
     ) -> tuple[HypothesisDraft, Verdict]:
         """Validate a draft in simulators too, and repair what these alone refuse.
 
-        Args:
-            draft: that passes without simulators, or the best there is.
-            others: findings on other hypotheses.
+        The draft passes without simulators, or is the best there is; ``others`` are findings on
+        other hypotheses.
         """
         first = draft, self._validated(draft, others)
         verdict = first[1]

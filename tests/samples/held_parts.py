@@ -12,9 +12,8 @@ from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.convex import hull_of
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.poses import relative_poses
-from asset_factory.factory.manufacture.separate import separate
+from asset_factory.factory.manufacture.separate import Separation, separate
 from asset_factory.factory.manufacture.separate.along import hull_depth
-from asset_factory.factory.manufacture.separate.outcome import Separation
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = SeparateConfig()

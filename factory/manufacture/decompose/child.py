@@ -13,10 +13,7 @@ Triangles = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
 def coacd_pieces(solid: Triangles, error_m: float, config: DecomposeConfig) -> list[Triangles]:
     """Return the convex pieces of a closed manifold. Call through ``run_isolated`` only.
 
-    Args:
-        solid: its vertices [m] and faces.
-        error_m: largest concavity left [m].
-        config: the surface samples, and the tree search's settings.
+    It has vertices [m] and faces; no concavity larger than ``error_m`` is left [m].
     """
     import coacd  # heavy, native, and only ever loaded in the child
 

@@ -62,6 +62,12 @@ def thickness(vertices: FloatArray, planes: FloatArray) -> float:
     return float((heights.max(axis=0) - heights.min(axis=0)).min())
 
 
+def edges_of(hull: Hull) -> IntArray:
+    """Return the corners at the ends of each edge of a hull, the lower one first, shape [n, 2]."""
+    around = hull.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    return np.asarray(around[around[:, 0] < around[:, 1]])
+
+
 def depth_below(hull: Hull, points: FloatArray) -> FloatArray:
     """Return how far each point lies below the hull's surface [m], shape [n].
 

@@ -49,20 +49,12 @@ def flatness(vertices: FloatArray) -> float:
 def cut_along_faces(
     solid: Manifold, error_m: float, most: int, slot_m: float | None = None
 ) -> SolidPieces | None:
-    """Return the convex pieces of a solid made of flat faces.
+    """Return the convex pieces of a solid made of flat faces; ``None`` of one that is curved.
 
     Each piece is cut along that plane of one of its inward edges which leaves the least volume
-    between the pieces and their hulls, until no dent is deeper than ``error_m`` (notch cutting:
-    Chazelle 1984, greedily).
-
-    Args:
-        solid: a closed manifold [m].
-        error_m: deepest dent left in a piece [m].
-        most: pieces after which to give up.
-        slot_m: width of slots that may be filled [m]; ``None``: twice the error.
-
-    Returns:
-        The pieces; ``None`` if the solid is curved or needs more than ``most``.
+    between the pieces and their hulls, until no dent is deeper than ``error_m`` [m] (notch cutting:
+    Chazelle 1984, greedily). Slots up to ``slot_m`` wide may be filled [m]; ``None``: twice the
+    error. ``None`` too where more than ``most`` pieces are needed.
     """
     waiting = list(solid.decompose())
     found = NOTHING

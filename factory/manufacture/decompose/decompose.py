@@ -130,9 +130,8 @@ def _decompose_part(
             return PartHulls(pieces.hulls, pieces.method, tuple(degraded), exact)
         if attempt < COARSER_ROUNDS:
             degraded.append(
-                f"{count} hulls at an error of {1000 * error_m:g} mm, "
-                f"more than {config.max_hulls}: "
-                f"decomposed with {2000 * error_m:g} mm"
+                f"{count} hulls at an error of {1000 * error_m:g} mm, more than "
+                f"{config.max_hulls}: decomposed with {2000 * error_m:g} mm"
             )
             error_m *= 2.0
             config = replace(config, error_m=2.0 * config.error_m)

@@ -54,20 +54,13 @@ class _Attempt:
 def search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
     """Return the pieces of one connected solid by the first engine that gives acceptable ones.
 
-    Args:
-        solid: a closed manifold [m], too curved to be cut along its own faces.
-        error_m: largest concavity left [m].
-        config: limits of the child processes, the search's seed and the face limit.
+    No concavity larger than ``error_m`` is left [m]. One convex hull where no engine does; nothing
+    if the solid is so thin that not even that is a body. A sentence tells of each engine that
+    failed.
 
-    Returns:
-        One convex hull where no engine does; nothing if the solid is so thin that not even that is
-        a body. A sentence tells of each engine that failed.
-
-    Raises:
-        ImportError: an engine is not installed.
-        RuntimeError: child processes cannot be started at all, say because the main module runs on
-            import.
-        Unjudged: an engine hung, or somebody ended it; a clock makes no hulls coarser.
+    Raises ImportError: an engine is not installed. RuntimeError: child processes cannot be started
+    at all, say because the main module runs on import. Unjudged: an engine hung, or somebody ended
+    it; a clock makes no hulls coarser.
     """
     degraded: tuple[str, ...] = ()
     searched = 0
@@ -133,15 +126,9 @@ def _by_coacd(
     config: DecomposeConfig,
     limits: Limits,
 ) -> _Attempt:
-    """Return CoACD on a lighter solid, unless that is intricate.
+    """Return CoACD on a solid as light as it stays closed, unless that is intricate.
 
-    Args:
-        name: of the attempt.
-        solid: a closed manifold [m].
-        light: the same, simplified as far as it stays closed.
-        error_m: largest concavity left [m].
-        config: the most faces, and CoACD's settings.
-        limits: of the child process.
+    No concavity larger than ``error_m`` is to be left [m].
     """
     # One pass leaves what the next one takes away.
     within = solid.simplify(0.5 * error_m).simplify(0.5 * error_m)
@@ -159,10 +146,7 @@ def _by_coacd(
 def complaint(solid: Manifold, hulls: list[Hull], outside_m: float) -> str | None:
     """Return the fault of ``hulls`` as a cover of ``solid``; ``None`` if they have none.
 
-    Args:
-        solid: what they should cover.
-        hulls: convex pieces.
-        outside_m: how far they may lie outside, averaged over the solid's surface [m].
+    Averaged over the solid's surface they may lie ``outside_m`` outside [m].
     """
     if not hulls:
         return "no piece is a body"

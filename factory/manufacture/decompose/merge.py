@@ -9,7 +9,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...asset import Hull
-from ...geometry.triangles import doubled_normals
+from ...geometry.triangles import areas_of
 from ...mesh import FloatArray
 from .convex import hull_of
 from .pockets import fills_little
@@ -27,13 +27,12 @@ MOST_LOOKS = 2000
 class _Cluster:
     hull: Hull
     sources: Manifold
-    planes: FloatArray
     low: FloatArray
     high: FloatArray
 
     @classmethod
     def of(cls, hull: Hull, sources: Manifold) -> _Cluster:
-        return cls(hull, sources, hull.planes, hull.vertices.min(axis=0), hull.vertices.max(axis=0))
+        return cls(hull, sources, hull.vertices.min(axis=0), hull.vertices.max(axis=0))
 
 
 def merge(
@@ -42,13 +41,9 @@ def merge(
     """Join hulls where that fills little.
 
     Pairs are joined, the one that fills least first, as long as the joined hull's surface stays
-    within ``error_m`` of the hulls it was made from, see ``fills_little``.
-
-    Args:
-        hulls: convex pieces [m].
-        error_m: how far a joined hull's surface may be from its sources [m].
-        slot_m: width of slots that may be filled [m]; ``None``: twice the error.
-        room: that no joined hull may take where its sources do not.
+    within ``error_m`` [m] of the hulls it was made from, see ``fills_little``, and takes none of a
+    room that these do not take. Slots up to ``slot_m`` wide may be filled [m]; ``None``: twice the
+    error.
     """
     start = [_Cluster.of(hull, manifold_of_hull(hull)) for hull in hulls]
     return [cluster.hull for cluster in _halve_and_join(start, _Yardstick(error_m, slot_m, room))]
@@ -82,13 +77,8 @@ def _join_greedily(
     clusters = dict(enumerate([*left, *right]))
     queue: list[tuple[float, int, int]] = []
     for i in range(len(left)):
-        _offer(
-            queue,
-            clusters,
-            i,
-            list(range(len(left), len(clusters)) if right else range(i + 1, len(left))),
-            yardstick,
-        )
+        others = range(len(left), len(clusters)) if right else range(i + 1, len(left))
+        _offer(queue, clusters, i, list(others), yardstick)
     given = len(clusters)
     fresh = given
     while queue:
@@ -129,10 +119,9 @@ def _offer(
     one = clusters[i]
     low = np.array([clusters[j].low for j in others])
     high = np.array([clusters[j].high for j in others])
-    near = ((low <= one.high + yardstick.error_m) & (high >= one.low - yardstick.error_m)).all(
-        axis=1
-    )
-    for j in np.flatnonzero(near).tolist():
+    error_m = yardstick.error_m
+    near = (low <= one.high + error_m) & (high >= one.low - error_m)
+    for j in np.flatnonzero(near.all(axis=1)).tolist():
         cost = _cost(one, clusters[others[j]], yardstick)
         if cost < np.inf:
             heapq.heappush(queue, (cost, min(i, others[j]), max(i, others[j])))
@@ -145,10 +134,9 @@ def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
     if hull is None:
         return np.inf
     corners = hull.vertices[hull.faces]
-    area = np.linalg.norm(doubled_normals(corners), axis=1).sum() / 2.0
-    middles = corners.mean(axis=1)
+    area = float(areas_of(corners).sum())
     filled = hull.volume - first.hull.volume - second.hull.volume
-    if filled > error_m * float(area) or _gap(first, second, middles) > error_m:
+    if filled > error_m * area or _gap(first, second, corners.mean(axis=1)) > error_m:
         return np.inf
     yardstick.looks -= 1
     return max(filled, 0.0)
@@ -165,5 +153,6 @@ def _allowed(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> bool:
 
 def _gap(first: _Cluster, second: _Cluster, points: FloatArray) -> float:
     """Return at most the largest distance of points from both clusters [m]: a cheap early exit."""
-    outside = [(points @ c.planes[:, :3].T - c.planes[:, 3]).max(axis=1) for c in (first, second)]
+    planes = (first.hull.planes, second.hull.planes)
+    outside = [(points @ each[:, :3].T - each[:, 3]).max(axis=1) for each in planes]
     return float(np.minimum(*outside).max())

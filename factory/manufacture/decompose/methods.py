@@ -73,12 +73,9 @@ METHODS: tuple[Method, ...] = (whole, along_faces, along_simplified_faces, by_se
 
 
 def split_solid(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
-    """Return the convex pieces of one closed solid by the first method that has some.
+    """Return the convex pieces of a closed manifold [m] by the first method that has some.
 
-    Args:
-        solid: a closed manifold [m].
-        error_m: deepest dent that a hull may fill [m].
-        config: everything else.
+    No dent that a hull fills is deeper than ``error_m`` [m].
     """
     found = (method(solid, error_m, config) for method in METHODS)
     return next(split for split in found if split is not None)
@@ -89,14 +86,8 @@ def refined(
 ) -> SolidPieces:
     """Return the same pieces, with those that cannot stay split again with half the error.
 
-    Those take other parts' room, or fill more than the least error where slots are.
-
-    Args:
-        solid: a closed manifold [m].
-        split: it in pieces.
-        error_m: deepest dent that they were allowed to fill [m].
-        config: the least error, and everything else.
-        room: that other parts take; where the solid itself lies in it, nothing helps.
+    Those take other parts' room, or fill more than the least error where slots are; where the solid
+    itself lies in that room, nothing helps.
     """
     finer = error_m / 2.0
     if split.exact or finer < FINEST_SHARE * config.error_m:

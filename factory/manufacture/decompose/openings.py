@@ -6,7 +6,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...asset import Hull
-from ...geometry.triangles import doubled_normals
+from ...geometry.triangles import areas_of, doubled_normals
 from ...mesh import FloatArray, IntArray
 from .convex import concavity, hull_of, thickness
 from .room import Room
@@ -26,15 +26,8 @@ UPWARD = 0.7
 def as_shell(surface: OpenSurface, error_m: float, room: Room) -> Hull | None:
     """Return the hull of an open surface close below it, where nobody misses what that fills.
 
-    Such are knobs, caps, panels without a back.
-
-    Args:
-        surface: an open piece.
-        error_m: deepest dent of the surface itself that may be filled [m].
-        room: that other parts take.
-
-    Returns:
-        ``None`` where the surface is not convex, where a hand gets in, or another part is in it.
+    Such are knobs, caps, panels without a back. ``None`` where dents of the surface itself are
+    deeper than ``error_m`` [m], where a hand gets in, or another part is in it.
     """
     hull = hull_of(surface.vertices)
     if hull is None or concavity(surface.vertices, surface.faces, hull) > error_m:
@@ -61,12 +54,8 @@ def closed(surface: OpenSurface, room: Room) -> Manifold | None:
 def capped(surface: OpenSurface, share: float = OPENING_SHARE) -> Manifold | None:
     """Return the solid that a surface encloses once its small openings are closed, outward.
 
-    Args:
-        surface: an open piece.
-        share: of the surface's area that openings may have.
-
-    Returns:
-        ``None`` where the openings are more than that, or closing them does not close it.
+    ``None`` where the openings are more than a share of the surface's area, or closing them does
+    not close it.
     """
     loops = _boundary_loops(surface.faces)
     if not loops:
@@ -77,19 +66,18 @@ def capped(surface: OpenSurface, share: float = OPENING_SHARE) -> Manifold | Non
     for loop in loops:
         center = surface.vertices[loop].mean(axis=0)
         spokes = surface.vertices[loop] - center
-        opening += (
-            float(np.linalg.norm(np.cross(spokes, np.roll(spokes, -1, axis=0)), axis=1).sum()) / 2.0
-        )
+        spread = np.cross(spokes, np.roll(spokes, -1, axis=0))
+        opening += float(np.linalg.norm(spread, axis=1).sum()) / 2.0
         apex = len(surface.vertices) + len(vertices) - 1
         vertices.append(center[None])
         faces.append(np.column_stack([np.roll(loop, -1), loop, np.full(len(loop), apex)]))
-    vectors = doubled_normals(surface.vertices[surface.faces])
-    if opening > share * (float(np.linalg.norm(vectors, axis=1).sum()) / 2.0):
+    if opening > share * float(areas_of(surface.vertices[surface.faces]).sum()):
         return None
-    solid = manifold_of(np.concatenate(vertices), np.concatenate(faces))
-    if solid is not None and solid.volume() < 0.0:
-        return manifold_of(np.concatenate(vertices), np.concatenate(faces)[:, ::-1])
-    return solid
+    points = np.concatenate(vertices)
+    triangles = np.concatenate(faces)
+    solid = manifold_of(points, triangles)
+    inverted = solid is not None and solid.volume() < 0.0
+    return manifold_of(points, triangles[:, ::-1]) if inverted else solid
 
 
 def _keeps_hands_out(surface: OpenSurface) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
-from .convex import depth_below
+from .convex import depth_below, edges_of
 
 #: Points measured at a time: what is known of them stays small, and near the processor.
 BLOCK = 512
@@ -17,11 +17,9 @@ ROUNDING_M = 1e-12
 
 
 def outside(hulls: Sequence[Hull], points: FloatArray) -> FloatArray:
-    """Return how far each point lies outside all hulls [m], shape [n]; zero within one.
+    """Return how far each point [m], shape [n, 3], lies outside all hulls [m], shape [n].
 
-    Args:
-        hulls: infinitely far away where there are none.
-        points: [m], shape [n, 3].
+    Zero within one, infinite where there are none.
     """
     if not hulls:
         return np.full(len(points), np.inf)
@@ -68,8 +66,7 @@ def _from_one(hull: Hull, points: FloatArray) -> FloatArray:
 
 def _from_edges(hull: Hull, points: FloatArray) -> FloatArray:
     """Return the distances of points from the nearest edge [m], shape [n]."""
-    pairs = hull.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-    start, end = np.moveaxis(hull.vertices[pairs[pairs[:, 0] < pairs[:, 1]]], 1, 0)
+    start, end = np.moveaxis(hull.vertices[edges_of(hull)], 1, 0)
     along = end - start
     length2 = (along**2).sum(axis=1)
     passed = points @ along.T - (start * along).sum(axis=1)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 from manifold3d import Manifold
 
@@ -39,18 +41,11 @@ def split_part(
     room: Room = NOWHERE,
     hollow: bool = False,
 ) -> SolidPieces | None:
-    """Return the convex hulls of the triangles of one part.
+    """Return the convex hulls of the triangles of one part; ``None`` if nothing in it is a body.
 
-    Args:
-        vertices: welded positions [m], shape [n, 3].
-        faces: shape [m, 3].
-        error_m: deepest dent that a hull may fill [m].
-        config: everything else; its ``error_m`` is the least, where others are near.
-        room: that other parts take.
-        hollow: open surfaces are walls: what they surround is never closed or filled.
-
-    Returns:
-        ``None`` if nothing in it is a body.
+    Vertices are welded [m], shape [n, 3]. No dent that a hull fills is deeper than ``error_m`` [m];
+    the configuration's error is the least, where others are near. Open surfaces of a ``hollow``
+    part are walls: what they surround is never closed or filled.
     """
     gated = gate(vertices, faces)
     single = None if hollow else _single(vertices, faces, gated, error_m, config)
@@ -111,12 +106,18 @@ def _single(
 
 def _outermost(solids: list[Manifold]) -> list[Manifold]:
     """Return the bodies that lie inside no other body; of duplicates one."""
-    order = sorted(range(len(solids)), key=lambda i: -solids[i].volume())
+    volumes = [solid.volume() for solid in solids]
+    outer = _outer(volumes, lambda other, one: contains(solids[other], solids[one]))
+    return [solids[number] for number in outer]
+
+
+def _outer(volumes: Sequence[float], holds: Callable[[int, int], bool]) -> list[int]:
+    """Return the numbers of those that no larger one holds, in order."""
     kept: list[int] = []
-    for i in order:
-        if not any(contains(solids[k], solids[i]) for k in kept):
-            kept.append(i)
-    return [solids[i] for i in sorted(kept)]
+    for number in sorted(range(len(volumes)), key=lambda number: -volumes[number]):
+        if not any(holds(other, number) for other in kept):
+            kept.append(number)
+    return sorted(kept)
 
 
 def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold]:
@@ -140,17 +141,13 @@ def _cover(sheet: OpenSurface, center: FloatArray, config: DecomposeConfig) -> l
 
 def _not_inside_others(hulls: list[Hull], proud_m: float = TOUCHING_M) -> list[Hull]:
     """Return the hulls that stand out of every larger one by more than ``proud_m`` [m]."""
-    order = sorted(range(len(hulls)), key=lambda i: -hulls[i].volume)
-    boxes = [(h.vertices.min(axis=0) - proud_m, h.vertices.max(axis=0) + proud_m) for h in hulls]
-    kept: list[int] = []
-    for i in order:
-        low, high = boxes[i]
-        inside = any(
-            (boxes[k][0] <= low + proud_m).all()
-            and (boxes[k][1] >= high - proud_m).all()
-            and float(depth_below(hulls[k], hulls[i].vertices).min()) >= -proud_m
-            for k in kept
-        )
-        if not inside:
-            kept.append(i)
-    return [hulls[i] for i in sorted(kept)]
+    low = [hull.vertices.min(axis=0) for hull in hulls]
+    high = [hull.vertices.max(axis=0) for hull in hulls]
+
+    def holds(other: int, one: int) -> bool:
+        # Most boxes tell, long before their hulls' planes would.
+        if (low[other] - proud_m > low[one]).any() or (high[other] + proud_m < high[one]).any():
+            return False
+        return float(depth_below(hulls[other], hulls[one].vertices).min()) >= -proud_m
+
+    return [hulls[number] for number in _outer([hull.volume for hull in hulls], holds)]

@@ -24,14 +24,8 @@ def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float | No
     """Return whether ``hull`` may stand for ``solid``: its surface is within ``error_m`` of it.
 
     That is so where every pocket it fills is a dent no deeper than ``error_m``, or a slot or hole
-    no wider than ``slot_m``, whatever its depth: nobody's clearance shrinks by more than
-    ``error_m``.
-
-    Args:
-        hull: the convex hull of ``solid``.
-        solid: a closed manifold, or several that overlap, as one [m].
-        error_m: how far the hull's surface may be from the solid [m].
-        slot_m: width of slots that may be filled [m]; ``None``: twice the error.
+    no wider than ``slot_m`` [m], by default twice the error, whatever its depth: nobody's clearance
+    shrinks by more than ``error_m``. The solid may be several that overlap, as one.
     """
     slot_m = 2.0 * error_m if slot_m is None else slot_m
     core = shrunk(hull, SKIN_SHARE * error_m)
@@ -40,10 +34,8 @@ def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float | No
         core = manifold_of_hull(hull)
     dust = max(LEAST_VOLUME_M3, DUST_SHARE * error_m**3)
     large = [pocket for pocket in (core - solid).decompose() if pocket.volume() > dust]
-    return all(
-        _narrow(pocket, hull, error_m, slot_m)
-        for pocket in sorted(large, key=lambda p: -p.volume())
-    )
+    large.sort(key=lambda pocket: -pocket.volume())
+    return all(_narrow(pocket, hull, error_m, slot_m) for pocket in large)
 
 
 def shrunk(hull: Hull, depth_m: float) -> Manifold | None:

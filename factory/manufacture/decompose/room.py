@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from manifold3d import Manifold
 
 from ...articulation import Articulation
 from ...asset import Hull
 from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray
-from ..poses import relative_poses
+from ..poses import moved, relative_poses
 from .convex import depth_below
 from .solids import inside
-from .spread import spread_over
+from .spread import SPREAD, spread_over
 
-#: Points spread over another part's visible surface; its corners are looked at besides, up to as
-#: many.
-SPREAD = 1500
 #: Poses along each joint that moves another part against this one.
 POSES = 13
 #: One point is kept in a cube of this side [m].
@@ -31,11 +27,6 @@ MOST = 60_000
 ENTERED_M = 0.001
 
 
-def _nowhere() -> FloatArray:
-    """Return no points, shape [0, 3]."""
-    return np.zeros((0, 3))
-
-
 @dataclass(frozen=True)
 class Room:
     """What other parts take.
@@ -44,11 +35,11 @@ class Room:
         points: on their visible surfaces, in the frame of one part at rest [m], shape [n, 3].
     """
 
-    points: FloatArray = field(default_factory=_nowhere)
+    points: FloatArray
 
     def inside(self, hull: Hull) -> FloatArray:
         """Return the points that lie in a hull [m], shape [k, 3]."""
-        near = self._near(hull)
+        near = _between(self.points, hull.vertices.min(axis=0), hull.vertices.max(axis=0))
         return near[depth_below(hull, near) > ENTERED_M] if len(near) else near
 
     def entered(self, hull: Hull, sources: Iterable[Hull] = ()) -> bool:
@@ -63,18 +54,11 @@ class Room:
     def within(self, solid: Manifold) -> bool:
         """Return whether another part reaches into a solid."""
         low, high = np.array(solid.bounding_box()).reshape(2, 3)
-        near = self.points[((self.points > low) & (self.points < high)).all(axis=1)]
-        return bool(inside(solid, near).any())
-
-    def _near(self, hull: Hull) -> FloatArray:
-        low = hull.vertices.min(axis=0)
-        high = hull.vertices.max(axis=0)
-        kept: npt.NDArray[np.bool_] = ((self.points > low) & (self.points < high)).all(axis=1)
-        return self.points[kept]
+        return bool(inside(solid, _between(self.points, low, high)).any())
 
 
 #: Nobody else's room.
-NOWHERE = Room()
+NOWHERE = Room(np.zeros((0, 3)))
 
 
 class Rooms:
@@ -102,17 +86,16 @@ class Rooms:
         seen = own.vertices[np.unique(own.faces)]
         low = seen.min(axis=0)
         high = seen.max(axis=0)
-        found = [_nowhere()]
+        found = [NOWHERE.points]
         for other in range(len(self._articulation.parts)):
-            points = _nowhere() if other == part else self._points_of(other)
+            points = NOWHERE.points if other == part else self._points_of(other)
             if not len(points):
                 continue
             corners = _corners(points)
             for pose in relative_poses(self._articulation, part, other, POSES):
-                reach = _moved(corners, pose)
+                reach = moved(corners, pose)
                 if (reach.max(axis=0) > low).all() and (reach.min(axis=0) < high).all():
-                    moved = _moved(points, pose)
-                    found.append(moved[((moved > low) & (moved < high)).all(axis=1)])
+                    found.append(_between(moved(points, pose), low, high))
         return Room(_thinned(np.concatenate(found)))
 
     def _points_of(self, part: int) -> FloatArray:
@@ -122,8 +105,9 @@ class Rooms:
         return self._spread[part]
 
 
-def _moved(points: FloatArray, pose: FloatArray) -> FloatArray:
-    return np.asarray(points @ pose[:3, :3].T + pose[:3, 3])
+def _between(points: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    """Return the points that lie in a box [m], shape [k, 3]."""
+    return points[((points > low) & (points < high)).all(axis=1)]
 
 
 def _corners(points: FloatArray) -> FloatArray:

@@ -10,10 +10,11 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from ...asset import Hull
+from ...geometry.edges import shared_edges
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
 from .convex import hull_of
-from .solids import OpenSurface, neighbours
+from .solids import OpenSurface
 
 #: Share of its outline's convex hull that a flat patch may leave empty, for rounding's sake.
 SPARE_SHARE = 0.002
@@ -40,21 +41,13 @@ class _Patch:
 def slabs(
     surface: OpenSurface, error_m: float, thickness_m: float, center: FloatArray
 ) -> list[Hull]:
-    """Return the convex slabs over a surface.
+    """Return the convex slabs over an open surface, consistently wound: one per patch.
 
     Neighbouring faces are joined, cheapest first, as long as what they span stays within
-    ``error_m`` of them: no higher than that over their mean plane, and no wider than that beyond
-    their outline.
-
-    Args:
-        surface: an open piece, consistently wound.
-        error_m: how far a slab may leave the surface [m].
-        thickness_m: of the slabs, towards the inside [m].
-        center: a point on the inside of a surface that does not show its inside itself [m], shape
-            [3].
-
-    Returns:
-        One hull per patch; patches too small to be anything are left out.
+    ``error_m`` [m] of them: no higher than that over their mean plane, and no wider than that
+    beyond their outline. Slabs are ``thickness_m`` thick, towards the inside [m], on which
+    ``center`` [m], shape [3], lies where the surface does not show it. Patches too small to be
+    anything are left out.
     """
     corners = surface.vertices[surface.faces]
     vectors = doubled_normals(corners) / 2.0
@@ -86,7 +79,7 @@ def _grow(surface: OpenSurface, vectors: FloatArray, error_m: float) -> list[_Pa
         i: _Patch(surface.vertices[face], vector)
         for i, (face, vector) in enumerate(zip(surface.faces, vectors, strict=True))
     }
-    for a, b in neighbours(surface.faces)[0].tolist():
+    for a, b in shared_edges(surface.faces).faces.tolist():
         patches[a].near.add(b)
         patches[b].near.add(a)
     queue: list[tuple[float, int, int]] = []

@@ -15,10 +15,7 @@ VOLUME_SHARE = 0.02
 def simplified(solid: Manifold, max_faces: int, tolerance_m: float) -> Manifold:
     """Return the solid with about ``max_faces`` triangles; itself where that would not stay closed.
 
-    Args:
-        solid: a closed manifold [m].
-        max_faces: triangles wanted at most.
-        tolerance_m: how far the surface may move in the first, exact step [m].
+    In the first, exact step its surface moves by no more than ``tolerance_m`` [m].
     """
     light = _accepted(solid.simplify(tolerance_m), solid) or solid
     if light.num_tri() <= max_faces:

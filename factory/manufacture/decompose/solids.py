@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import manifold3d
 import numpy as np
-import numpy.typing as npt
 from manifold3d import Manifold
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order
 
 from ...asset import Hull
-from ...geometry.edges import label_linked
+from ...geometry.edges import SharedEdges, label_linked, shared_edges
 from ...geometry.rows import distinct_rows
 from ...geometry.triangles import doubled_normals
 from ...mesh import BoolArray, FloatArray, IntArray
 
 #: Less volume than this is nothing to collide with [m3]: a cube of a tenth of a millimetre.
 LEAST_VOLUME_M3 = 1e-12
-LEAST_FACES = 4
 #: Points that are held against a solid at once.
 TOGETHER = 64
 
@@ -76,7 +75,8 @@ def closes(faces: IntArray) -> bool:
 
     Asked before anything native: manifold3d 3.5 dies of a segmentation fault on some open meshes.
     """
-    if len(faces) < LEAST_FACES:
+    # A tetrahedron has the fewest.
+    if len(faces) < 4:
         return False
     starts = faces.ravel()
     ends = np.roll(faces, -1, axis=1).ravel()
@@ -111,20 +111,22 @@ def union(solids: list[Manifold]) -> Manifold:
     return Manifold.batch_boolean(solids, manifold3d.OpType.Add) if solids else Manifold()
 
 
+def volume_within(hulls: Iterable[Hull], others: Iterable[Hull]) -> float:
+    """Return the volume of hulls that lies in any of others [m3]."""
+    room = union([manifold_of_hull(other) for other in others])
+    return sum(float((manifold_of_hull(hull) ^ room).volume()) for hull in hulls)
+
+
 def gate(vertices: FloatArray, faces: IntArray) -> Gated:
-    """Sort triangles into solids, cavities and sheets.
+    """Sort triangles, of welded positions [m], into solids, cavities and sheets.
 
     Duplicated faces count once, double-sided ones too; where the rest closes without these they are
     sheets. Inverted bodies are turned; an inverted body inside another one is a cavity.
-
-    Args:
-        vertices: welded positions [m], shape [n, 3].
-        faces: shape [m, 3].
     """
     faces = _without_repeats(vertices, faces)
     closed: list[Manifold] = []
     sheets: list[OpenSurface] = []
-    for group in _groups(faces, len(vertices)):
+    for group in grouped(component_labels(faces)):
         manifold = manifold_of(vertices, faces[group])
         if manifold is not None:
             closed += manifold.decompose()
@@ -157,14 +159,16 @@ def _both_ways(faces: IntArray) -> BoolArray:
     return np.asarray(np.bincount(label)[label] > 1)
 
 
-def _groups(faces: IntArray, vertex_count: int) -> list[IntArray]:
-    """Return the faces of each set that is connected through vertices, in first-face order."""
-    links = np.concatenate([faces[:, :2], faces[:, 1:]])
-    label = label_linked(vertex_count, links)
-    return _by_label(label[faces[:, 0]])
+def component_labels(faces: IntArray) -> IntArray:
+    """Return each face's component, connected by shared vertices, shape [face_count]."""
+    used, compact = np.unique(faces, return_inverse=True)
+    corners = compact.reshape(-1, 3)
+    links = np.concatenate([corners[:, :2], corners[:, 1:]])
+    return label_linked(len(used), links)[corners[:, 0]]
 
 
-def _by_label(label: IntArray) -> list[IntArray]:
+def grouped(label: IntArray) -> list[IntArray]:
+    """Return the indices that have each label, in the order of their first ones."""
     order = np.argsort(label, kind="stable")
     splits = np.flatnonzero(np.diff(label[order])) + 1
     groups = (group for group in np.split(order, splits) if len(group))
@@ -174,50 +178,30 @@ def _by_label(label: IntArray) -> list[IntArray]:
 def two_sided_patches(faces: IntArray) -> list[IntArray]:
     """Split faces where over two meet at an edge; drop back sides, wind each patch one way.
 
-    Args:
-        faces: shape [m, 3].
-
-    Returns:
-        Faces of each patch, shape [k, 3].
+    Faces have shape [m, 3], those of each patch [k, 3].
     """
     kept, _ = distinct_rows(np.sort(faces, axis=1))
     faces = faces[np.sort(kept)]
-    pairs, agrees = neighbours(faces)
-    count = len(faces)
-    label = label_linked(count, pairs)
-    flip = _flips(count, pairs, agrees, label)
+    shared = shared_edges(faces)
+    patches = grouped(label_linked(len(faces), shared.faces))
+    flip = flips(shared, len(faces), patches)
     wound = np.where(flip[:, None], faces[:, ::-1], faces)
-    return [wound[group] for group in _by_label(label)]
+    return [wound[patch] for patch in patches]
 
 
-def neighbours(faces: IntArray) -> tuple[IntArray, IntArray]:
-    """Return the pairs of faces at edges that two share, [n, 2], and whether they wind alike."""
-    starts = faces[:, [0, 1, 2]].ravel()
-    ends = faces[:, [1, 2, 0]].ravel()
-    owner = np.repeat(np.arange(len(faces)), 3)
-    edges = np.column_stack([np.minimum(starts, ends), np.maximum(starts, ends)])
-    _, label = distinct_rows(edges)
-    count = np.bincount(label)
-    order = np.argsort(label, kind="stable")
-    order = order[count[label[order]] == 2].reshape(-1, 2)
-    forward = (starts < ends)[order]
-    return owner[order], forward[:, 0] != forward[:, 1]
-
-
-def _flips(count: int, pairs: IntArray, agrees: IntArray, label: IntArray) -> IntArray:
-    """Tell which faces to turn to wind each patch like its first face, shape [count], bool."""
-    disagreeing = 2
-    weight = np.where(agrees, 1, disagreeing).astype(np.int8)
-    rows, columns = np.concatenate([pairs, pairs[:, ::-1]]).T
-    graph = coo_matrix(
-        (np.concatenate([weight, weight]), (rows, columns)), shape=(count, count)
-    ).tocsr()
+def flips(shared: SharedEdges, count: int, patches: list[IntArray]) -> BoolArray:
+    """Tell which of some faces to turn to wind each patch like its first face, shape [count]."""
+    # Weight 1: wound alike, 2: not; an explicit zero would be no edge.
+    weights = np.where(shared.alike, 1, 2)
+    graph = coo_matrix((weights, shared.faces.T), shape=(count, count)).tocsr()
+    graph = graph.maximum(graph.T)
     flip = np.zeros(count, dtype=bool)
-    for group in _by_label(label):
-        order, parent = breadth_first_order(graph, group[0], directed=False)
-        for face in order[1:]:
-            turned = graph[parent[face], face] == disagreeing
-            flip[face] = flip[parent[face]] ^ turned
+    for patch in (each for each in patches if len(each) > 1):
+        order, parent = breadth_first_order(graph, patch[0], directed=False)
+        before = parent[order[1:]]
+        turned = np.asarray(graph[order[1:], before]).reshape(-1) == 2
+        for face, known, turns in zip(order[1:], before, turned, strict=True):
+            flip[face] = flip[known] ^ turns
     return flip
 
 
@@ -255,12 +239,16 @@ def contains(outer: Manifold, inner: Manifold) -> bool:
     return float((inner - outer).volume()) <= 1e-3 * float(inner.volume())
 
 
-def inside(solid: Manifold, points: FloatArray) -> npt.NDArray[np.bool_]:
-    """Return which points [m], shape [n, 3], lie in a solid, by its winding number, shape [n].
+def inside(solid: Manifold, points: FloatArray) -> BoolArray:
+    """Return which points [m], shape [n, 3], lie in a solid, by its winding number, shape [n]."""
+    return wound_around(*triangles_of(solid), points)
+
+
+def wound_around(vertices: FloatArray, faces: IntArray, points: FloatArray) -> BoolArray:
+    """Return which points [m], shape [n, 3], a closed surface winds around, shape [n].
 
     The solid angles are those of van Oosterom and Strackee 1983.
     """
-    vertices, faces = triangles_of(solid)
     found = np.zeros(len(points), dtype=bool)
     for start in range(0, len(points), TOGETHER):
         arms = vertices[faces][None] - points[start : start + TOGETHER, None, None]

@@ -7,17 +7,15 @@ import numpy as np
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, Mesh
 
+#: Points spread over a part's visible surface, by area; its corners are looked at besides.
+SPREAD = 1500
+
 
 def spread_over(mesh: Mesh, count: int, most_corners: int) -> FloatArray:
     """Return points over a surface [m], shape [n, 3]: ``count`` by area, then corners.
 
-    Args:
-        mesh: none of its vertices unused.
-        count: points by area; they stand for equal areas each.
-        most_corners: of more, so many are drawn.
-
-    Returns:
-        No points where there is no area.
+    Those by area stand for equal areas each; of more than ``most_corners`` so many are drawn. No
+    points where there is no area. All vertices must be used.
     """
     generator = np.random.default_rng(0)
     areas = face_areas(mesh)

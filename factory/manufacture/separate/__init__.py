@@ -14,7 +14,6 @@ Never cut: parts that a joint hits away from its hinge, and more than a joiner w
 A cut there would hide a fault of the asset.
 """
 
-from .outcome import CutBack, Separation, SeparationRefusal
-from .separate import separate
+from .separate import CutBack, Separation, SeparationRefusal, separate
 
 __all__ = ["CutBack", "Separation", "SeparationRefusal", "separate"]

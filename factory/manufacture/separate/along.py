@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import chain
 
 import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
+from ..poses import moved
 from .clip import carved, cut_apart, depth_at, meeting
 
 #: For each piece more a cut must lose less, by this share.
@@ -33,7 +35,7 @@ class Step:
     """
 
     pose: FloatArray
-    behind: FloatArray
+    behind: FloatArray = field(default_factory=lambda: np.zeros(3))
 
 
 def steps_along(poses: Sequence[FloatArray]) -> list[Step]:
@@ -76,15 +78,15 @@ def cut_apart_along(
     # Pose by pose: what meets first is cut first, a little at a time.
     steps = steps_along(poses)
     for _ in range(MOST_PASSES):
-        moved = False
+        pushed = False
         for step in steps:
             for i, j in near_pairs(solids_a, solids_b, step.pose, clearance_m, step.behind):
                 before = solids_a[i], solids_b[j]
                 solids_a[i], solids_b[j] = _cut_by_planes(*before, [step], clearance_m)
-                moved |= any(map(_moved, before, (solids_a[i], solids_b[j])))
-        if not moved:
+                pushed |= any(map(_pushed, before, (solids_a[i], solids_b[j])))
+        if not pushed:
             break
-    return [solid for solid in solids_a if solid], [solid for solid in solids_b if solid]
+    return list(filter(None, solids_a)), list(filter(None, solids_b))
 
 
 def carved_apart_along(
@@ -96,26 +98,24 @@ def carved_apart_along(
 ) -> tuple[list[Hull], list[Hull]]:
     """Return the same, but a hull may become several around what another takes of it.
 
-    Args:
-        a: hulls of one part, object frame at rest.
-        b: hulls of another.
-        poses: where the second part is as seen from the first, [4, 4] each.
-        clearance_m: to be left between them [m].
-        whole: what a cut takes of each part is weighed against this [m3].
+    Arguments as of :func:`cut_apart_along`; cuts of each part are weighed against ``whole`` [m3].
     """
     pieces_a = [[hull] for hull in a]
     pieces_b = [[hull] for hull in b]
-    when: dict[tuple[int, int], list[Step]] = {}
-    whole_a = [pieces[0] for pieces in pieces_a]
-    whole_b = [pieces[0] for pieces in pieces_b]
-    for step in steps_along(poses):
-        for pair in near_pairs(whole_a, whole_b, step.pose, clearance_m, step.behind):
-            when.setdefault(pair, []).append(step)
-    for (i, j), way in sorted(when.items(), key=lambda found: found[0]):
+    for (i, j), way in when_near(a, b, steps_along(poses), clearance_m):
         pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m, whole)
-    return [hull for hulls in pieces_a for hull in hulls], [
-        hull for hulls in pieces_b for hull in hulls
-    ]
+    return list(chain.from_iterable(pieces_a)), list(chain.from_iterable(pieces_b))
+
+
+def when_near(
+    a: Sequence[Hull], b: Sequence[Hull], steps: Iterable[Step], margin: float
+) -> list[tuple[tuple[int, int], list[Step]]]:
+    """Return the numbers of every two hulls that may come too near, and at which steps, sorted."""
+    when: dict[tuple[int, int], list[Step]] = {}
+    for step in steps:
+        for pair in near_pairs(a, b, step.pose, margin, step.behind):
+            when.setdefault(pair, []).append(step)
+    return [(pair, when[pair]) for pair in sorted(when)]
 
 
 def hull_depth(
@@ -194,7 +194,7 @@ def _cut_by_planes(
     return one, other
 
 
-def _moved(before: Hull | None, after: Hull | None) -> bool:
+def _pushed(before: Hull | None, after: Hull | None) -> bool:
     """Tell whether a hull is as large as before, but elsewhere."""
     if before is None or after is None or before is after:
         return False
@@ -203,7 +203,7 @@ def _moved(before: Hull | None, after: Hull | None) -> bool:
 
 def _seen(solid: Hull, pose: FloatArray, behind: FloatArray) -> FloatArray:
     """Return the corners of a moved hull, there and where it slid there from [m], shape [n, 3]."""
-    points = solid.vertices @ pose[:3, :3].T + pose[:3, 3]
+    points = moved(solid.vertices, pose)
     return np.concatenate([points, points + behind]) if behind.any() else points
 
 
@@ -231,12 +231,8 @@ def near_pairs(
 ) -> list[tuple[int, int]]:
     """Return the indices of hulls whose boxes come within ``margin`` [m] of one another.
 
-    Args:
-        a: hulls of one part; ``None`` for one of which nothing is left.
-        b: of another.
-        pose: by which the second are moved, [4, 4].
-        margin: counted as near [m].
-        behind: see :func:`~.clip.meeting`.
+    ``None`` stands for a hull of which nothing is left. The second hulls are moved by ``pose``, [4,
+    4]; for ``behind`` see :func:`~.clip.meeting`.
     """
     low_a, high_a = _boxes(a, np.eye(4))
     low_b, high_b = _boxes(b, pose)
@@ -253,7 +249,7 @@ def _boxes(solids: Sequence[Hull | None], pose: FloatArray) -> tuple[FloatArray,
     there = [number for number, solid in enumerate(solids) if solid is not None]
     corners = [solid.vertices for solid in solids if solid is not None]
     if there:
-        points = np.concatenate(corners) @ pose[:3, :3].T + pose[:3, 3]
+        points = moved(np.concatenate(corners), pose)
         starts = np.cumsum([0, *map(len, corners[:-1])])
         low[there] = np.minimum.reduceat(points, starts)
         high[there] = np.maximum.reduceat(points, starts)

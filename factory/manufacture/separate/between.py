@@ -30,14 +30,9 @@ def poses_between(
 ) -> list[FloatArray]:
     """Return poses between those of hinges, so near that a sheet at an arm's end meets another.
 
-    Args:
-        articulation: parts and joints.
-        parts: two, one of which holds the other.
-        mover: the surface of the other.
-        count: poses along a joint that were cut at.
-
-    Returns:
-        None for slides, which are cut on all of their way, and where those are near enough.
+    One of two parts holds the other, whose surface is ``mover``; they were cut at ``count`` poses
+    along each joint. None for slides, which are cut on all of their way, and where those are near
+    enough.
     """
     turning = [joint for joint in joints_between(articulation, *parts) if joint.turns]
     way = max((joint.range * reach_m(mover, joint) for joint in turning), default=0.0)

@@ -14,11 +14,10 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray, Mesh
 from ..decompose.convex import depth_below
 from ..decompose.outside import ROUNDING_M, outside
-from ..decompose.solids import manifold_of_hull, union
-from ..decompose.spread import spread_over
+from ..decompose.solids import volume_within
+from ..decompose.spread import SPREAD, spread_over
+from ..poses import arms_from
 
-#: Points spread over a part's visible surface, by area; its corners are looked at besides.
-SPREAD = 1500
 #: Most corners that are looked at.
 MOST_CORNERS = 3000
 #: So many hulls are remembered with how far points of a surface lie beyond them.
@@ -123,22 +122,15 @@ def loss(
     excuse: Excuse,
     config: SeparateConfig,
 ) -> Loss:
-    """Return what a part loses.
-
-    Args:
-        surface: its visible one.
-        before: its hulls.
-        after: their remains.
-        excuse: where that is allowed.
-        config: limits of distance and of reporting.
-    """
+    """Return what a part with some visible surface loses where its hulls become others."""
     if not after:
         return Loss(1.0, 1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
     whole = sum(hull.volume for hull in before)
     share = 1.0 - sum(hull.volume for hull in after) / whole
     open_share = share
     if excuse.held and share > config.planed_volume:
-        open_share -= (_within(before, excuse.other) - _within(after, excuse.other)) / whole
+        was, left = (volume_within(hulls, excuse.other) for hulls in (before, after))
+        open_share -= (was - left) / whole
     depth = surface.beyond(after) - surface.beyond(before)
     taken = depth > SHAVED_M
     points = surface.points[taken]
@@ -208,15 +200,10 @@ def overdone(
     limits: CutLimits,
     config: SeparateConfig,
 ) -> str | None:
-    """Say why a cut takes too much, or what can be seen; ``None`` if it does neither.
+    """Say why a cut of two parts takes too much, or visible surface; ``None`` if it does neither.
 
-    Args:
-        names: of both.
-        losses: of both.
-        solid: whether each encloses a volume to speak of: the slabs over an open surface come and
-            go whole, and a thin sheet is cut back to half of itself.
-        limits: for the two.
-        config: the other limits.
+    ``solid`` tells whether each encloses a volume to speak of: the slabs over an open surface come
+    and go whole, and a thin sheet is cut back to half of itself.
     """
     for depths, limit in (
         ([each.bared_m for each in losses], limits.free_m),
@@ -258,17 +245,9 @@ def too_bare(names: Sequence[str], losses: Sequence[Loss], config: SeparateConfi
     return None
 
 
-def _within(hulls: Sequence[Hull], others: Sequence[Hull]) -> float:
-    """Return the volume of hulls that lies in any of others [m3]."""
-    room = union([manifold_of_hull(other) for other in others])
-    return sum(float((manifold_of_hull(hull) ^ room).volume()) for hull in hulls)
-
-
 def _beside(points: FloatArray, hinges: Sequence[Joint], radius_m: float) -> npt.NDArray[np.bool_]:
     """Return which points lie near a hinge's line, shape [n]."""
     near = np.zeros(len(points), dtype=bool)
     for hinge in hinges:
-        arm = points - hinge.origin
-        radial = arm - np.outer(arm @ hinge.axis, hinge.axis)
-        near |= np.linalg.norm(radial, axis=1) < radius_m
+        near |= np.linalg.norm(arms_from(hinge, points), axis=1) < radius_m
     return near

@@ -10,7 +10,8 @@ from ...asset import Hull
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
 from ...runtime.numbers import DECIMALS
-from ..decompose.convex import hull_of
+from ..decompose.convex import edges_of, hull_of
+from ..poses import moved
 
 #: A hull no thicker than this is a sheet [m].
 SHEET_M = 0.003
@@ -67,10 +68,15 @@ class HullMeeting:
 
 def depth_at(a: Hull, b: Hull, pose: FloatArray) -> float:
     """Return an upper bound of how deep two hulls lie in one another [m], the second moved."""
-    points_b = b.vertices @ pose[:3, :3].T + pose[:3, 3]
+    _, ends, starts = _along_normals(a, b, pose)
+    return float((ends - starts).min())
+
+
+def _along_normals(a: Hull, b: Hull, pose: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the face normals of two hulls, where the first ends along each, the second begins."""
     directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
     ends = (a.vertices @ directions.T).max(axis=0)
-    return float((ends - (points_b @ directions.T).min(axis=0)).min())
+    return directions, ends, (moved(b.vertices, pose) @ directions.T).min(axis=0)
 
 
 def meeting(
@@ -86,11 +92,9 @@ def meeting(
         behind: from there to where it slid here from, in the first hull's frame [m], shape [3];
             all of that way counts.
     """
-    points_b = b.vertices @ pose[:3, :3].T + pose[:3, 3]
-    directions = np.vstack([a.planes[:, :3], -b.planes[:, :3] @ pose[:3, :3].T])
-    ends = (a.vertices @ directions.T).max(axis=0)
+    directions, ends, starts = _along_normals(a, b, pose)
     lags = np.zeros(len(directions)) if behind is None else np.minimum(directions @ behind, 0.0)
-    starts = (points_b @ directions.T).min(axis=0) + lags
+    starts = starts + lags
     # Triangles of one face reach equally far but for last digits, which must not choose among them.
     order = np.argsort(np.round(ends - starts, ROUNDING_DECIMALS), kind="stable")
     best = order[:most]
@@ -166,12 +170,8 @@ def volumes_below(hull: Hull, normals: FloatArray, offsets: FloatArray) -> Float
     """Return the volume of a hull that :func:`clipped` leaves at each plane [m3], shape [n].
 
     By the divergence theorem, seen from a point of the plane, from where the cut face takes no
-    room: a triangle counts by the share of it that lies below.
-
-    Args:
-        hull: any.
-        normals: unit vectors, shape [n, 3].
-        offsets: the kept side has ``normal . x <= offset`` [m], shape [n].
+    room: a triangle counts by the share of it that lies below. The kept side has ``normal . x <=
+    offset`` [m]; normals are unit vectors, shape [n, 3].
     """
     center = hull.vertices.mean(axis=0)
     points = hull.vertices - center
@@ -196,14 +196,11 @@ def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
     height[np.abs(height) < FLUSH_M] = 0.0
     if height.max() <= 0.0:
         return hull
-    around = np.concatenate([hull.faces[:, [0, 1]], hull.faces[:, [1, 2]], hull.faces[:, [2, 0]]])
-    edges = np.unique(np.sort(around, axis=1), axis=0)
-    start = height[edges[:, 0]]
-    end = height[edges[:, 1]]
-    crossing = (start < 0.0) != (end < 0.0)
-    share = (start / np.where(crossing, start - end, 1.0))[crossing, None]
-    first = hull.vertices[edges[crossing, 0]]
-    second = hull.vertices[edges[crossing, 1]]
+    edges = edges_of(hull)
+    edges = edges[np.diff(height[edges] < 0.0, axis=1)[:, 0]]
+    start, end = height[edges].T
+    share = (start / (start - end))[:, None]
+    first, second = np.moveaxis(hull.vertices[edges], 1, 0)
     return hull_of(np.concatenate([hull.vertices[height <= 0.0], first + share * (second - first)]))
 
 
@@ -214,16 +211,11 @@ def carved(
     most: int = MOST_PIECES,
     least_m3: float | None = None,
 ) -> list[Hull]:
-    """Return the rest of a hull outside some room, as convex pieces.
+    """Return the rest of a hull outside some room, as at most so many convex pieces.
 
-    Piece by piece the largest that one plane of the room leaves outside is kept.
-
-    Args:
-        solid: the hull.
-        room: points whose convex hull is to be free [m], shape [n, 3].
-        clearance_m: to be left around it [m].
-        most: pieces that are kept.
-        least_m3: smaller pieces are splinters [m3]; otherwise a share of the hull.
+    Piece by piece the largest that one plane of the room leaves outside is kept. The room is the
+    convex hull of points [m], shape [n, 3], with the clearance around it. Pieces smaller than
+    ``least_m3`` are splinters [m3]; by default a share of the hull.
     """
     around = hull_of(room)
     if around is None:

@@ -12,15 +12,15 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.outside import outside
 from ..hinges import is_crooked
+from ..poses import arms_from
 from .budget import SeenSurface
 
-#: A part that reaches beyond its axis by this share of its reach turns about its middle.
-MIDDLE_SHARE = 0.5
-#: Around an axis a seat is looked at in so many directions;
+#: Around an axis a seat is looked at in so many directions.
 SEAT_SECTORS = 8
-#: and it reaches from the axis at least this share of its farthest in each: the axis is off its
-#: middle by a third of its radius at most.
-SEAT_SHARE = 0.5
+#: What turns about its middle, or in its seat, reaches from the axis at least this share of its
+#: farthest the other way, or in each direction: the axis is off the middle by a third of the radius
+#: at most.
+MIDDLE_SHARE = 0.5
 #: What turns in a seat as round as this is cut by surfaces of revolution; a lid on a box is not.
 ROUND_SHARE = 0.8
 #: A hub that stands deep in what holds it, rather than on it, need not sit as much in its middle.
@@ -32,11 +32,7 @@ def well_hung(
 ) -> bool:
     """Tell whether a joint runs straight, and turns its part about an edge, its middle or its seat.
 
-    Args:
-        surface: of the part that it moves; ``None`` for a carrier.
-        joint: to be looked at.
-        holder: hulls of what holds that part.
-        config: how far beyond its axis a part that hangs at an edge may reach; how near is touched.
+    The surface of a carrier is ``None``; ``holder`` are the hulls that hold the part.
     """
     if is_crooked(joint.axis):
         return False
@@ -44,14 +40,14 @@ def well_hung(
         return True
     if surface is None:
         return False
-    return seat_roundness(surface, joint, holder, config.clearance_m) > SEAT_SHARE
+    return seat_roundness(surface, joint, holder, config.clearance_m) > MIDDLE_SHARE
 
 
 def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig) -> bool:
     """Tell whether a part reaches to its axis, and no further beyond it than may be cut back."""
     if surface is None:
         return False
-    arms = _arms(surface, joint)
+    arms = arms_from(joint, surface.points)
     near = max(float(np.linalg.norm(arms, axis=1).min()), _reach(arms)[1])
     return near <= trimmed_limit(config, surface.diagonal)
 
@@ -60,7 +56,7 @@ def about_its_middle(surface: SeenSurface | None, joint: Joint) -> bool:
     """Tell whether a part reaches about as far to one side of its axis as to the other."""
     if surface is None:
         return True
-    ahead, behind = _reach(_arms(surface, joint))
+    ahead, behind = _reach(arms_from(joint, surface.points))
     return behind >= MIDDLE_SHARE * ahead
 
 
@@ -72,7 +68,7 @@ def seat_roundness(
     1: it turns in a round seat. A lever whose arm stands out to one side of a collar has one; a
     door has none, however it is hung, nor a lever whose axis lies beside the collar: 0.
     """
-    arms = _arms(surface, joint)[outside(holder, surface.points) <= near_m]
+    arms = arms_from(joint, surface.points)[outside(holder, surface.points) <= near_m]
     across = arms @ np.linalg.svd(joint.axis[None])[2][1:].T
     turned = np.arctan2(across[:, 1], across[:, 0]) / (2.0 * np.pi)
     sector = np.round(SEAT_SECTORS * turned).astype(int) % SEAT_SECTORS
@@ -88,13 +84,7 @@ def trimmed_limit(config: SeparateConfig, diagonal: float) -> float:
 
 def reach_m(surface: SeenSurface, joint: Joint) -> float:
     """Return how far a part reaches from a joint's axis [m]."""
-    return float(np.linalg.norm(_arms(surface, joint), axis=1).max())
-
-
-def _arms(surface: SeenSurface, joint: Joint) -> FloatArray:
-    """Return the arms from a joint's axis to each point, across the axis [m], shape [n, 3]."""
-    arms = surface.points - joint.origin
-    return np.asarray(arms - np.outer(arms @ joint.axis, joint.axis))
+    return float(np.linalg.norm(arms_from(joint, surface.points), axis=1).max())
 
 
 def _reach(arms: FloatArray) -> tuple[float, float]:

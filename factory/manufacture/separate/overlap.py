@@ -9,19 +9,15 @@ from manifold3d import Manifold
 from ...articulation import Articulation
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
+from ..decompose.convex import thickness
 from ..decompose.solids import gate, union
 
 #: Intersections smaller than this are rounding [m3]: a cube of a twentieth of a millimetre.
 LEAST_VOLUME_M3 = 1.25e-13
 
 
-def part_solids(articulation: Articulation) -> tuple[Manifold | None, ...]:
-    """Return each part as one solid at rest, object frame; ``None`` if it encloses nothing."""
-    return tuple(_solid(articulation, index) for index in range(len(articulation.parts)))
-
-
-def _solid(articulation: Articulation, part: int) -> Manifold | None:
-    """Return one part as one solid, without its cavities."""
+def part_solid(articulation: Articulation, part: int) -> Manifold | None:
+    """Return one part as one solid, without its cavities; ``None`` if it encloses nothing."""
     if not len(articulation.parts[part].faces):
         return None
     mesh = articulation.part_mesh(part)
@@ -40,12 +36,7 @@ def thickness_m(solid: Manifold | None) -> float:
 def overlap_m(a: Manifold, b: Manifold, pose: FloatArray) -> float:
     """Return the thickness of the thickest piece of two solids' intersection [m].
 
-    An upper estimate, exact for slabs.
-
-    Args:
-        a: a solid at rest.
-        b: another.
-        pose: motion of ``b`` as seen from ``a``, shape [4, 4].
+    An upper estimate, exact for slabs. ``pose`` is the motion of ``b`` as seen from ``a``, [4, 4].
     """
     shared = a ^ b.transform(np.array(pose[:3], order="C"))
     if shared.status() != manifold3d.Error.NoError:
@@ -62,6 +53,5 @@ def _thickness(piece: Manifold) -> float:
     normals = doubled_normals(vertices[mesh.tri_verts.astype(np.int64)])
     length = np.linalg.norm(normals, axis=1)
     kept = length > 1e-9 * length.max() if len(length) else length > 0
-    heights = vertices @ (normals[kept] / length[kept, None]).T
-    width = float((heights.max(axis=0) - heights.min(axis=0)).min()) if heights.size else 0.0
+    width = thickness(vertices, normals[kept] / length[kept, None]) if kept.any() else 0.0
     return min(width, 3.0 * mean)

@@ -20,7 +20,7 @@ from .between import poses_between
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
 from .clip import SHEET_M
 from .hung import at_an_edge, seat_roundness, trimmed_limit, well_hung
-from .overlap import overlap_m, part_solids, thickness_m
+from .overlap import overlap_m, part_solid, thickness_m
 from .pits import stands_out_m
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
@@ -46,7 +46,8 @@ class Workpieces:
     @cached_property
     def solids(self) -> tuple[Manifold | None, ...]:
         """Return each part as one solid; ``None`` if its surfaces enclose nothing."""
-        return part_solids(self.articulation)
+        parts = range(len(self.articulation.parts))
+        return tuple(part_solid(self.articulation, part) for part in parts)
 
     @cached_property
     def surfaces(self) -> tuple[SeenSurface | None, ...]:
@@ -173,9 +174,7 @@ class PartPair:
     def overdone(self, losses: Sequence[Loss], share: float) -> str | None:
         """Return why a cut takes too much, or what can be seen; ``None`` if it does neither.
 
-        Args:
-            losses: of both.
-            share: the largest of either's collision volume that may go.
+        No more than a share of either's collision volume may go.
         """
         config = self.bodies.config
         limits = CutLimits(self._free_m, self._trimmed_m + config.clearance_m, share)

@@ -16,7 +16,8 @@ from ...articulation import Joint
 from ...asset import Hull
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of
-from ..decompose.solids import manifold_of_hull, union
+from ..decompose.solids import manifold_of_hull, volume_within
+from ..poses import moved
 from .along import Sides, hull_depth, near_pairs
 from .clip import carved, clipped
 
@@ -76,10 +77,7 @@ def swept_share(
 ) -> float:
     """Return how many times the room it takes in its holder as modelled a part needs on its way.
 
-    Args:
-        holder: hulls, object frame at rest.
-        mover: of the other part.
-        poses: of the mover as seen from the holder, the first as modelled, [4, 4] each.
+    The poses are the mover's as seen from the holder, the first as modelled, [4, 4] each.
     """
     rest = _taken(holder, mover, poses[:1])
     return _taken(holder, mover, poses) / rest if rest > 0.0 else np.inf
@@ -92,24 +90,16 @@ def stands_out_m(holder: Sequence[Hull], mover: Sequence[Hull], joint: Joint) ->
     they stand out, as a drawer that runs the wrong way does, or meet something further on.
     """
     points = np.concatenate([hull.vertices for hull in mover])
-    ways = ((joint.upper, joint.axis), (-joint.lower, -joint.axis))
-    return min(
-        (
-            _spare(points @ axis, _before(holder, points, axis), travel)
-            for travel, axis in ways
-            if travel > 0.0
-        ),
-        default=np.inf,
-    )
+    ways = [(joint.upper, joint.axis), (-joint.lower, -joint.axis)]
+    ways = [(travel, axis) for travel, axis in ways if travel > 0.0]
+    spare = (_spare(points @ axis, _before(holder, points, axis), way) for way, axis in ways)
+    return min(spare, default=np.inf)
 
 
 def _spare(heights: FloatArray, before: list[tuple[float, float]], travel: float) -> float:
-    """Return the same along one direction.
+    """Return the same along one direction, in which the mover goes as far as it travels [m].
 
-    Args:
-        heights: of the mover [m], shape [n].
-        before: from where to where hulls of the holder lie in its shadow [m].
-        travel: how far it goes [m].
+    Its points have some heights, and hulls of the holder lie in its shadow between others [m].
     """
     first = float(heights.min())
     lead = float(heights.max())
@@ -144,8 +134,7 @@ def _before(
 
 def _room(hull: Hull, poses: Sequence[FloatArray]) -> Hull | None:
     """Return all the room that a hull takes on its way, as one."""
-    moved = [hull.vertices @ pose[:3, :3].T + pose[:3, 3] for pose in poses]
-    return hull_of(np.concatenate(moved))
+    return hull_of(np.concatenate([moved(hull.vertices, pose) for pose in poses]))
 
 
 def _around(piece: Hull, room: Hull, clearance_m: float) -> list[Hull]:
@@ -163,5 +152,4 @@ def _around(piece: Hull, room: Hull, clearance_m: float) -> list[Hull]:
 def _taken(holder: Sequence[Hull], mover: Sequence[Hull], poses: Sequence[FloatArray]) -> float:
     """Return the volume of the holder's hulls in the room of each hull of the mover [m3]."""
     rooms = [room for hull in mover if (room := _room(hull, poses)) is not None]
-    room = union([manifold_of_hull(each) for each in rooms])
-    return sum(float((manifold_of_hull(hull) ^ room).volume()) for hull in holder)
+    return volume_within(holder, rooms)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from operator import is_
@@ -15,12 +15,12 @@ from ..decompose.convex import limit_vertices
 from ..decompose.decompose import PartHulls
 from ..decompose.merge import merge
 from ..hinges import is_crooked
+from ..repair import Pair
 from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
 from .between import Cut, cut_between
 from .budget import Loss, too_bare
 from .clip import ROUNDING_M
 from .hung import HUB_SHARE, ROUND_SHARE
-from .outcome import CutBack, Pair, Separation, SeparationRefusal
 from .pair import PartPair, Workpieces
 from .pits import TURNED_ROOM, Pit, seen_from, swept_share
 from .turned import Turned
@@ -37,6 +37,58 @@ SOCKET_DEEP = 0.01
 EXACT_M = 1e-4
 
 
+@dataclass(frozen=True)
+class SeparationRefusal:
+    """Why the hulls of two parts were not cut apart on all of their way.
+
+    Attributes:
+        reason: a sentence with the number in it.
+        meshes: True where the parts' own solids are at fault; False where it may be their hulls
+            only.
+        at_rest: they were cut apart where they are at rest, only not along the way.
+    """
+
+    reason: str
+    meshes: bool
+    at_rest: bool = False
+
+
+@dataclass(frozen=True)
+class CutBack:
+    """A visible cut.
+
+    Attributes:
+        part: its name.
+        depth_m: deepest [m].
+        share: of its collision volume.
+        area: of its visible surface.
+    """
+
+    part: str
+    depth_m: float
+    share: float
+    area: float
+
+
+@dataclass(frozen=True)
+class Separation:
+    """What came of cutting.
+
+    Attributes:
+        pieces: one per part, in their order.
+        refused: pair of part names -> why its hulls were not cut apart on all of their way.
+        hidden: pair of part names -> how deep the parts themselves overlap at rest [m],
+            where that is more than decomposition explains and the hidden share was cut out of the
+            collision geometry.
+        trimmed: pair of part names -> the visible cut.
+    """
+
+    pieces: tuple[PartHulls, ...]
+    refused: Mapping[Pair, SeparationRefusal] = field(default_factory=dict)
+    hidden: Mapping[Pair, float] = field(default_factory=dict)
+    trimmed: Mapping[Pair, tuple[CutBack, ...]] = field(default_factory=dict)
+
+
 def separate(
     articulation: Articulation,
     pieces: tuple[PartHulls, ...],
@@ -44,15 +96,10 @@ def separate(
     config: SeparateConfig,
     max_vertices: int,
 ) -> Separation:
-    """Cut the hulls of some pairs of parts apart.
+    """Cut the hulls of some pairs of parts, given by name, apart.
 
-    Args:
-        articulation: whose parts they are.
-        pieces: hulls per part, object frame at rest.
-        pairs: names of the parts concerned.
-        config: clearance, tolerance, and how much may be cut away.
-        max_vertices: most corners of a hull; a cut adds some, and those that matter least are left
-            out again.
+    A cut adds corners to a hull; of more than ``max_vertices`` those that matter least are left
+    out.
     """
     wanted = sorted({(min(pair), max(pair)) for pair in pairs})
     if not wanted:
@@ -73,11 +120,8 @@ def separate(
 def with_hulls(piece: PartHulls, hulls: list[Hull], max_vertices: int) -> PartHulls:
     """Return a part with what cuts left of its hulls, joined where they are convex together.
 
-    Args:
-        piece: as it was before.
-        hulls: object frame at rest.
-        max_vertices: most corners of a hull; a cut adds some, and those that matter least are left
-            out again.
+    A cut adds corners to a hull; of more than ``max_vertices`` those that matter least are left
+    out.
     """
     if len(hulls) == len(piece.hulls) and all(map(is_, hulls, piece.hulls)):
         return piece

@@ -7,35 +7,25 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...articulation import Articulation, Joint, JointKind
-from ...asset import Hull
+from ...articulation import Joint
+from ...asset import Asset, Hull
 from ...mesh import FloatArray
+from ..poses import closed_values
 from .along import hull_depth
 
 #: Poses along a joint that are looked at.
 POSES = 33
 
 
-def swept_m(
-    articulation: Articulation,
-    hulls: Sequence[Sequence[Hull]],
-    joint: Joint,
-    enough_m: float = np.inf,
-    gap_m: float = 0.0,
-) -> float:
+def swept_m(asset: Asset, joint: Joint, enough_m: float = np.inf, gap_m: float = 0.0) -> float:
     """Return the worst deepening of any two parts along one joint, the others closed [m].
 
-    An upper bound at the poses that are looked at: only face normals separate.
-
-    Args:
-        articulation: whose joint of that name is replaced by this one.
-        hulls: per part, object frame at rest.
-        joint: to be moved from lower to upper.
-        enough_m: deeper than this is not looked into [m].
-        gap_m: hulls nearer than this count as touching [m].
+    An upper bound at the poses that are looked at: only face normals separate. Deeper than
+    ``enough_m`` is not looked into, and hulls nearer than ``gap_m`` count as touching [m]. The
+    joint stands for the asset's of its name.
     """
     worst = 0.0
-    for ones, others, poses in _ways(articulation, hulls, joint, POSES):
+    for ones, others, poses in _ways(asset, joint, POSES):
         for deeper in _deepening(ones, others, poses, gap_m):
             worst = max(worst, deeper)
             if worst > enough_m:
@@ -43,30 +33,17 @@ def swept_m(
     return worst
 
 
-def free_until(
-    articulation: Articulation,
-    hulls: Sequence[Sequence[Hull]],
-    joint: Joint,
-    passed_m: float,
-    free_m: float,
-    gap_m: float,
-) -> float:
+def free_until(asset: Asset, joint: Joint, passed_m: float, free_m: float, gap_m: float) -> float:
     """Return where a hinge is free last before it runs into something [rad], from lower on.
 
-    As many poses are looked at in each quarter turn as along any joint.
-
-    Args:
-        articulation: whose joint of that name is replaced by this one.
-        hulls: per part, object frame at rest.
-        joint: to be turned.
-        passed_m: deeper than this two parts do not pass one another [m].
-        free_m: where it ends they are no deeper than this [m].
-        gap_m: hulls nearer than this count as touching [m].
+    As many poses are looked at in each quarter turn as along any joint. Deeper than ``passed_m``
+    two parts do not pass one another; where the hinge ends they are no deeper than ``free_m``;
+    hulls nearer than ``gap_m`` count as touching [m].
     """
     quarters = max(1, int(np.ceil(joint.range / (np.pi / 2.0))))
     values = np.linspace(joint.lower, joint.upper, POSES * quarters)
     deepest = np.zeros(len(values))
-    for ones, others, poses in _ways(articulation, hulls, joint, len(values)):
+    for ones, others, poses in _ways(asset, joint, len(values)):
         for number, deeper in enumerate(_deepening(ones, others, poses, gap_m)):
             deepest[number] = max(deepest[number], deeper)
             if deeper > passed_m:
@@ -77,18 +54,19 @@ def free_until(
 
 
 def _ways(
-    articulation: Articulation, hulls: Sequence[Sequence[Hull]], joint: Joint, count: int
+    asset: Asset, joint: Joint, count: int
 ) -> Iterator[tuple[Sequence[Hull], Sequence[Hull], list[FloatArray]]]:
     """Yield hulls of two parts that move against one another, and the poses of the second."""
-    joints = tuple(joint if each.name == joint.name else each for each in articulation.joints)
-    tried = replace(articulation, joints=joints)
+    joints = asset.articulation.joints
+    joints = tuple(joint if each.name == joint.name else each for each in joints)
+    tried = replace(asset.articulation, joints=joints)
     moved = tried.carried(joint.child)
-    # What has no ends has no closed one.
-    closed = {j.name: j.lower for j in tried.movable_joints if j.kind is not JointKind.CONTINUOUS}
+    closed = closed_values(tried)
     poses = [
         tried.poses({**closed, **tried.together(joint, float(value))})
         for value in np.linspace(joint.lower, joint.upper, count)
     ]
+    hulls = [body.hulls for body in asset.bodies]
     for a in (part for part in range(len(hulls)) if part not in moved):
         for b in moved:
             yield hulls[a], hulls[b], [np.linalg.inv(pose[a]) @ pose[b] for pose in poses]

@@ -16,7 +16,8 @@ import numpy as np
 from ...articulation import Joint
 from ...asset import Hull
 from ...mesh import FloatArray
-from .along import cut_apart_along, hull_depth, near_pairs
+from ..poses import arms_from
+from .along import Step, cut_apart_along, hull_depth, when_near
 from .clip import ROUNDING_M, ROUNDING_SHARE, SHARES, clipped
 
 #: A cylinder is cut as a prism of so many sides.
@@ -41,16 +42,16 @@ class Turned:
         """See :func:`~.along.cut_apart_along`, which cuts hulls still too near afterwards."""
         ones: list[Hull | None] = list(a)
         others: list[Hull | None] = list(b)
-        for (i, j), way in sorted(_ways(a, b, poses, clearance_m).items()):
+        for (i, j), way in when_near(a, b, map(Step, poses), clearance_m):
             one = ones[i]
             other = others[j]
             if one is None or other is None:
                 continue
-            depths = (hull_depth([one], [other], pose, clearance_m) for pose in way)
+            depths = (hull_depth([one], [other], step.pose, clearance_m) for step in way)
             if any(depth > ROUNDING_M - clearance_m for depth in depths):
                 ones[i], others[j] = self._best(one, other, clearance_m)
-        left = [[hull for hull in hulls if hull is not None] for hulls in (ones, others)]
-        return cut_apart_along(left[0], left[1], poses, clearance_m)
+        first, second = (list(filter(None, hulls)) for hulls in (ones, others))
+        return cut_apart_along(first, second, poses, clearance_m)
 
     def _best(self, one: Hull, other: Hull, clearance_m: float) -> Hulls:
         """Cut two hulls apart across the axis or around it, off either or both: what leaves most.
@@ -94,14 +95,14 @@ class Turned:
 
         Nothing, where the rest would be less than ``most`` [m3].
         """
-        arms = self._arms(outer)
+        arms = arms_from(self.joint, outer.vertices)
         toward = arms.mean(axis=0)
         length = float(np.linalg.norm(toward))
         if length == 0.0:
             return None, None
         toward = toward / length
         start = float((arms @ toward).min())
-        end = float(np.linalg.norm(self._arms(inner), axis=1).max())
+        end = float(np.linalg.norm(arms_from(self.joint, inner.vertices), axis=1).max())
         needed = max(0.0, end - start + clearance_m)
         least = start + (1.0 - share) * needed + float(self.joint.origin @ toward)
         second = clipped(outer, -toward, -least)
@@ -118,22 +119,6 @@ class Turned:
             normal = np.cos(angle) * first + np.sin(angle) * second
             left = clipped(left, normal, radius_m + float(self.joint.origin @ normal))
         return left
-
-    def _arms(self, hull: Hull) -> FloatArray:
-        """Return the arms from the axis to each corner, across it [m], shape [n, 3]."""
-        arms = hull.vertices - self.joint.origin
-        return np.asarray(arms - np.outer(arms @ self.joint.axis, self.joint.axis))
-
-
-def _ways(
-    a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
-) -> dict[tuple[int, int], list[FloatArray]]:
-    """Return the poses at which two hulls may be too near to one another, by their numbers."""
-    found: dict[tuple[int, int], list[FloatArray]] = {}
-    for pose in poses:
-        for pair in near_pairs(a, b, pose, clearance_m):
-            found.setdefault(pair, []).append(pose)
-    return found
 
 
 def _volume(hulls: Hulls) -> float:

@@ -13,9 +13,9 @@ from .box import Box
 from .carve import surface_points
 from .knobs import CLEAR_M, clear_of_bumps, give_way, keep_clear
 from .lattice import closed_up, marked
-from .matter import INSIDE, PATH, Matter
-from .pieces import MOST_CORNERS, convex_pieces
-from .reach import reaching
+from .matter import INSIDE, PATH
+from .pieces import MOST_CORNERS
+from .reach import covering
 from .sweep import entered, hung, motions
 from .work import Workpiece
 
@@ -34,18 +34,14 @@ def share_out(work: Workpiece) -> None:
     tree = cKDTree(work.skin.middles[wanted])
     labels = skin[wanted]
     for part in work.rest:
-        around = _bounds(work, part)
+        corners = work.skin.of_part(part).reshape(-1, 3)
+        around = Box.around(corners) if len(corners) else Box(*np.zeros((2, 3)))
         span = work.lattice.span(around.grown(0.5 * work.lattice.step))
         offset = np.array([each.start for each in span])
         cells = np.argwhere(work.owner[span] == 0) + offset
         if len(cells):
             nearest = labels[tree.query(work.lattice.centers(cells))[1]]
             work.owner[tuple(cells[nearest == part].T)] = part
-
-
-def _bounds(work: Workpiece, part: int) -> Box:
-    corners = work.skin.corners[work.skin.part == part].reshape(-1, 3)
-    return Box.around(corners) if len(corners) else Box(*np.zeros((2, 3)))
 
 
 def block_insides(work: Workpiece, part: int, points: FloatArray) -> None:
@@ -63,12 +59,10 @@ def make_rest(work: Workpiece, most: int) -> None:
         if not len(points):
             continue
         block_insides(work, part, points)
-        solid = _cells(work, part, points) & (work.blocked(part) == 0)
-        matter = Matter(work.lattice, solid, work.whole, work.blocked(part), points)
         small = np.ptp(points, axis=0).max() < FEW_CELLS * work.lattice.step
         whole = hull_of(points) if small else None
         work.hulls[part] = (
-            reaching(matter, convex_pieces(matter, most))
+            covering(work, part, _cells(work, part, points), points, most)
             if whole is None
             else (limit_vertices(whole, MOST_CORNERS),)
         )
@@ -113,19 +107,14 @@ def make_body(work: Workpiece, part: int, most: int) -> None:
     """Make the body, or another part that nothing moves: walls around free space."""
     points = _standing_points(work, part)
     block_insides(work, part, points)
-    blocked = work.blocked(part)
-    solid = _cells(work, part, points) & (blocked == 0)
-    matter = Matter(work.lattice, solid, work.whole, blocked, points)
-    work.hulls[part] = reaching(matter, convex_pieces(matter, most))
+    work.hulls[part] = covering(work, part, _cells(work, part, points), points, most)
     keep_clear(work, part)
 
 
 def add_shelves(work: Workpiece) -> None:
     """Add the shelves behind panels to the body."""
     for part, boards in work.shelves.items():
-        frame = work.panels[part].side.frame
-        hulls = [board.turned(frame.T).hull() for board in boards]
-        work.hulls[0] += tuple(hull for hull in hulls if hull is not None)
+        work.add_boards(0, boards, work.panels[part])
 
 
 def _standing_points(work: Workpiece, part: int) -> FloatArray:

@@ -13,8 +13,11 @@ from ...asset import Hull, InnerSurface
 from ...config import SolidsConfig
 from ...geometry.posing import rotated
 from ...intake.categories import UNKNOWN, Category
-from ...mesh import FloatArray
+from ...mesh import FloatArray, Mesh
 from ...runtime.keys import Stage
+from ...runtime.packing import contents
+from ...runtime.stages import Stages
+from ...runtime.store import digest_bytes
 from ..decompose.decompose import PartHulls
 from .body import add_shelves, hang_panels, make_body, make_rest, share_out
 from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
@@ -50,6 +53,45 @@ class SolidParts:
     surfaces: tuple[InnerSurface, ...]
 
 
+def solid_parts(
+    articulation: Articulation, stages: Stages, fronts: bool = False, usual: Category = UNKNOWN
+) -> SolidParts:
+    """Return an articulation whose one-piece parts are made solid; any other comes back as it is.
+
+    Arguments as of :func:`solids`, with the settings and the cache. Solids are kept between builds
+    without textures, which the input brings again.
+    """
+    config = stages.config.solids
+    if not config.construct or not parts_to_build(articulation, fronts):
+        return SolidParts(articulation, (None,) * len(articulation.parts), ())
+    mesh = articulation.mesh
+    textures = [digest_bytes(each.texture.data) for each in mesh.materials if each.texture]
+    plain = replace(articulation, mesh=_bare(mesh))
+    key = SOLIDS.key(stages.config, *contents(plain), *textures, fronts, usual.shelves, usual.liner)
+
+    def make() -> SolidParts:
+        made = solids(articulation, config, fronts, usual)
+        return _with_mesh(made, _bare(made.articulation.mesh))
+
+    made = stages.recall("solids", SolidParts, key, make)
+    return _with_mesh(made, _dressed(made.articulation.mesh, mesh))
+
+
+def _with_mesh(made: SolidParts, mesh: Mesh) -> SolidParts:
+    return replace(made, articulation=replace(made.articulation, mesh=mesh))
+
+
+def _bare(mesh: Mesh) -> Mesh:
+    materials = tuple(replace(material, texture=None) for material in mesh.materials)
+    return replace(mesh, materials=materials)
+
+
+def _dressed(mesh: Mesh, source: Mesh) -> Mesh:
+    """Give a mesh the source's own materials, which come first, as the source has them."""
+    own = source.materials
+    return replace(mesh, materials=(*own, *mesh.materials[len(own) :]))
+
+
 def solids(
     articulation: Articulation,
     config: SolidsConfig,
@@ -58,11 +100,8 @@ def solids(
 ) -> SolidParts:
     """Make patches of a one-piece mesh and bare fronts solid, and what holds them hollow.
 
-    Args:
-        articulation: of which at least one moved part is to be built, see ``parts_to_build``.
-        config: of this stage.
-        fronts: build every thin front, bare or not.
-        usual: inside of objects of its category.
+    At least one moved part is to be built, see ``parts_to_build``: with ``fronts`` every thin
+    front, bare or not. The insides are as usual in a category.
     """
     parts = parts_to_build(articulation, fronts)
     turn = working_frame(articulation, parts)
@@ -106,23 +145,15 @@ def _prepared(
     articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig, usual: Category
 ) -> Workpiece:
     seen = recognize(articulation, parts, config.behind_m)
-    others = [
-        part
-        for part in range(1, len(articulation.parts))
-        if part not in seen.panels and len(articulation.parts[part].faces)
-    ]
+    others = [part for part in range(1, len(articulation.parts)) if part not in seen.panels]
+    others = [part for part in others if len(articulation.parts[part].faces)]
     bumps, rest = recognize_bumps(articulation, others)
     hosts = {part: host_of(articulation, part) for part in bumps}
     skin = cut_bases(seen.skin, bumps, hosts)
     joints = list(articulation.joints)
-    planes = [
-        of_panels + of_bumps
-        for of_panels, of_bumps in zip(
-            planes_of_panels(seen.panels, joints, config),
-            planes_of_bumps(bumps, joints),
-            strict=True,
-        )
-    ]
+    of_panels = planes_of_panels(seen.panels, joints, config)
+    of_bumps = planes_of_bumps(bumps, joints)
+    planes = [some + more for some, more in zip(of_panels, of_bumps, strict=True)]
     lattice = Lattice.over(articulation.mesh.bounds, config.cells, planes)
     whole = enclosed(articulation.mesh, lattice)
     owner = np.where(whole, 0, -1).astype(np.int64)

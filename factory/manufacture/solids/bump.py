@@ -12,7 +12,8 @@ from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .pieces import MOST_CORNERS
 
-#: A knob begins this far before the surface that it stands on [m].
+#: Pieces of two parts are so far apart, at rest and on the way: a knob begins this far before the
+#: surface that it stands on [m].
 CLEAR_M = 0.0025
 #: Share of its height that may be cut off below for that.
 LEAST_LEFT = 0.35
@@ -45,15 +46,10 @@ class Bump:
 
 
 def find_bump(points: FloatArray, rim: FloatArray, joint: Joint) -> Bump | None:
-    """Return a knob, a button or a wheel.
+    """Return a knob, a button or a wheel; ``None`` where a part would not turn on the spot.
 
-    Args:
-        points: of the part's surface [m], shape [n, 3].
-        rim: those on its border with other parts [m], shape [m, 3].
-        joint: that holds it.
-
-    Returns:
-        ``None`` where it is none: it would not turn on the spot.
+    Points of its surface, and its rim of those on its border with other parts, have shape [n, 3]
+    [m].
     """
     options = [cut for cut in (_cut(points, rim, way) for way in _ways(joint)) if cut is not None]
     if options:
@@ -90,10 +86,9 @@ def _turned(points: FloatArray, joint: Joint) -> Bump | None:
     hull = hull_of(points)
     if hull is None:
         return None
-    copies = []
-    for turn in range(TURNS):
-        rotation = rotation_about(joint.axis, 2.0 * np.pi * turn / TURNS)
-        copies.append((hull.vertices - joint.origin) @ rotation.T + joint.origin)
+    arms = hull.vertices - joint.origin
+    angles = (2.0 * np.pi * turn / TURNS for turn in range(TURNS))
+    copies = [arms @ rotation_about(joint.axis, angle).T + joint.origin for angle in angles]
     round_hull = hull_of(np.concatenate(copies))
     if round_hull is None or hull.volume < WHEEL_SHARE * round_hull.volume:
         return None

@@ -15,17 +15,15 @@ from ...config import SolidsConfig
 from ...geometry.rows import distinct_rows
 from ...mesh import BoolArray, FloatArray
 from ..decompose.outside import outside
+from .boards import drawer_box, shelf_boards
 from .box import Box
 from .cavity import hollow
-from .drawer import drawer_box
 from .frame import turned_hull
 from .knobs import clear_of_bumps, keep_clear
 from .lattice import closed_up, marked
-from .matter import INSIDE, PATH, Matter
-from .panel import FlatPanel, hinge_edge
-from .pieces import convex_pieces
-from .reach import FAR_M, reaching
-from .shelves import shelf_boards
+from .matter import INSIDE, PATH
+from .panel import ALONG, FlatPanel, hinge_edge
+from .reach import FAR_M, covering
 from .slab import FLUSH_M, FrontRelief, handles, relief
 from .work import Workpiece
 
@@ -39,8 +37,6 @@ FILLED = 0.5
 #: What lies this close behind a panel's back is its own inner side [m].
 BEHIND_BACK_M = 0.05
 MOST_PIECES = 10
-#: Cosine between the vertical and a side of a panel that stands.
-UPRIGHT = 0.9
 MOST_FITTED = 12
 #: Share of a panel's surface behind its slab that is worth pieces of its own.
 BARE_SHARE = 0.1
@@ -92,7 +88,7 @@ def surface_points(work: Workpiece, part: int) -> FloatArray:
 
 
 def _surface_points(work: Workpiece, part: int) -> FloatArray:
-    corners = work.skin.corners[work.skin.part == part]
+    corners = work.skin.of_part(part)
     if not len(corners):
         return np.zeros((0, 3))
     step = SPACING * work.lattice.step
@@ -105,7 +101,7 @@ def _surface_points(work: Workpiece, part: int) -> FloatArray:
         weights = np.array(grid) / count
         found.append(np.einsum("kc,ncd->nkd", weights, some).reshape(-1, 3))
     points = np.round(np.concatenate(found), 7)
-    return points[distinct_rows(points)[0]]
+    return np.asarray(points[distinct_rows(points)[0]], dtype=np.float64)
 
 
 def carve_panel(work: Workpiece, part: int) -> None:
@@ -118,13 +114,11 @@ def carve_panel(work: Workpiece, part: int) -> None:
     carved = panel.reach(margin, end).turned(frame.T)
     slab = panel.reach(-config.gap_m, panel.back).turned(frame.T)
     span = work.lattice.span(carved)
-    for other in [0, *(each for each in work.rest)]:
+    for other in (0, *work.rest):
         work.block_box(other, carved, PATH)
     inner = work.lattice.span(slab)
-    work.owner[span] = np.where(work.owner[span] == 0, -1, work.owner[span])
-    work.owner[inner] = np.where(
-        work.whole[inner] & (work.owner[inner] == -1), part, work.owner[inner]
-    )
+    work.take(0, span)
+    work.owner[inner][work.whole[inner] & (work.owner[inner] == -1)] = part
 
 
 def make_slab(work: Workpiece, part: int) -> None:
@@ -141,15 +135,13 @@ def make_slab(work: Workpiece, part: int) -> None:
     proud = handles(face, local)
     kept = local[face.above(local) < FLUSH_M]
     solid, whole = _behind_face(work, panel, face)
-    blocked = work.blocked(part)
     if work.config.interior:
         work.lids[part] = _lid_hollow(work, panel)
         for box in work.lids[part]:
             work.block_box(part, box.turned(frame.T), INSIDE)
     for box in work.lids.get(part, ()):
         kept = kept[~box.holds(kept, -1e-9)]
-    matter = Matter(work.lattice, solid & (blocked == 0), whole, blocked, kept @ frame)
-    pieces = reaching(matter, convex_pieces(matter, MOST_PIECES))
+    pieces = covering(work, part, solid, kept @ frame, MOST_PIECES, whole)
     hulls = [*pieces, *(turned_hull(hull, frame.T) for hull in proud)]
     hulls += _behind_slab(work, part, hulls, behind @ frame, len(points))
     work.hulls[part] = tuple(hulls)
@@ -161,21 +153,14 @@ def _behind_slab(
 ) -> tuple[Hull, ...]:
     """Return the pieces of a panel's own parts there: shelves in a door, a knife's other side.
 
-    Args:
-        work: all parts.
-        part: the panel.
-        hulls: its pieces so far.
-        points: of its surface behind its slab [m], shape [n, 3].
-        whole: points of all its surface.
+    Of ``whole`` points of all its surface some lie behind its slab [m], shape [n, 3].
     """
     if not len(points):
         return ()
     bare = points[outside(hulls, points) > FAR_M]
     if len(bare) < BARE_SHARE * whole:
         return ()
-    solid = marked(work.lattice, bare) & (work.blocked(part) == 0)
-    matter = Matter(work.lattice, solid, work.whole, work.blocked(part), bare)
-    return reaching(matter, convex_pieces(matter, MOST_FITTED))
+    return covering(work, part, marked(work.lattice, bare), bare, MOST_FITTED)
 
 
 def _behind_face(
@@ -185,15 +170,14 @@ def _behind_face(
     frame = panel.side.frame
     lattice = work.lattice
     plain = Box(np.append(panel.low, -np.inf), np.append(panel.high, np.inf))
-    span = lattice.span(plain.turned(frame.T))
     inside = np.zeros(lattice.shape, dtype=bool)
-    inside[span] = True
+    inside[lattice.span(plain.turned(frame.T))] = True
     cells = np.argwhere(inside)
     behind = face.above(lattice.centers(cells) @ frame.T)
     inside[tuple(cells.T)] = np.isfinite(behind) & (behind < 0.0)
-    slab = panel.reach(-work.config.gap_m, panel.back).turned(frame.T)
-    solid = np.zeros(lattice.shape, dtype=bool)
-    solid[lattice.span(slab)] = inside[lattice.span(slab)]
+    slab = lattice.span(panel.reach(-work.config.gap_m, panel.back).turned(frame.T))
+    solid = np.zeros_like(inside)
+    solid[slab] = inside[slab]
     return solid, inside
 
 
@@ -203,11 +187,10 @@ def _lid_hollow(work: Workpiece, panel: FlatPanel) -> tuple[Box, ...]:
     frame = panel.side.frame * np.array([[1.0], [1.0], [-1.0]])
     room = _inner(work, (panel.part, 0), LID_WALL_M)
     column = panel.reach(-work.config.wall_m, panel.back)
-    low = np.append(np.maximum(column.low[:2], panel.low + LID_WALL_M), -panel.back)
-    high = np.append(
-        np.minimum(column.high[:2], panel.high - LID_WALL_M), -panel.front - LID_WALL_M
-    )
-    boxes = hollow(work.lattice, room, Box(low, high), frame)
+    low = np.maximum(column.low[:2], panel.low + LID_WALL_M)
+    high = np.minimum(column.high[:2], panel.high - LID_WALL_M)
+    inner = Box(np.append(low, -panel.back), np.append(high, -panel.front - LID_WALL_M))
+    boxes = hollow(work.lattice, room, inner, frame)
     turn = np.diag([1.0, 1.0, -1.0])
     return tuple(box.turned(turn) for box in boxes)
 
@@ -237,9 +220,7 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     wall = work.config.wall_m
     start = panel.back + work.config.behind_m
     far = float((work.source.mesh.bounds @ frame.T)[:, 2].max())
-    low = np.append(panel.low + wall, start)
-    high = np.append(panel.high - wall, far)
-    column = Box(low, high)
+    column = Box(np.append(panel.low + wall, start), np.append(panel.high - wall, far))
     if column.empty:
         return
     work.filled[part] = _filled_behind(work, column, frame)
@@ -260,10 +241,9 @@ def hollow_behind(work: Workpiece, part: int) -> None:
         return
     work.hollows[part] = boxes
     for box in boxes:
-        span = work.lattice.span(box.turned(frame.T))
-        moves = PATH if panel.slides else INSIDE
-        work.block_box(0, box.turned(frame.T), moves)
-        work.owner[span] = np.where(work.owner[span] == 0, -1, work.owner[span])
+        placed = box.turned(frame.T)
+        work.block_box(0, placed, PATH if panel.slides else INSIDE)
+        work.take(0, work.lattice.span(placed))
     if panel.slides:
         _give_box(work, panel, boxes)
     elif work.usual.shelves is not None:
@@ -276,7 +256,7 @@ def _taken(work: Workpiece, part: int) -> Iterator[Box]:
         if other != part:
             yield from (box.turned(work.panels[other].side.frame.T) for box in boxes)
     for other in work.rest:
-        corners = work.skin.corners[work.skin.part == other].reshape(-1, 3)
+        corners = work.skin.of_part(other).reshape(-1, 3)
         if len(corners):
             yield Box.around(corners)
 
@@ -302,20 +282,15 @@ def _empty(work: Workpiece, walls: BoolArray) -> BoolArray:
 
 
 def _give_box(work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...]) -> None:
-    frame = panel.side.frame
     room = Box(
         np.append(np.max([box.low[:2] for box in boxes], axis=0), boxes[0].low[2]),
         np.append(np.min([box.high[:2] for box in boxes], axis=0), boxes[-1].high[2]),
     )
-    up = int(np.argmax(np.abs(frame[:2, 2])))
-    boards = (
-        drawer_box(room, panel.back, up)
-        if work.joints[panel.part - 1].kind is JointKind.PRISMATIC
-        else ()
-    )
+    up = int(np.abs(panel.side.frame[:2, 2]).argmax())
+    slides = work.joints[panel.part - 1].kind is JointKind.PRISMATIC
+    boards = drawer_box(room, panel.back, up) if slides else ()
     work.boards[panel.part] = boards
-    hulls = [board.turned(frame.T).hull() for board in boards]
-    work.hulls[panel.part] += tuple(hull for hull in hulls if hull is not None)
+    work.add_boards(panel.part, boards, panel)
     if boards:
         _keep_in(work, panel.part, max(float(board.high[2]) for board in boards) - panel.back)
 
@@ -324,10 +299,9 @@ def _give_shelves(
     work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...], spacing: float
 ) -> None:
     """Put shelves into the space behind a panel that does not lie."""
-    frame = panel.side.frame
-    up = int(np.argmax(np.abs(frame[:2, 2])))
-    if abs(frame[up, 2]) > UPRIGHT:
-        work.shelves[panel.part] = shelf_boards(boxes, spacing, up)
+    upward = np.abs(panel.side.frame[:2, 2])
+    if upward.max() > ALONG:
+        work.shelves[panel.part] = shelf_boards(boxes, spacing, int(upward.argmax()))
 
 
 def _keep_in(work: Workpiece, part: int, depth: float) -> None:

@@ -25,29 +25,21 @@ SPILT = 0.02
 def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) -> tuple[Box, ...]:
     """Return the largest boxes, one behind the other, in which everything can be hollowed.
 
-    Args:
-        lattice: of the object.
-        room: cells that may be hollowed, at least a wall's thickness below the mesh.
-        column: where to look, in a panel's frame.
-        frame: rows of the panel's frame.
-
-    Returns:
-        Boxes in the panel's frame, the first one at the column's front; none without room.
+    They lie in a ``column`` and have, as that, the axes of a panel's frame (rows), the first one at
+    the column's front; none without room: cells at least a wall's thickness below the mesh.
     """
     # Slices share their ends to the last bit, or a skin would be left between them.
     depths = np.linspace(column.low[2], column.high[2], SLICES + 1)
     found: list[Box] = []
     for front, back in pairwise(depths):
-        low = np.append(column.low[:2], front)
-        high = np.append(column.high[:2], back)
-        if found:
-            low[:2] = np.maximum(low[:2], found[-1].low[:2])
-            high[:2] = np.minimum(high[:2], found[-1].high[:2])
+        before = found[-1] if found else column
+        low = np.append(np.maximum(column.low[:2], before.low[:2]), front)
+        high = np.append(np.minimum(column.high[:2], before.high[:2]), back)
         box = _shrunk(lattice, room, Box(low, high), frame)
         if box is None:
             break
         found.append(box)
-        if box.high[2] < high[2] - 1e-9:
+        if box.high[2] < back - 1e-9:
             break
     return _merged(found, max(ALIKE_M, ALIKE_CELLS * lattice.step))
 
@@ -76,8 +68,9 @@ def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> B
         ends[axis][side] += -1 if side else 1
     if any(high <= low for low, high in ends):
         return None
-    low = np.maximum([line[end[0]] for line, end in zip(lines, ends, strict=True)], box.low)
-    high = np.minimum([line[end[1]] for line, end in zip(lines, ends, strict=True)], box.high)
+    reached = np.array([line[end] for line, end in zip(lines, ends, strict=True)])
+    low = np.maximum(reached[:, 0], box.low)
+    high = np.minimum(reached[:, 1], box.high)
     low[2] = box.low[2]
     if ends[2][1] == free.shape[2]:
         high[2] = box.high[2]
@@ -88,18 +81,12 @@ def _shrunk(lattice: Lattice, room: BoolArray, box: Box, frame: FloatArray) -> B
 def _merged(slices: list[Box], alike: float) -> tuple[Box, ...]:
     kept: list[Box] = []
     for box in slices:
-        sides = (
-            None
-            if not kept
-            else np.abs(
-                np.concatenate([box.low[:2] - kept[-1].low[:2], box.high[:2] - kept[-1].high[:2]])
-            )
-        )
-        if kept and sides is not None and (sides < alike).all():
-            kept[-1] = Box(
-                np.append(np.maximum(kept[-1].low[:2], box.low[:2]), kept[-1].low[2]),
-                np.append(np.minimum(kept[-1].high[:2], box.high[:2]), box.high[2]),
-            )
-        else:
+        last = kept[-1] if kept else box
+        off = np.abs([box.low - last.low, box.high - last.high])[:, :2]
+        if not kept or off.max() >= alike:
             kept.append(box)
+            continue
+        low = np.append(np.maximum(last.low[:2], box.low[:2]), last.low[2])
+        high = np.append(np.minimum(last.high[:2], box.high[:2]), box.high[2])
+        kept[-1] = Box(low, high)
     return tuple(box for box in kept if kept[-1].high[2] - kept[0].low[2] >= LEAST_M)

@@ -12,11 +12,10 @@ from ...asset import Hull
 from ...mesh import FloatArray
 from ..poses import joints_between
 from ..separate.along import cut_apart_along
+from .bump import CLEAR_M
 from .sweep import DENSER
 from .work import Workpiece
 
-#: Between the pieces of two parts, at rest and on the way [m].
-CLEARANCE_M = 0.0025
 POSES = 31
 #: Parts that would lose more are in each other's way: their pieces are left for the judge to see.
 LEAST_LEFT = 0.5
@@ -33,7 +32,7 @@ def cleared(work: Workpiece) -> dict[int, tuple[Hull, ...]]:
         for poses in (POSES, 1):
             before = (hulls[a], hulls[b])
             way = _relative(articulation, a, b, poses)
-            after = cut_apart_along(*before, way, CLEARANCE_M)
+            after = cut_apart_along(*before, way, CLEAR_M)
             if all(map(_enough, before, after)):
                 hulls[a], hulls[b] = after
                 break

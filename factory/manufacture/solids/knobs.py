@@ -8,6 +8,7 @@ from ...articulation import Joint, JointKind
 from ...asset import Hull
 from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import depth_below, hull_of
+from ..poses import moved
 from ..separate.clip import carved, clipped, meeting
 from .box import Box
 from .bump import Bump
@@ -32,16 +33,16 @@ def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> list[list[fl
     planes: list[list[float]] = [[], [], []]
     for part, bump in bumps.items():
         room = _box(_passed(bump, joints[part - 1]))
-        foot = () if bump.normal is None else (bump.base, bump.base + LAYER_M)
-        across = -1 if bump.normal is None else int(np.abs(bump.normal).argmax())
+        ends = np.stack([room.low, room.high], axis=1).tolist()
+        if bump.normal is not None:
+            # Pieces that end a little too high are seen to enter a thin layer at its foot; a
+            # thin one below would be a foil of its own.
+            across = int(np.abs(bump.normal).argmax())
+            side = float(np.sign(bump.normal[across]))
+            foot = [bump.base * side, (bump.base + LAYER_M) * side]
+            ends[across] = foot + [end for end in ends[across] if abs(end - foot[0]) > LAYER_M]
         for axis in range(3):
-            ends = [float(room.low[axis]), float(room.high[axis])]
-            if bump.normal is not None and axis == across:
-                # Pieces that end a little too high are seen to enter a thin layer at its foot; a
-                # thin one below would be a foil of its own.
-                at = [height * float(np.sign(bump.normal[axis])) for height in foot]
-                ends = [*at, *(end for end in ends if abs(end - at[0]) > LAYER_M)]
-            planes[axis] += ends
+            planes[axis] += ends[axis]
     return planes
 
 
@@ -64,12 +65,12 @@ def _way(joint: Joint) -> list[FloatArray]:
 
 def _passed(bump: Bump, joint: Joint) -> FloatArray:
     """Return its corners all along its way [m], shape [n, 3]."""
-    return _moved(bump.hull.vertices, _way(joint))
+    return _all_along(bump.hull.vertices, _way(joint))
 
 
-def _moved(points: FloatArray, way: list[FloatArray]) -> FloatArray:
+def _all_along(points: FloatArray, way: list[FloatArray]) -> FloatArray:
     """Return the points at all poses of a way [m], shape [n, 3]."""
-    return np.concatenate([points @ pose[:3, :3].T + pose[:3, 3] for pose in way])
+    return np.concatenate([moved(points, pose) for pose in way])
 
 
 def _box(points: FloatArray) -> Box:
@@ -81,12 +82,9 @@ def _free_above(work: Workpiece, host: int, bump: Bump) -> None:
     if bump.normal is None:
         return
     around = work.lattice.span(_box(bump.hull.vertices))
-    heights = sum(
-        (bump.normal[axis] * work.lattice.middles[axis][around[axis]]).reshape(
-            [-1 if axis == other else 1 for other in range(3)]
-        )
-        for axis in range(3)
-    )
+    spans = zip(work.lattice.middles, around, strict=True)
+    x, y, z = np.ix_(*(middle[part] for middle, part in spans))
+    heights = bump.normal[0] * x + bump.normal[1] * y + bump.normal[2] * z
     owner = work.owner[around]
     work.owner[around] = np.where((heights > bump.base) & (owner == host), -1, owner)
 
@@ -119,8 +117,7 @@ def give_way(work: Workpiece, part: int) -> None:
     before = work.hulls.get(host, ())
     after = before
     for hull in work.hulls[part]:
-        way = [np.eye(4), *motions(joint, PRESSES)]
-        after = _all_around(after, _moved(hull.vertices, way))
+        after = _all_around(after, _all_along(hull.vertices, _way(joint)))
     left = sum(hull.volume for hull in after)
     if left >= PANEL_LEFT * sum(hull.volume for hull in before):
         work.hulls[host] = after

@@ -38,10 +38,8 @@ class Lattice:
     def over(cls, bounds: FloatArray, cells: int, planes: list[list[float]]) -> Lattice:
         """Return even cells over a box, with some planes exactly where they are wanted.
 
-        Args:
-            bounds: corners [m], shape [2, 3].
-            cells: along the longest side.
-            planes: wanted ones across each axis [m].
+        The longest side of the box [m], shape [2, 3], has so many cells; planes are given across
+        each axis [m].
         """
         size = bounds[1] - bounds[0]
         step = float(size.max()) / cells
@@ -120,6 +118,11 @@ class Lattice:
         beside = (over[slope == 0.0] < 0.0).all(axis=0)[..., None]
         inside = beside & (middles[axis] > low) & (middles[axis] < high)
         return np.asarray(np.moveaxis(inside, -1, axis))
+
+    def corners(self, at: npt.NDArray[np.int64], span: Span) -> FloatArray:
+        """Return the places of cells' corners in a span, given by their indices [m], [n, 3]."""
+        first = [part.start for part in span]
+        return np.column_stack([line[at[:, i] + first[i]] for i, line in enumerate(self.lines)])
 
     def centers(self, cells: npt.NDArray[np.int64]) -> FloatArray:
         """Return the centres [m] of cells given by their indices, shape [n, 3]."""

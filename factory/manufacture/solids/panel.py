@@ -25,7 +25,8 @@ BESIDE_M = 0.012
 #: How much further a panel without a frame reaches: nothing may be left standing there [m]. The
 #: post that one leaves which goes through is twice as wide.
 BEYOND_M = 0.015
-#: What opens along a direction does so to this cosine; what lies across one, to less than that.
+#: A panel opens along a direction, or stands, to this cosine; across one it lies to less than the
+#: next.
 ALONG = 0.9
 ACROSS = 0.35
 #: A rim of a door is believed between these [m].
@@ -109,18 +110,10 @@ def opens(joint: Joint, panel: Panel) -> bool:
 def find_panel(
     mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: View, opposite: View | None
 ) -> FlatPanel | None:
-    """Measure a part that is a panel, on the view that it faces.
+    """Measure a part that is a panel, on the view of the side on which it opens.
 
-    Args:
-        mesh: the whole mesh.
-        faces: the part's.
-        part: its index in the view.
-        joint: that holds it.
-        view: of the side on which it opens.
-        opposite: of the side across; ``None`` of a lid.
-
-    Returns:
-        ``None`` where it is none after all: ragged, or thicker than wide.
+    The view of the side across is ``None`` of a lid. Returns ``None`` where the part is no panel
+    after all: ragged, or thicker than wide.
     """
     seen = view.part == part
     rectangle = _rectangle(view, seen)
@@ -159,17 +152,19 @@ def smoothed(view: View, seen: BoolArray) -> FloatArray:
     rows, columns = np.nonzero(seen)
     least = min(int(np.ptp(rows)), int(np.ptp(columns))) + 1
     size = int(np.clip(0.3 * least, 3, 41)) | 1
-    window = (
-        slice(max(rows.min() - size, 0), rows.max() + size + 1),
-        slice(max(columns.min() - size, 0), columns.max() + size + 1),
-    )
+    window = tuple(slice(max(at.min() - size, 0), at.max() + size + 1) for at in (rows, columns))
     inner = seen[window]
-    nearest = ndimage.distance_transform_edt(~inner, return_distances=False, return_indices=True)
-    filled = view.away[window][tuple(nearest)]
+    filled = spread_out(view.away[window], inner)
     closed = ndimage.grey_closing(filled, size=(size, size))
     result = np.full(seen.shape, np.nan)
     result[window] = np.where(inner, closed, np.nan)
     return result
+
+
+def spread_out(values: FloatArray, seen: BoolArray) -> FloatArray:
+    """Return at each pixel the value of the nearest one that is seen, [rows, columns]."""
+    nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
+    return np.asarray(values[tuple(nearest)])
 
 
 def _rectangle(view: View, seen: BoolArray) -> tuple[FloatArray, FloatArray] | None:
@@ -179,12 +174,13 @@ def _rectangle(view: View, seen: BoolArray) -> tuple[FloatArray, FloatArray] | N
     sizes = np.bincount(label[seen], minlength=count + 1)
     sizes[0] = 0
     kept = seen & np.isin(label, np.flatnonzero(sizes >= 0.05 * sizes.max()))
-    ends = []
+    ends = np.zeros((2, 2))
     for axis, at in ((0, view.raster.right), (1, view.raster.up)):
         profile = kept.sum(axis=axis)
         full = np.flatnonzero(profile >= FRAYED * np.percentile(profile[profile > 0], 90))
-        ends.append((at[full[0]] - view.raster.pixel / 2.0, at[full[-1]] + view.raster.pixel / 2.0))
-    return np.array([ends[0][0], ends[1][0]]), np.array([ends[0][1], ends[1][1]])
+        ends[:, axis] = at[full[[0, -1]]]
+    half = view.raster.pixel / 2.0
+    return ends[0] - half, ends[1] + half
 
 
 def _rim(
@@ -225,10 +221,9 @@ def _back(
     is_lid: bool, front: float, deepest: float, rim: float | None, far: float
 ) -> tuple[float, str]:
     room = far - front
-    thickness = None if rim is None else rim - front
     most = 0.8 * room if is_lid else min(max(THICKEST_M, THICKEST_SHARE * room), 0.4 * room)
-    if thickness is not None and THINNEST_M <= thickness <= most:
-        back = rim if rim is not None else front
+    if rim is not None and THINNEST_M <= rim - front <= most:
+        back = rim
         rule = "rim"
     else:
         back = front + min(LID_M if is_lid else DOOR_M, 0.4 * room)
@@ -285,12 +280,9 @@ def _frames(view: View, part: int, low: FloatArray, high: FloatArray, back: floa
         start = low + inner
         end = high - inner
         gap = 0.5 * view.raster.pixel
-        if edge % 2:
-            start[axis] = high[axis] + gap
-            end[axis] = high[axis] + step
-        else:
-            start[axis] = low[axis] - step
-            end[axis] = low[axis] - gap
+        upper = edge % 2
+        start[axis] = high[axis] + gap if upper else low[axis] - step
+        end[axis] = high[axis] + step if upper else low[axis] - gap
         window = view.raster.window(start, end)
         depth = view.away[window]
         beside = (depth < back + SOLID_M) & (view.part[window] != part)

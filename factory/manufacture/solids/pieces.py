@@ -169,14 +169,12 @@ def _trimmed(solid: BoolArray, span: Span) -> Span | None:
             return None
         start = span[axis].start
         trimmed[axis] = slice(start + int(filled_at[0]), start + int(filled_at[-1]) + 1)
-    return trimmed[0], trimmed[1], trimmed[2]
+    return _whole(tuple(trimmed))
 
 
 def _box(lattice: Lattice, span: Span) -> Box:
-    return Box(
-        np.array([lattice.lines[axis][span[axis].start] for axis in range(3)]),
-        np.array([lattice.lines[axis][span[axis].stop] for axis in range(3)]),
-    )
+    ends = zip(lattice.lines, span, strict=True)
+    return Box(*np.array([(line[part.start], line[part.stop]) for line, part in ends]).T)
 
 
 def _corners(matter: Matter, span: Span) -> FloatArray:
@@ -188,10 +186,7 @@ def _corners(matter: Matter, span: Span) -> FloatArray:
     deep = ~outside[
         tuple(slice(at, at + size) for at, size in zip(offset, touching.shape, strict=True))
     ]
-    at = np.argwhere(_ends(touching & deep))
-    return np.column_stack(
-        [matter.lattice.lines[axis][at[:, axis] + span[axis].start] for axis in range(3)]
-    )
+    return matter.lattice.corners(np.argwhere(_ends(touching & deep)), span)
 
 
 def _ends(corners: BoolArray) -> BoolArray:
@@ -259,10 +254,8 @@ def _filled(lattice: Lattice, weights: Weights, span: Span, planes: FloatArray) 
 def _within(planes: FloatArray, corners: FloatArray, step: float) -> FloatArray:
     """Return planes below which a hull fills cells; of one thinner than cells, those it crosses.
 
-    Args:
-        planes: of the hull, outward normals and offsets, shape [n, 4].
-        corners: of the hull [m], shape [n, 3].
-        step: how large cells are [m].
+    The hull's planes have outward normals and offsets, shape [n, 4], its corners shape [n, 3];
+    cells are as large as ``step`` [m].
     """
     middle = corners.mean(axis=0)
     axes = np.linalg.svd(corners - middle, full_matrices=False)[2]
@@ -305,7 +298,7 @@ def _halves(span: Span, axis: int, plane: int) -> tuple[Span, Span]:
     second = list(span)
     first[axis] = slice(span[axis].start, plane)
     second[axis] = slice(plane, span[axis].stop)
-    return (first[0], first[1], first[2]), (second[0], second[1], second[2])
+    return _whole(tuple(first)), _whole(tuple(second))
 
 
 def _nearby(matter: Matter, span: Span) -> _Nearby:
@@ -330,10 +323,7 @@ def _cost(matter: Matter, nearby: _Nearby, span: Span, most: float) -> float:
         return 0.0
     box = _box(matter.lattice, trimmed)
     corners = tuple(slice(part.start, part.stop + 1) for part in trimmed)
-    at = np.argwhere(_ends(matter.corners[corners]))
-    points = np.column_stack(
-        [matter.lattice.lines[axis][at[:, axis] + trimmed[axis].start] for axis in range(3)]
-    )
+    points = matter.lattice.corners(np.argwhere(_ends(matter.corners[corners])), trimmed)
     points = np.concatenate([points, nearby.points[box.holds(nearby.points, 1e-9)]])
     own = float((matter.lattice.volumes[trimmed] * matter.solid[trimmed]).sum())
     outermost = _extreme(points, TRIED_DIRECTIONS)

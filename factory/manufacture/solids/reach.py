@@ -7,12 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...asset import Hull
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from ..decompose.outside import outside
 from .box import Box
 from .matter import Matter
-from .pieces import MOST_CORNERS, filled
+from .pieces import MOST_CORNERS, convex_pieces, filled
+from .work import Workpiece
 
 #: What is seen may lie so far outside all pieces [m].
 FAR_M = 0.006
@@ -20,13 +21,27 @@ FAR_M = 0.006
 MOST_POINTS = 40
 
 
-def reaching(matter: Matter, hulls: Sequence[Hull]) -> tuple[Hull, ...]:
-    """Stretch pieces where that fills next to nothing that must stay free or is air.
+def covering(
+    work: Workpiece,
+    part: int,
+    cells: BoolArray,
+    points: FloatArray,
+    most: int,
+    whole: BoolArray | None = None,
+) -> tuple[Hull, ...]:
+    """Return at most ``most`` pieces of a part's cells, stretched to its surface.
 
-    Args:
-        matter: that they are pieces of.
-        hulls: they.
+    Cells that must stay free of the part are left out; points of its surface have shape [n, 3] [m].
+    ``whole`` are the cells within the mesh, where those before a panel's face are not.
     """
+    blocked = work.blocked(part)
+    whole = work.whole if whole is None else whole
+    matter = Matter(work.lattice, cells & (blocked == 0), whole, blocked, points)
+    return reaching(matter, convex_pieces(matter, most))
+
+
+def reaching(matter: Matter, hulls: Sequence[Hull]) -> tuple[Hull, ...]:
+    """Stretch pieces of matter where that fills next to nothing that must stay free or is air."""
     if not hulls:
         return ()
     points = matter.sparse[outside(hulls, matter.sparse) > FAR_M]

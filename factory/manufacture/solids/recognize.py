@@ -41,14 +41,10 @@ class Recognized:
 
 
 def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float) -> Recognized:
-    """Measure the panels among some parts and cut the mesh along them.
+    """Measure the panels among some patches of one surface and cut the mesh along them.
 
-    A part whose faces all lie within what another panel claims is no panel, and keeps them.
-
-    Args:
-        articulation: in the working frame.
-        parts: that are patches of one surface.
-        behind: gap behind a panel [m].
+    A part whose faces all lie within another panel's claim is no panel, and keeps them. The object
+    is in the working frame, and ``behind`` the gap behind a panel [m].
     """
     mesh = articulation.mesh
     part = face_parts(articulation)

@@ -11,8 +11,8 @@ from ...geometry.triangles import areas_of, ends_of
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from .box import Box
 
-#: Corners this near to a plane lie on it [m].
-ON_PLANE_M = 1e-6
+#: Corners this near to a plane lie on it, and such corners are one [m].
+SAME_M = 1e-6
 
 
 @dataclass(frozen=True)
@@ -48,6 +48,10 @@ class CutSkin:
         first, second, third = np.moveaxis(self.corners, 1, 0)
         return np.asarray((first + second + third) / 3.0)
 
+    def of_part(self, part: int) -> FloatArray:
+        """Return the corners of a part's triangles [m], shape [n, 3, 3]."""
+        return np.asarray(self.corners[self.part == part])
+
     def touching(self, box: Box) -> BoolArray:
         """Return the triangles whose bounds meet a box, shape [n]."""
         low, high = ends_of(self.corners)
@@ -72,16 +76,9 @@ class CutSkin:
 
 
 def cut(skin: CutSkin, normal: FloatArray, offset: float, which: BoolArray) -> CutSkin:
-    """Return the mesh with some triangles cut where ``normal . x = offset`` [m].
-
-    Args:
-        skin: to be cut.
-        normal: unit, shape [3].
-        offset: of the plane [m].
-        which: triangles that may be cut, shape [n].
-    """
+    """Return the mesh with some triangles, ``which``, cut where ``normal . x = offset`` [m]."""
     height = skin.corners @ normal - offset
-    height[np.abs(height) < ON_PLANE_M] = 0.0
+    height[np.abs(height) < SAME_M] = 0.0
     low, high = ends_of(height)
     crossing = which & (low < 0.0) & (high > 0.0)
     if not crossing.any():

@@ -49,9 +49,7 @@ def skin_parts(articulation: Articulation) -> tuple[int, ...]:
 def parts_to_build(articulation: Articulation, fronts: bool = False) -> tuple[int, ...]:
     """Return the moved parts to be rebuilt: patches of a one-piece mesh, and bare fronts.
 
-    Args:
-        articulation: parts and joints.
-        fronts: build every thin front, bare or not.
+    With ``fronts`` every thin front, bare or not.
     """
     found = plates(articulation) if fronts else bare_fronts(articulation)
     patches = (part for part in skin_parts(articulation) if not _has_box(articulation, part))
@@ -150,7 +148,7 @@ def _solid_behind(articulation: Articulation, part: int, crossed: Crossings) -> 
     return float(met[looked].mean()) if looked.any() else 0.0
 
 
-def _window(raster: Raster, local: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def _window(raster: Raster, local: FloatArray) -> BoolArray:
     """Return the pixels well within a part's rectangle, shape [rows * columns]."""
     low = local[:, :2].min(axis=0)
     high = local[:, :2].max(axis=0)

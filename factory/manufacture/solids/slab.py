@@ -11,7 +11,7 @@ from ...asset import Hull
 from ...mesh import BoolArray, FloatArray
 from ...views.view import View
 from ..decompose.convex import hull_of, limit_vertices
-from .panel import FlatPanel, smoothed
+from .panel import FlatPanel, smoothed, spread_out
 from .pieces import MOST_CORNERS
 
 #: What stands out of a panel's face further than this is a handle [m].
@@ -52,10 +52,8 @@ class FrontRelief:
 def relief(view: View, panel: FlatPanel) -> FrontRelief:
     """Tell a panel's face from its protrusions."""
     seen: BoolArray = view.part == panel.part
-    plain = smoothed(view, seen)
-    nearest = ndimage.distance_transform_edt(~seen, return_distances=False, return_indices=True)
     wide = ndimage.binary_dilation(seen, iterations=2)
-    plain = np.where(wide, plain[tuple(nearest)], np.nan)
+    plain = np.where(wide, spread_out(smoothed(view, seen), seen), np.nan)
     proud = seen & (plain - view.away > PROUD_M)
     blobs, count = ndimage.label(proud, np.ones((3, 3)))
     sizes = np.bincount(blobs.ravel(), minlength=count + 1)
@@ -69,20 +67,12 @@ def relief(view: View, panel: FlatPanel) -> FrontRelief:
 
 
 def handles(face: FrontRelief, local: FloatArray) -> tuple[Hull, ...]:
-    """Return one hull for each thing that stands out of a face.
+    """Return one hull for each thing that stands out of a panel's face, in its side's frame.
 
-    Args:
-        face: of the panel.
-        local: points of the panel's surface in its side's frame [m], shape [n, 3].
-
-    Returns:
-        Hulls in the side's frame.
+    Points of the panel's surface, shape [n, 3], are in that frame too [m].
     """
     above = face.above(local)
     blob = face.blob(local)
-    found = []
-    for number in range(1, face.count + 1):
-        hull = hull_of(local[(blob == number) & (above > -0.001)])
-        if hull is not None:
-            found.append(limit_vertices(hull, MOST_CORNERS))
-    return tuple(found)
+    numbers = range(1, face.count + 1)
+    found = (hull_of(local[(blob == number) & (above > -0.001)]) for number in numbers)
+    return tuple(limit_vertices(hull, MOST_CORNERS) for hull in found if hull is not None)

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import manifold3d
 import numpy as np
 
+from ...geometry.rows import distinct_rows
 from ...mesh import BoolArray, FloatArray
 from .box import Box
+from .seam import SAME_M
 
-#: Corners this near to one another are one [m].
-SAME_M = 1e-6
 #: A border this near to a column's side was cut there [m].
 AT_SIDE_M = 0.002
 
@@ -22,30 +22,21 @@ Triangles = FloatArray
 
 def boundary(triangles: Triangles) -> FloatArray:
     """Return the edges of only one of some triangles, in their direction; shape [n, 2, 3]."""
-    points, index = np.unique(
-        np.round(triangles.reshape(-1, 3) / SAME_M).astype(np.int64), axis=0, return_inverse=True
-    )
-    faces = index.reshape(-1, 3)
-    edges = faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-    ends = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2, 3)
-    low = edges.min(axis=1)
-    high = edges.max(axis=1)
-    key = low.astype(np.int64) * len(points) + high
-    _, inverse, count = np.unique(key, return_inverse=True, return_counts=True)
-    return np.asarray(ends[(count[inverse.reshape(-1)] == 1) & (low != high)])
+    _, corner = distinct_rows(np.round(triangles.reshape(-1, 3) / SAME_M).astype(np.int64))
+    around = [[0, 1], [1, 2], [2, 0]]
+    edges = np.sort(corner.reshape(-1, 3)[:, around].reshape(-1, 2), axis=1)
+    ends = triangles[:, around].reshape(-1, 2, 3)
+    _, edge = distinct_rows(edges)
+    alone = np.bincount(edge)[edge] == 1
+    return np.asarray(ends[alone & (edges[:, 0] != edges[:, 1])])
 
 
 def rim(edges: FloatArray, column: Box, back: float, sides: BoolArray) -> Triangles:
     """Return the strips from the edges of a cut to a plane, facing out of the column.
 
-    Args:
-        edges: of the part's surface in its panel's frame [m], shape [n, 2, 3].
-        column: along whose sides the mesh was cut.
-        back: depth of the plane [m].
-        sides: left, right, lower and upper: which to take, shape [4].
-
-    Returns:
-        Triangles [m], shape [m, 3, 3].
+    Edges, shape [n, 2, 3], the column along whose sides the mesh was cut, and the depth ``back`` of
+    the plane are in the panel's frame [m]; of the sides left, right, lower and upper some are
+    taken.
     """
     ends = np.stack([column.low[:2], column.high[:2]], axis=-1).ravel()
     off = np.abs(edges[:, :, [0, 0, 1, 1]] - ends)
@@ -63,12 +54,9 @@ def rim(edges: FloatArray, column: Box, back: float, sides: BoolArray) -> Triang
 
 
 def plate(outline: FloatArray, holes: Sequence[FloatArray], depth: float) -> Triangles:
-    """Return a flat face at some depth, seen from behind.
+    """Return a flat face at some depth [m], seen from behind.
 
-    Args:
-        outline: convex outline (right, up) [m], shape [n, 2].
-        holes: other outlines, cut out of it.
-        depth: at which it lies [m].
+    Holes are cut out of its convex outline; both are (right, up) [m], shape [n, 2].
     """
     section = manifold3d.CrossSection([outline])
     for hole in holes:

@@ -10,6 +10,7 @@ import numpy as np
 from ...articulation import Joint, JointKind
 from ...asset import Hull
 from ...mesh import BoolArray, FloatArray
+from ..poses import moved
 from .box import Box
 from .lattice import Lattice
 from .panel import FlatPanel
@@ -42,8 +43,7 @@ def entered(
     for hull in hulls:
         planes = hull.planes
         for pose in poses:
-            moved = hull.vertices @ pose[:3, :3].T + pose[:3, 3]
-            span = lattice.span(Box.around(moved).grown(margin))
+            span = lattice.span(Box.around(moved(hull.vertices, pose)).grown(margin))
             if not marked[span].size:
                 continue
             normals = planes[:, :3] @ pose[:3, :3].T
@@ -88,8 +88,8 @@ def _lines(panel: FlatPanel, joint: Joint) -> list[tuple[Joint, str]]:
         depths = {"frame": min(float(panel.frame[edge]), panel.back), **depths}
     lines = []
     for rule, depth in depths.items():
-        moved = at.copy()
-        moved[across] = ends[edge % 2]
-        moved[2] = depth
-        lines.append((replace(joint, origin=moved @ frame), rule))
+        there = at.copy()
+        there[across] = ends[edge % 2]
+        there[2] = depth
+        lines.append((replace(joint, origin=there @ frame), rule))
     return lines

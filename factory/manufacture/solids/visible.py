@@ -13,11 +13,9 @@ from ...geometry.rows import distinct_rows
 from ...geometry.triangles import areas_of
 from ...mesh import BoolArray, FloatArray, IntArray, Material, Mesh
 from ..decompose.outside import outside
-from .box import Box
-from .drawer import WALL_M
+from .boards import SHELF_M, WALL_M
 from .panel import FlatPanel
 from .seam import CutSkin
-from .shelves import THICKNESS_M as SHELF_M
 from .surfaces import boundary, flipped, inside_of, outline_of, outside_of, plate, rectangle, rim
 from .work import Workpiece
 
@@ -32,7 +30,7 @@ SPREAD = np.array([(i, j, 12 - i - j) for i in range(1, 12, 3) for j in range(1,
 def panel_surfaces(work: Workpiece, part: int) -> None:
     """Add a panel's back and rim, the opening that it leaves, hollows, and a drawer's box."""
     panel = work.panels[part]
-    own = work.skin.corners[work.skin.part == part] @ panel.side.frame.T
+    own = work.skin.of_part(part) @ panel.side.frame.T
     column = panel.reach(0.0, panel.back)
     edges = boundary(own)
     thickness = panel.thickness
@@ -45,9 +43,11 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
     if panel.is_lid:
         # Straps stand out above the seam; cuts along it left corners all round.
         points = points[points[:, 2] > panel.back - work.views[panel.side].raster.pixel]
-    outline = _clipped(outline_of(points), panel)
+    outline = outline_of(points)
     if len(outline) < 3:
         return
+    # Frames bound it.
+    outline = np.clip(outline, column.low[:2], column.high[:2])
     inner = work.lids.get(part, ())
     if not panel.through:
         back = plate(outline, [rectangle(box) for box in inner[:1]], panel.back)
@@ -64,8 +64,7 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
             work.add(0, walls, "hollow", "walls", panel=panel, thickness=wall, depth=depth)
         boards = work.shelves.get(part, ())
         if boards:
-            surface = outside_of(boards)
-            work.add(0, surface, "shelf", "usual", panel=panel, thickness=SHELF_M)
+            work.add(0, outside_of(boards), "shelf", "usual", panel=panel, thickness=SHELF_M)
     if inner:
         walls = inside_of(inner, inner[0].high[2])
         depth = inner[0].high[2] - inner[-1].low[2]
@@ -86,14 +85,6 @@ def _backed(work: Workpiece, panel: FlatPanel, triangles: FloatArray) -> FloatAr
     return np.asarray(triangles[on.reshape(len(triangles), -1).mean(axis=1) >= 0.5])
 
 
-def _clipped(outline: FloatArray, panel: FlatPanel) -> FloatArray:
-    """Return an outline within a panel's rectangle, where frames bound it."""
-    if not len(outline):
-        return outline
-    reach = panel.reach(0.0, panel.back)
-    return np.clip(outline, reach.low[:2], reach.high[:2])
-
-
 def bump_surfaces(work: Workpiece, part: int) -> None:
     """Add the base of a knob, or all of a wheel."""
     bump = work.bumps[part]
@@ -101,8 +92,7 @@ def bump_surfaces(work: Workpiece, part: int) -> None:
     if bump.normal is None:
         work.add(part, corners, "wheel", bump.rule)
         return
-    own = work.skin.corners[work.skin.part == part]
-    edges = boundary(own)
+    edges = boundary(work.skin.of_part(part))
     on_base = (np.abs(edges @ bump.normal - bump.base) < 1e-5).all(axis=1)
     across, along = _across(bump.normal)
     points = edges[on_base].reshape(-1, 3)
@@ -126,7 +116,7 @@ def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
 def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
     """Add all of a part's pieces, where its own surface is only a shred."""
     triangles = [hull.vertices[hull.faces] for hull in hulls]
-    own = areas_of(work.skin.corners[work.skin.part == part]).sum()
+    own = areas_of(work.skin.of_part(part)).sum()
     if triangles and own < SHRED * sum(areas_of(each).sum() for each in triangles):
         work.add(part, np.concatenate(triangles), "body", "pieces")
 
@@ -140,8 +130,7 @@ def kept_skin(work: Workpiece) -> CutSkin:
         local = middles @ panel.side.frame.T
         column = panel.reach(0.0, panel.back + work.config.behind_m)
         hollows = work.hollows.get(part, ()) if work.closed_behind(part) else ()
-        boxes: tuple[Box, ...] = (column, *hollows)
-        for box in boxes:
+        for box in (column, *hollows):
             gone |= box.holds(local, -1e-6) & (skin.part == 0)
         for box in work.lids.get(part, ()):
             gone |= box.holds(local, -1e-6) & (skin.part == part)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -16,7 +17,7 @@ from ...views.view import View
 from ..poses import held_by
 from .box import Box
 from .bump import Bump
-from .lattice import Lattice
+from .lattice import Lattice, Span
 from .matter import Weights
 from .panel import FlatPanel
 from .seam import CutSkin
@@ -89,6 +90,16 @@ class Workpiece:
     def closed_behind(self, part: int) -> bool:
         """Tell whether the space behind a panel is filled, so that its opening ends in a face."""
         return not self.panels[part].through and self.filled.get(part, True)
+
+    def take(self, part: int, span: Span) -> None:
+        """Make cells nobody's that are a part's."""
+        owner = self.owner[span]
+        owner[owner == part] = -1
+
+    def add_boards(self, part: int, boards: Iterable[Box], panel: FlatPanel) -> None:
+        """Add boards, in a panel's frame, to a part's pieces."""
+        hulls = (board.turned(panel.side.frame.T).hull() for board in boards)
+        self.hulls[part] += tuple(hull for hull in hulls if hull is not None)
 
     def block(self, part: int, cells: BoolArray, weight: int) -> None:
         """Mark how badly cells must stay free of a part's pieces; earlier marks stay."""

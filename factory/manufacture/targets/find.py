@@ -35,10 +35,7 @@ def find_targets(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) ->
     """Find where a robot may open each movable joint: tree order, best first, few of each.
 
     Every movable joint that moves any geometry gets at least one; its score says what it is worth.
-
-    Args:
-        articulation: at rest, joint values 0.
-        hulls: collision geometry of each part; empty ones where only the mesh is known.
+    Of a part without hulls only the mesh is known.
     """
     everything = surroundings_of(articulation, hulls)
     targets: list[Target] = []
@@ -54,13 +51,8 @@ def find_targets(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) ->
 
 def held_part(articulation: Articulation, joint: Joint) -> int | None:
     """Return the first part with a surface that a joint moves: its child, or what that carries."""
-    carried = {joint.child}
-    for other in articulation.joints[joint.child - 1 :]:
-        if other.child in carried or other.parent in carried:
-            carried.add(other.child)
-            if len(shape_of(articulation, other.child).faces):
-                return other.child
-    return None
+    carried = articulation.carried(joint.child)
+    return next((part for part in carried if len(shape_of(articulation, part).faces)), None)
 
 
 def _holds(task: HoldSearch) -> list[Target]:

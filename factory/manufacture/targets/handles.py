@@ -9,10 +9,10 @@ import numpy as np
 from ...articulation import Articulation
 from ...mesh import BoolArray, FloatArray, IntArray
 from ...part import Handle
+from ..decompose.solids import component_labels
 from .protrusions import (
     LOOKS_OUT,
     ProtrudingFront,
-    component_labels,
     front_of,
     looking,
     opening_direction,
@@ -26,21 +26,17 @@ LEVEL_M = 1e-4
 
 
 def find_handle(articulation: Articulation, part: int) -> Handle | None:
-    """Return the geometry of a part that is called its handle.
+    """Return the geometry of a part, at rest, that is called its handle.
 
     A protrusion from the part's front, if it has one: the component or cluster of faces that sticks
     out furthest from the hinge (revolute) or from the front nearest its middle (prismatic). Else
     the edge far from the hinge, the rim of what turns on the spot, or the middle of the front; the
     handle then is the flat patch around that place, so that everybody who looks for a handle's
-    geometry finds some on every moving part.
+    geometry finds some on every moving part. Pieces on fixed joints below the part count as its
+    own.
 
-    Args:
-        articulation: with the part at rest.
-        part: its index; pieces on fixed joints below it count as its own.
-
-    Returns:
-        ``None`` where no joint moves the part, or it has no geometry. ``source`` says how it was
-        found: ``protrusion``, ``far_edge``, ``rim`` or ``front``.
+    ``None`` where no joint moves the part, or it has no geometry. ``source`` says how it was found:
+    ``protrusion``, ``far_edge``, ``rim`` or ``front``.
     """
     joint = articulation.parent_joint(part)
     if joint is None or not joint.movable:
@@ -116,14 +112,9 @@ def _handle_near(
     contact, number = nearest_point(shape.corners[faces], point)
     normal = shape.normals[faces[number]]
     pull = moving.pull(contact)
+    pull = pull if pull.any() else moving.joint.axis
     held = _patch(shape, contact, normal)
-    return Handle(
-        contact,
-        normal if normal @ outward >= 0.0 else -normal,
-        pull if pull.any() else moving.joint.axis,
-        held,
-        source,
-    )
+    return Handle(contact, normal if normal @ outward >= 0.0 else -normal, pull, held, source)
 
 
 def _patch(shape: PartShape, point: FloatArray, normal: FloatArray) -> IntArray:

@@ -108,15 +108,14 @@ class HoldSearch:
         # How far the box around everything goes on in that direction.
         ahead = axes[2]
         with np.errstate(divide="ignore"):
-            way = np.where(
-                np.abs(ahead) > 1e-9, (np.where(ahead > 0.0, high, low) - point) / ahead, np.inf
-            )
+            ways = (np.where(ahead > 0.0, high, low) - point) / ahead
+        way = np.where(np.abs(ahead) > 1e-9, ways, np.inf)
         end = min(float(way.min()), GRIPPER.arm_reach)
         if end <= GRIPPER.length:
             return True
         half = GRIPPER.arm
         view = self.view(point, axes, GRIPPER.arm_reach)
-        return view.free(np.array([-half, -half, GRIPPER.length]), np.array([half, half, end]))
+        return view.free((-half, -half, GRIPPER.length), (half, half, end))
 
 
 def grasp(task: HoldSearch, pose: Pose) -> Target | None:
@@ -131,21 +130,15 @@ def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Target | None:
     window = GRIPPER.widest / 2.0 + GRIPPER.finger_thickness
     room = GRIPPER.finger_thickness + 2.0 * GRIPPER.play
     for depth, depth_worth in zip(GRIPPER.depths, DEPTH_WORTH, strict=True):
-        spans = view.spans(
-            np.array([-window, -half, -depth]), np.array([window, half, GRIPPER.play]), room
-        )
+        spans = view.spans((-window, -half, -depth), (window, half, GRIPPER.play), room)
         held = spans[(spans[:, 0] <= GRIPPER.play) & (spans[:, 1] >= -GRIPPER.play)]
         if len(held) != 1:
             continue
-        low = float(held[0, 0])
-        high = float(held[0, 1])
+        low, high = held[0].tolist()
         if high - low > GRIPPER.widest - 2.0 * GRIPPER.play:
             continue
         sides = ((high, high + room), (low - room, low))
-        if all(
-            view.free(np.array([a, -half, -depth]), np.array([b, half, GRIPPER.length]))
-            for a, b in sides
-        ):
+        if all(view.free((a, -half, -depth), (b, half, GRIPPER.length)) for a, b in sides):
             return _rated_grasp(task, pose, view, (low, high, depth), depth_worth)
     return None
 
@@ -176,10 +169,7 @@ def _rated_grasp(
     worth *= WIDE if width > GRIPPER.opening - 2.0 * GRIPPER.play else 1.0
     worth *= THIN if width < THIN_M else 1.0
     worth *= 1.0 if pose.protrudes else PLAIN
-    base = GRIPPER.finger_length - depth
-    palm = np.array([*GRIPPER.palm, 0.0])
-    floor = np.array([middle, 0.0, base])
-    if not view.free(floor - palm, floor + palm + [0.0, 0.0, GRIPPER.palm_depth]):
+    if not _fits(view, GRIPPER.palm, middle, GRIPPER.finger_length - depth):
         worth *= PALM
     if not task.arm_is_free(point, view.axes):
         worth *= ARM
@@ -194,9 +184,7 @@ def _spins(task: HoldSearch, point: FloatArray, width: float) -> bool:
 def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
     """Return the outermost own surface in the middle between the fingers [m], object frame."""
     sliver = 1e-3
-    top = view.within(
-        np.array([middle - sliver, -sliver, -depth]), np.array([middle + sliver, sliver, depth])
-    )
+    top = view.within((middle - sliver, -sliver, -depth), (middle + sliver, sliver, depth))
     height = float(top[:, :, 2].max()) if len(top) else 0.0
     return np.asarray(view.point + view.axes[0] * middle + view.axes[2] * height)
 
@@ -206,24 +194,23 @@ def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
     room = min(GRIPPER.gaps)
     view = task.view(point, _frame(task, outward), 2.0 * room)
     half = room / 4.0
-    return view.free(np.array([-half, -half, GRIPPER.off]), np.array([half, half, room]))
+    return view.free((-half, -half, GRIPPER.off), (half, half, room))
 
 
 def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Target | None:
     """Return how to push a place that faces against the opening: straight, hooked, or ``None``.
 
-    Args:
-        task: the joint to open.
-        point: on the surface [m], shape [3].
-        outward: the surface's normal there, shape [3].
+    ``point`` is on the surface [m] and ``outward`` its normal there, shape [3] each.
     """
     axes = _frame(task, outward)
     view = task.view(point, axes)
     half = GRIPPER.finger_width / 2.0
-    if view.free(np.array([-half, -half, GRIPPER.off]), np.array([half, half, GRIPPER.length])):
+    if view.free((-half, -half, GRIPPER.off), (half, half, GRIPPER.length)):
         if not task.arm_is_free(point, axes):
             return None
-        return task.target("push", point, outward, axes[0], 1.0 if _palm_is_free(view) else PALM)
+        palms = (GRIPPER.palm, GRIPPER.palm[::-1])
+        fits = any(_fits(view, palm, 0.0, GRIPPER.finger_length) for palm in palms)
+        return task.target("push", point, outward, axes[0], 1.0 if fits else PALM)
     across = (axes[0], -axes[0], axes[1], -axes[1])
     return _best(_hooked(task, view, outward, ahead, 0.0) for ahead in across) or _best(
         _hooked(task, view, outward, ahead, TILT) for ahead in across
@@ -244,12 +231,8 @@ def _hooked(
 ) -> Target | None:
     """Return a finger that comes against ``ahead``, its side towards the surface.
 
-    Args:
-        task: the joint to open.
-        near: the surroundings of the point.
-        outward: the surface's normal there.
-        ahead: across the normal; from there the hand comes.
-        tilt: how far the hand leans out over the edge that it hooks [rad], as it must in a hollow.
+    The hand comes from ``ahead``, across the surface's normal ``outward``, and leans out over the
+    edge that it hooks by ``tilt`` [rad], as it must in a hollow.
     """
     away = np.cos(tilt) * ahead - np.sin(tilt) * outward
     axes = np.stack([np.cos(tilt) * outward + np.sin(tilt) * ahead, np.cross(ahead, outward), away])
@@ -259,29 +242,23 @@ def _hooked(
     start = (EDGE_M * np.sin(tilt), EDGE_M * np.cos(tilt)) if tilt else (0.0, 0.0)
     tip = start[1] - (TIP_M if tilt else 0.5 * half)
     side = start[0] + GRIPPER.off
-    palm = np.array([GRIPPER.palm[1], GRIPPER.palm[0], 0.0])
-    floor = np.array([start[0], 0.0, tip + GRIPPER.finger_length])
     for gap, gap_worth in zip(GRIPPER.gaps, GAP_WORTH, strict=True):
         # The tip passes the point: it hooks, rather than touches.
-        if not view.free(
-            np.array([side, -half, tip]), np.array([side + gap, half, GRIPPER.length])
-        ):
+        if not view.free((side, -half, tip), (side + gap, half, GRIPPER.length)):
             continue
         if not task.arm_is_free(near.point, axes):
             return None
-        free = view.free(floor - palm, floor + palm + [0.0, 0.0, GRIPPER.palm_depth])
+        free = _fits(view, GRIPPER.palm[::-1], start[0], tip + GRIPPER.finger_length)
         worth = gap_worth * (1.0 if free else PALM) * (LEANING if tilt else 1.0)
         return task.target("hook", near.point, away, axes[1], worth)
     return None
 
 
-def _palm_is_free(view: HandView) -> bool:
-    base = GRIPPER.finger_length
-    (long, short) = GRIPPER.palm
-    return any(
-        view.free(np.array([-a, -b, base]), np.array([a, b, base + GRIPPER.palm_depth]))
-        for a, b in ((long, short), (short, long))
-    )
+def _fits(view: HandView, palm: tuple[float, float], aside: float, base: float) -> bool:
+    """Return whether a palm, half its sizes given, fits in from ``base`` on, ``aside`` [m]."""
+    across, along = palm
+    end = base + GRIPPER.palm_depth
+    return view.free((aside - across, -along, base), (aside + across, along, end))
 
 
 def _frame(task: HoldSearch, outward: FloatArray) -> FloatArray:

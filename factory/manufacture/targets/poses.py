@@ -142,9 +142,7 @@ def _fingers(
 def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the directions of the sides of the least rectangle around points, the narrow first.
 
-    Args:
-        points: [m], shape [point_count, 3].
-        normal: that they are seen along; unit, shape [3].
+    The points [m], shape [n, 3], are seen along a unit ``normal``.
     """
     first_across = across(np.eye(3)[int(np.abs(normal).argmin())], normal)
     basis = np.stack([first_across, np.cross(normal, first_across)])
@@ -171,13 +169,8 @@ def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, Float
 def spread_against(moving: Moving, most: int) -> tuple[FloatArray, FloatArray]:
     """Spread points over surface that faces against the opening: a push there opens.
 
-    Args:
-        moving: the joint and what it moves.
-        most: points.
-
-    Returns:
-        Points [m] and their normals, shapes [point_count, 3]; the best place to pull first, each
-        as far as can be from those before.
+    Returns at most so many points [m] and their normals, shape [n, 3] each; the best place to pull
+    first, each as far as can be from those before.
     """
     shape = moving.shape
     speed = moving.velocity(shape.centers)

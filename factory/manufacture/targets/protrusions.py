@@ -9,6 +9,7 @@ import numpy as np
 from ...geometry.edges import label_linked
 from ...geometry.rows import distinct_rows
 from ...mesh import BoolArray, FloatArray, IntArray
+from ..decompose.solids import component_labels
 from .shape import Moving, PartShape
 
 #: Faces within this angle of the panel's normal look outwards.
@@ -137,14 +138,6 @@ def _panel(shape: PartShape, outward: FloatArray, height: FloatArray) -> tuple[f
     # The band starts at its frontmost face, which may be a crumb: its mean is where the panel is.
     inside = slice(first, int(ends[first]))
     return float(np.average(levels[inside], weights=np.diff(areas)[inside])), tolerance
-
-
-def component_labels(faces: IntArray) -> IntArray:
-    """Return each face's component, connected by shared vertices, shape [face_count]."""
-    used, compact = np.unique(faces, return_inverse=True)
-    corners = compact.reshape(-1, 3)
-    links = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]]])
-    return label_linked(len(used), links)[corners[:, 0]]
 
 
 def _groups(shape: PartShape, candidates: IntArray) -> list[IntArray]:

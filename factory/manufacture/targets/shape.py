@@ -111,11 +111,7 @@ class Moving:
     def place(self, points: FloatArray) -> FloatArray:
         """Rate places to pull, 0 to 1: far from a hinge, near the middle of a drawer.
 
-        Args:
-            points: [m], shape [..., 3].
-
-        Returns:
-            One number for each point, shape [...].
+        Points [m] of shape [..., 3] get one number each.
         """
         if self.joint.turns:
             return np.asarray(self.lever(points) / max(self.rim, 1e-12))
@@ -163,12 +159,7 @@ def across(vector: FloatArray, normal: FloatArray) -> FloatArray:
 
 
 def nearest_points(triangles: FloatArray, point: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return each triangle's point nearest to ``point`` [m], shape [n, 3], and how far it is [m].
-
-    Args:
-        triangles: corners [m], shape [n, 3, 3].
-        point: [m], shape [3].
-    """
+    """Return the point of each triangle nearest to ``point`` [m], [n, 3], and how far it is [m]."""
     on_surface = closest_point(triangles, np.tile(point, (len(triangles), 1)))
     return on_surface, np.linalg.norm(on_surface - point, axis=1)
 

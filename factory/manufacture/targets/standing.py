@@ -7,9 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from ...articulation import Joint, JointKind
+from ...articulation import Joint
 from ...asset import Asset, Target
 from ...mesh import FloatArray
+from ..poses import closed_values
+from .shape import middle_of
 
 #: Radius of the base, and what is left free around it [m].
 BASE_RADIUS_M = 0.30
@@ -42,17 +44,9 @@ class StandingPlace:
 def standing_place(asset: Asset, joint: Joint, target: Target) -> StandingPlace | None:
     """Find the place nearest to comfort that reaches a closed object's target, clear of its way.
 
-    Args:
-        asset: closed, but for the joint.
-        joint: opened through all of its range.
-        target: how.
-
-    Returns:
-        ``None`` if there is no room within the longest distance.
+    The joint opens through all of its range. ``None`` if no place is near enough.
     """
-    closed = {
-        j.name: j.lower for j in asset.articulation.joints if j.kind is not JointKind.CONTINUOUS
-    }
+    closed = closed_values(asset.articulation)
     point, facing = _aim(asset, closed, target)
     turns, distances = (each.reshape(-1) for each in np.meshgrid(TURNS, DISTANCES_M, indexing="ij"))
     heading = np.arctan2(facing[1], facing[0]) + turns
@@ -76,7 +70,7 @@ def _aim(asset: Asset, closed: dict[str, float], target: Target) -> tuple[FloatA
     pose = asset.articulation.poses(closed)[target.part]
     point = pose[:3, :3] @ target.point + pose[:3, 3]
     vertices = asset.articulation.mesh.vertices
-    middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2.0 if len(vertices) else np.zeros(3)
+    middle = middle_of(vertices) if len(vertices) else np.zeros(3)
     # A hand comes against the normal; from straight above it comes from any side, best from the
     # object's own front.
     for direction in (pose[:3, :3] @ target.normal, pose[:3, :3] @ target.pull, point - middle):
@@ -89,10 +83,7 @@ def _aim(asset: Asset, closed: dict[str, float], target: Target) -> tuple[FloatA
 def _outlines(asset: Asset, joint: Joint, closed: dict[str, float]) -> list[FloatArray]:
     """Return convex ground outlines of all that is closed, and of what the joint moves."""
     articulation = asset.articulation
-    moved = {joint.child}
-    for other in articulation.joints:
-        if other.parent in moved:
-            moved.add(other.child)
+    moved = articulation.carried(joint.child)
     solids = [_solids(asset, part) for part in range(len(articulation.parts))]
     outlines: list[FloatArray] = []
     for value in np.linspace(joint.lower, joint.upper, STATIONS):
@@ -107,12 +98,9 @@ def _solids(asset: Asset, part: int) -> list[FloatArray]:
     hulls = asset.bodies[part].hulls
     if hulls:
         return [hull.vertices for hull in hulls]
-    faces = asset.articulation.parts[part].faces
-    return (
-        [asset.articulation.mesh.vertices[np.unique(asset.articulation.mesh.faces[faces])]]
-        if len(faces)
-        else []
-    )
+    mesh = asset.articulation.mesh
+    faces = mesh.faces[asset.articulation.parts[part].faces]
+    return [mesh.vertices[np.unique(faces)]] if len(faces) else []
 
 
 def _outline(points: FloatArray) -> FloatArray:

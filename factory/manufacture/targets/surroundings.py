@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
+import numpy.typing as npt
 
 from ...articulation import Articulation
 from ...asset import Hull
@@ -72,34 +74,22 @@ class Surroundings:
         """
         low, high = self.boxes
         rows = np.flatnonzero(((low <= point + reach) & (high >= point - reach)).all(axis=1))
-        return HandView(
-            self, point, axes, self.triangles[rows], np.isin(self.parts[rows], list(own))
-        )
+        mine = np.isin(self.parts[rows], list(own))
+        return HandView(self, point, axes, self.triangles[rows], mine)
 
 
 def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) -> Surroundings:
-    """Gather the meshes and hulls of all parts.
-
-    Args:
-        articulation: at rest.
-        hulls: collision geometry of each part; none where only the mesh is known.
-    """
+    """Gather the meshes and hulls of all parts, at rest; of some only the mesh is known."""
     mesh = articulation.mesh
     corners = [mesh.vertices[mesh.faces]]
     owners = [face_parts(articulation)]
-    boxes = []
     for part, pieces in enumerate(hulls):
-        for hull in pieces:
-            surface = hull.vertices[hull.faces]
-            corners.append(surface)
-            owners.append(np.full(len(surface), part))
-            boxes.append([hull.vertices.min(axis=0), hull.vertices.max(axis=0)])
-    return Surroundings(
-        np.concatenate(corners),
-        np.concatenate(owners),
-        tuple(hull for pieces in hulls for hull in pieces),
-        np.reshape(boxes, (-1, 2, 3)).astype(np.float64),
-    )
+        corners += [hull.vertices[hull.faces] for hull in pieces]
+        owners += [np.full(len(hull.faces), part) for hull in pieces]
+    solid = tuple(chain.from_iterable(hulls))
+    boxes = [[hull.vertices.min(axis=0), hull.vertices.max(axis=0)] for hull in solid]
+    ends = np.reshape(boxes, (-1, 2, 3)).astype(np.float64)
+    return Surroundings(np.concatenate(corners), np.concatenate(owners), solid, ends)
 
 
 @dataclass(frozen=True)
@@ -138,10 +128,10 @@ class HandView:
         below, above = self._boxes
         return np.asarray(((above >= low) & (below <= high)).all(axis=1))
 
-    def free(self, low: FloatArray, high: FloatArray) -> bool:
-        """Return whether nothing lies in a box of the frame [m]."""
-        low = low + TOUCH_M
-        high = high - TOUCH_M
+    def free(self, lowest: npt.ArrayLike, highest: npt.ArrayLike) -> bool:
+        """Return whether nothing lies in a box of the frame, between two corners [m]."""
+        low = np.asarray(lowest) + TOUCH_M
+        high = np.asarray(highest) - TOUCH_M
         if (high <= low).any():
             return True
         met = self._local[self._met(low, high)]
@@ -153,11 +143,13 @@ class HandView:
         probes = (low + high) / 2.0 + PROBES * (high - low) * 0.9
         return not self.everything.inside(self.point + probes @ self.axes).any()
 
-    def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
+    def within(self, lowest: npt.ArrayLike, highest: npt.ArrayLike) -> FloatArray:
         """Return the own geometry in a box of the frame: triangles cut to it [m], [any, 3, 3]."""
+        low = np.asarray(lowest)
+        high = np.asarray(highest)
         return clip_to_box(self._local[self.own & self._met(low, high)], low, high)
 
-    def spans(self, low: FloatArray, high: FloatArray, gap: float) -> FloatArray:
+    def spans(self, low: npt.ArrayLike, high: npt.ArrayLike, gap: float) -> FloatArray:
         """Return what of the own geometry lies in a box, along the first axis.
 
         Returns:

@@ -13,11 +13,12 @@ from ...asset import Asset
 from ...geometry.posing import face_parts
 from ...manufacture.plan import Plan
 from ...manufacture.repair import RepairKind
+from ...manufacture.separate.between import LEAST_M
 from ...manufacture.separate.sweep import free_until
 from ...mesh import FloatArray
 from .evidence import RepairEvidence, record_change
 from .mend import PLANED_M
-from .shorten import FREE_M, GAP_M
+from .shorten import FREE_M
 
 
 def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -57,12 +58,10 @@ def _free_about_the_drawn_pose(asset: Asset, joint: Joint) -> Joint:
 
     But for so much on the way as the cut that follows may plane off.
     """
-    hulls = [body.hulls for body in asset.bodies]
     onwards = replace(joint, kind=JointKind.REVOLUTE, lower=0.0, upper=MOST_TURN)
     backwards = replace(onwards, axis=-joint.axis)
     lower, upper = (
-        free_until(asset.articulation, hulls, way, PLANED_M, FREE_M, GAP_M)
-        for way in (backwards, onwards)
+        free_until(asset, way, PLANED_M, FREE_M, LEAST_M) for way in (backwards, onwards)
     )
     return replace(onwards, lower=-lower, upper=upper)
 

@@ -1,4 +1,4 @@
-"""A joint that is slightly wrong: turned round, straightened, or hung elsewhere."""
+"""A joint that is slightly wrong: turned round, straightened, hung elsewhere, or closed too far."""
 
 from __future__ import annotations
 
@@ -26,6 +26,8 @@ FREE_M = 0.0005
 #: What a hinge at an edge leaves in the way the cut that follows may plane off, for hulls were cut
 #: apart for another axis [m].
 PLANED_M = 0.013
+#: Values between the lower limit and the pose as modelled that are tried as a new lower limit.
+TRIED = 9
 #: Kinds that move a hinge to an edge.
 TO_EDGE = {
     RepairKind.HINGE_TO_FRONT_EDGE: at_front_edge,
@@ -50,6 +52,43 @@ class Mended:
     repair: Repair
     ended: Repair | None = None
     left_m: float = 0.0
+
+
+def rehang_doors(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Return all blocked hinges that were guessed at the front edges of their doors, once each."""
+    if "sweep_penetration" not in evidence.codes:
+        return None
+    blocked = {joint.joint for joint in evidence.joints() if joint.clear_until is not None}
+    new = (blocked & evidence.spare.hinges) - plan.rehung
+    if not new:
+        return None
+    moved = Repair(RepairKind.GUESSED_HINGE_MOVED, joints=tuple(sorted(new)))
+    return replace(plan, rehung=plan.rehung | new, repairs=(*plan.repairs, moved))
+
+
+def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Raise lower limits below the pose as modelled, of parts that lie in another one there.
+
+    A joint whose closed end lies in something begins where it is free, no further than as shown.
+    """
+    asset = evidence.asset
+    if asset is None or "rest_penetration" not in evidence.codes:
+        return None
+    stuck = {
+        part for each in evidence.errors if each.code == "rest_penetration" for part in each.parts
+    }
+    lower = dict(plan.lower)
+    repairs = list(plan.repairs)
+    for joint in asset.articulation.movable_joints:
+        child = asset.articulation.parts[joint.child].name
+        if joint.name in plan.lower or child not in stuck or not joint.lower < 0.0:
+            continue
+        begins = _free_from(asset, joint, evidence.config.least_range_share)
+        if begins is not None:
+            lower[joint.name] = begins
+            kind = RepairKind.CLOSED_END_PULLED_IN
+            repairs.append(record_change(kind, joint.name, joint.lower, begins, joint.unit))
+    return None if lower == plan.lower else replace(plan, lower=lower, repairs=tuple(repairs))
 
 
 def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -87,11 +126,8 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         others = list(_at_lines(asset.articulation, joint, lines))
         if shares[joint.name] < BLOCKED_SHARE and joint.lower == 0.0:
             others += _turned_as(asset.articulation, joint, lines)
-        change = min(
-            (each for each in (own, _freed(asset, others)) if each is not None),
-            key=lambda each: each.left_m,
-            default=None,
-        )
+        options = [each for each in (own, _freed(asset, others)) if each is not None]
+        change = min(options, key=lambda each: each.left_m, default=None)
         least = evidence.config.least_range_share
         stuck = shares[joint.name] < least and joint.name not in evidence.spare.joints
         if change is None and stuck:
@@ -100,6 +136,18 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         if change is not None:
             found[joint.name] = change
     return _with(plan, found, shares) if found else None
+
+
+def _free_from(asset: Asset, joint: Joint, least_share: float) -> float | None:
+    """Return the lowest limit towards which nothing gets deeper; ``None`` if there is none."""
+    for value in np.linspace(joint.lower, 0.0, TRIED + 1)[1:]:
+        if (joint.upper - value) < least_share * joint.range:
+            return None
+        # From the pose as modelled down to the limit: what lies in something there gets deeper.
+        down = replace(joint, axis=-joint.axis, lower=0.0, upper=-float(value))
+        if value == 0.0 or swept_m(asset, down, FREE_M) <= FREE_M:
+            return float(value)
+    return None
 
 
 def _with(plan: Plan, found: Mapping[str, Mended], shares: Mapping[str, float]) -> Plan:
@@ -116,11 +164,10 @@ def _with(plan: Plan, found: Mapping[str, Mended], shares: Mapping[str, float]) 
 
 def _freed(asset: Asset, changes: Iterable[Mended]) -> Mended | None:
     """Return the first change that frees the joint all along, else the one that leaves least."""
-    hulls = [body.hulls for body in asset.bodies]
     best = None
     for change in changes:
         most_m = PLANED_M if change.repair.kind in HUNG else FREE_M
-        left_m = swept_m(asset.articulation, hulls, change.joint, most_m)
+        left_m = swept_m(asset, change.joint, most_m)
         if left_m <= FREE_M:
             return change
         if left_m <= most_m and (best is None or left_m < best.left_m):
@@ -130,16 +177,12 @@ def _freed(asset: Asset, changes: Iterable[Mended]) -> Mended | None:
 
 def _freed_early(asset: Asset, changes: Iterable[Mended], least_share: float) -> Mended | None:
     """Return the change that frees the joint furthest, ended there; ``None`` if not far enough."""
-    hulls = [body.hulls for body in asset.bodies]
     changes = list(changes)
     for share in SHORTER:
         for change in changes if share >= least_share else ():
             joint = change.joint
             shorter = replace(joint, upper=joint.lower + share * joint.range)
-            if (
-                shorter.upper >= 0.0
-                and swept_m(asset.articulation, hulls, shorter, FREE_M) <= FREE_M
-            ):
+            if shorter.upper >= 0.0 and swept_m(asset, shorter, FREE_M) <= FREE_M:
                 kind = RepairKind.RANGE_SHORTENED
                 ended = record_change(kind, joint.name, joint.upper, shorter.upper, joint.unit)
                 return replace(change, joint=shorter, ended=ended)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from ...asset import Asset
 from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
+from ...manufacture.separate.between import LEAST_M
 from ...manufacture.separate.sweep import swept_m
 from .evidence import RepairEvidence, record_change
 from .give_up import BY_A_GUESS
@@ -15,8 +16,6 @@ from .give_up import BY_A_GUESS
 SHORTER = (0.98, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6, 0.5)
 #: What is no deeper than this is no penetration [m].
 FREE_M = 1e-4
-#: PyBullet stops what comes nearer [m].
-GAP_M = 0.002
 
 
 def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -87,12 +86,11 @@ def _free_end(asset: Asset | None, name: str, clear_until: float) -> float | Non
     if asset is None:
         return clear_until
     joint = asset.articulation.joint(name)
-    hulls = [body.hulls for body in asset.bodies]
     for share in SHORTER:
         shorter = replace(joint, upper=joint.lower + share * (clear_until - joint.lower))
         # The pose as modelled is never left out.
         if shorter.upper < 0.0 or shorter.range <= 0.0:
             continue
-        if swept_m(asset.articulation, hulls, shorter, FREE_M, GAP_M) <= FREE_M:
+        if swept_m(asset, shorter, FREE_M, LEAST_M) <= FREE_M:
             return shorter.upper
     return None

@@ -4,8 +4,7 @@ import numpy as np
 from plain_solids import box_between
 
 from asset_factory.factory.articulation import Articulation, Joint, Part
-from asset_factory.factory.manufacture.lying import lying_on
-from asset_factory.factory.manufacture.plan import Plan, as_planned, dispensable_joints
+from asset_factory.factory.manufacture.plan import Plan, as_planned, dispensable_joints, lying_on
 from asset_factory.factory.mesh import concatenate
 
 

@@ -111,7 +111,7 @@ def test_a_hinge_in_what_the_door_lies_before_goes_to_the_edge_between_them():
     assert "54.1 mm off its panel's back edge" in plan.repairs[-1].sentence
     hung = as_planned(inside.articulation, plan).joints[0]
     assert hung.origin[:2] == pytest.approx((-0.3, -0.205))
-    assert swept_m(inside.articulation, [body.hulls for body in inside.bodies], hung) < 1e-4
+    assert swept_m(inside, hung) < 1e-4
 
 
 @pytest.mark.parametrize(("deep", "left"), [(0.008, True), (0.03, False)])
@@ -217,8 +217,7 @@ def test_what_turns_without_end_is_as_drawn_while_another_part_moves():
     knob = Joint("knob", JointKind.CONTINUOUS, 0, 2, UP, (0.5, -0.5, 0.0), -np.pi, np.pi)
     arm = [((0.4, 0.02, 0.1), (0.75, -0.5, 0.0))]
     asset = with_more(cabinet(axis=DOWN), "arm", arm, knob)
-    hulls = [body.hulls for body in asset.bodies]
-    assert swept_m(asset.articulation, hulls, asset.articulation.joints[0]) < 1e-6
+    assert swept_m(asset, asset.articulation.joints[0]) < 1e-6
 
 
 @pytest.mark.parametrize("code", ["jammed", "rest_penetration"])
@@ -256,7 +255,7 @@ def test_a_joint_that_is_ended_early_ends_where_it_touches_nothing():
     assert not plan.mended
     ended = replace(asset.articulation.joints[0], upper=plan.upper["hinge"])
     assert 2.75 < ended.upper < 4.75
-    assert swept_m(asset.articulation, [body.hulls for body in asset.bodies], ended) < 1e-4
+    assert swept_m(asset, ended) < 1e-4
 
 
 def test_a_closed_end_that_lies_in_something_is_pulled_in():
@@ -292,6 +291,5 @@ def test_a_joint_that_is_never_free_gets_no_end():
 def test_a_way_is_looked_at_up_to_its_very_end():
     # The door stands 5 mm before the block, and is pushed 6 mm towards it.
     asset = cabinet(axis=(0.0, 1.0, 0.0), upper=0.006, kind=JointKind.PRISMATIC)
-    hulls = [body.hulls for body in asset.bodies]
-    deepest = swept_m(asset.articulation, hulls, asset.articulation.joints[0])
+    deepest = swept_m(asset, asset.articulation.joints[0])
     assert deepest == pytest.approx(0.001)

@@ -8,9 +8,9 @@ from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.intake.categories import Category
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.separate.clip import meeting
+from asset_factory.factory.manufacture.solids.boards import SHELF_M, shelf_boards
 from asset_factory.factory.manufacture.solids.box import Box
 from asset_factory.factory.manufacture.solids.build import solids
-from asset_factory.factory.manufacture.solids.shelves import THICKNESS_M, shelf_boards
 
 CONFIG = SolidsConfig()
 SHELVED = Category("cupboard", "height", 0.9, (0.3, 2.0), shelves=0.3, liner="#ff0000")
@@ -24,7 +24,7 @@ def test_shelves_divide_a_hollow_evenly(spacing, count):
     edges = [0.1, *((board.low[1] + board.high[1]) / 2.0 for board in boards), 1.0]
     np.testing.assert_allclose(np.diff(edges), 0.9 / (count + 1))
     for board in boards:
-        assert board.size[1] == pytest.approx(THICKNESS_M)
+        assert board.size[1] == pytest.approx(SHELF_M)
         assert board.low[2] > HOLLOW.low[2]
         np.testing.assert_array_equal(board.size[[0]], HOLLOW.size[[0]])
 

@@ -15,12 +15,12 @@ from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry import posing
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.manufacture.decompose.convex import depth_below
+from asset_factory.factory.manufacture.solids.boards import BOTTOM_M, HEIGHT, STOP_M, drawer_box
+from asset_factory.factory.manufacture.solids.boards import CLEAR_M as DRAWER_CLEAR_M
 from asset_factory.factory.manufacture.solids.box import Box
 from asset_factory.factory.manufacture.solids.build import solids
 from asset_factory.factory.manufacture.solids.bump import CLEAR_M, find_bump
 from asset_factory.factory.manufacture.solids.cavity import hollow
-from asset_factory.factory.manufacture.solids.drawer import BOTTOM_M, HEIGHT, STOP_M, drawer_box
-from asset_factory.factory.manufacture.solids.drawer import CLEAR_M as DRAWER_CLEAR_M
 from asset_factory.factory.manufacture.solids.frame import working_frame
 from asset_factory.factory.manufacture.solids.lattice import Lattice, enclosed
 from asset_factory.factory.manufacture.solids.matter import PATH, Matter

@@ -1,0 +1,73 @@
+"""Boards behind a panel: a drawer's box, clear of the carcass, and the shelves behind a door."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .box import Box
+
+#: Between the box and the hollow that it slides in, each side [m].
+CLEAR_M = 0.003
+#: The box ends this far before the hollow's back [m].
+STOP_M = 0.006
+#: Share of the hollow's height.
+HEIGHT = 0.85
+BOTTOM_M = 0.008
+WALL_M = 0.01
+#: A box that would be lower or narrower is none [m].
+LEAST_M = 0.016
+SHELF_M = 0.016
+#: Before a shelf there is room for what a door holds on its inner side [m].
+SETBACK_M = 0.03
+
+
+def drawer_box(hollow: Box, back: float, up: int = 1) -> tuple[Box, ...]:
+    """Return the boards of a drawer's box: bottom, left, right and back; none without room.
+
+    The hollow that it slides in and the boards are in the frame of the drawer's front: right, up,
+    away; ``up`` is the axis that points up. Bottom and sides reach to the front's ``back`` [m].
+    """
+    low = hollow.low + CLEAR_M
+    high = hollow.high - np.array([CLEAR_M, CLEAR_M, STOP_M])
+    low[2] = back
+    high[up] = low[up] + HEIGHT * (high[up] - low[up])
+    if (high - low).min() < LEAST_M:
+        return ()
+    across = 1 - up
+    outer = Box(low, high)
+    bottom = _part(outer, up, low[up], low[up] + BOTTOM_M)
+    above = _part(outer, up, low[up] + BOTTOM_M, high[up])
+    left = _part(above, across, low[across], low[across] + WALL_M)
+    right = _part(above, across, high[across] - WALL_M, high[across])
+    between = _part(above, across, low[across] + WALL_M, high[across] - WALL_M)
+    return bottom, left, right, _part(between, 2, high[2] - WALL_M, high[2])
+
+
+def shelf_boards(hollows: Sequence[Box], spacing: float, up: int = 1) -> tuple[Box, ...]:
+    """Return the shelves that hold the walls of a hollow apart, the lowest first.
+
+    Boxes of the hollow, behind one another, and boards are in the frame of the door: right, up,
+    away; ``up`` is the axis that points up. None where the hollow is lower than one and a half of
+    the usual spacing of shelves [m], or too shallow.
+    """
+    low = np.max([box.low for box in hollows], axis=0)
+    low[2] = hollows[0].low[2] + SETBACK_M
+    high = np.min([box.high for box in hollows], axis=0)
+    high[2] = hollows[-1].high[2]
+    if (high - low).min() <= 2.0 * SHELF_M:
+        return ()
+    rooms = max(round(float(high[up] - low[up]) / spacing), 1)
+    heights = np.linspace(low[up], high[up], rooms + 1)[1:-1]
+    half = 0.5 * SHELF_M
+    return tuple(_part(Box(low, high), up, at - half, at + half) for at in heights.tolist())
+
+
+def _part(box: Box, axis: int, start: float, end: float) -> Box:
+    """Return the part of a box between two planes across an axis [m]."""
+    low = box.low.copy()
+    high = box.high.copy()
+    low[axis] = start
+    high[axis] = end
+    return Box(low, high)
