@@ -34,11 +34,7 @@ class StaticCheck:
 #: Every check, in the order in which they speak.
 CHECKS = (
     StaticCheck("lint", lambda file, config: check_lint(file, config.lint), native=False),
-    StaticCheck(
-        "attachment",
-        lambda file, config: check_attachment(file, config.lint),
-        needs_tree=True,
-    ),
+    StaticCheck("attachment", lambda file, config: check_attachment(file, config.lint), True),
     StaticCheck("standing", lambda file, config: check_standing(file, config.standing)),
     StaticCheck(
         "penetration",

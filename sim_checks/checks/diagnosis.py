@@ -93,11 +93,11 @@ class Diagnosis:
             return sweep
         course = JointCourse(sweep.joint, self.pairs, self.rest, self.config, self.rest.lower)
         otherwise = cache(lambda: self._least_otherwise(course))
-        pairs = tuple(
+        pairs = (
             self._failing(pair, sweep, course, otherwise) if pair in failing else pair
             for pair in sweep.pairs
         )
-        return replace(sweep, pairs=pairs)
+        return replace(sweep, pairs=tuple(pairs))
 
     def _with_clearance(self, sweep: JointSweep) -> JointSweep:
         if not sweep.pairs:
@@ -161,12 +161,10 @@ class Diagnosis:
         # Along the part's widest direction only: the hinge stays on the face that it is on.
         reach = (points - own.origin) @ widest
         near, far = sorted((float(reach.min()), float(reach.max())), key=abs)
-        edges = own.origin + near * widest, own.origin + far * widest
-        return (
-            around,
-            *(replace(own, origin=edge) for edge in edges),
-            replace(around, origin=edges[1]),
-        )
+        nearer = own.origin + near * widest
+        farther = own.origin + far * widest
+        hung = [(own, nearer), (own, farther), (around, farther)]
+        return (around, *(replace(path, origin=edge) for path, edge in hung))
 
     def _both_open(self, item: BothOpen) -> BothOpen:
         if item.pair.excess <= self.config.excess_m:

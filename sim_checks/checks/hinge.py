@@ -32,14 +32,12 @@ def knuckles(
         overlaps: the pairs that overlap, all between the two parts that the hinge joins.
         path: the hinge's turn.
         moving: the part that turns.
-        config: the hinge's radius and the largest share of the hinge's length that a knuckle may
-            take.
+        config: the hinge's radius, and the share of its length that a knuckle may take.
     """
     inside: dict[tuple[int, int], FloatArray] = {}
     for pair in overlaps:
-        region = contact_region(
-            solids.items[pair.first].collider.hull, solids.items[pair.second].collider.hull
-        )
+        one, other = (solids.items[index].collider.hull for index in (pair.first, pair.second))
+        region = contact_region(one, other)
         if len(region) and within(region, path, config.hinge_radius_m):
             inside[pair.first, pair.second] = region
     if not inside:

@@ -29,12 +29,7 @@ def judge_in_simulator(
     """Load and drive the file in one engine, in one child process, and check both.
 
     A crash, a hang, a missing engine or a format it does not load is a finding, never an exception.
-
-    Args:
-        description: as read.
-        name: of the engine.
-        config: thresholds.
-        child: who looks; ``None`` for a child of this call's own.
+    Without a ``child`` that looks, one is started for this call.
 
     Raises:
         ValueError: if there is no engine of this name.
@@ -52,12 +47,10 @@ def judge_in_simulator(
     too_large = undriven(description, name, config.work)
     if too_large is not None:
         return CheckResult((too_large,))
-    samples = pose_samples(description)
-    apart = joints_apart(description)
+    asked = (name, description.path, config.motion)
+    together = (pose_samples(description), joints_apart(description))
     ask = run_isolated if child is None else child.call
-    outcome = ask(
-        observe, name, description.path, config.motion, samples, apart, limits=config.child.limits
-    )
+    outcome = ask(observe, *asked, *together, limits=config.child.limits)
     if outcome.value is None:
         return CheckResult((_failure(outcome, name, description.path),))
     observation = outcome.value

@@ -28,20 +28,15 @@ MOST_NAMED = 5
 
 
 def check_lint(description: Description, config: LintConfig) -> CheckResult:
-    """Check all that can be known without moving anything.
-
-    Args:
-        description: as read.
-        config: what a sound file looks like.
-    """
+    """Check all that can be known without moving anything."""
     findings = [*_tree_findings(description)]
     for joint in description.joints:
-        findings.extend(_joint_findings(joint, description, config))
-    findings.extend(range_findings(description, config))
-    findings.extend(resistance_findings(description, config))
-    findings.extend(mimic_findings(description))
-    findings.extend(_exempt_findings(description))
-    findings.extend(missing_inertia_findings(description))
+        findings += _joint_findings(joint, description, config)
+    findings += range_findings(description, config)
+    findings += resistance_findings(description, config)
+    findings += mimic_findings(description)
+    findings += _exempt_findings(description)
+    findings += missing_inertia_findings(description)
     links: list[dict[str, Any]] = []
     touchable = any(link.collisions for link in description.links)
     downs = _downs(description)
@@ -51,19 +46,18 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
             name = repr(link.name)
             message = f"link {name} is visible but has no collision geometry: hands pass through it"
             findings.append(error("no_collision", message, parts=(link.name,)))
-        findings.extend(inertia_findings(link, config))
+        findings += inertia_findings(link, config)
         found, numbers = shape_findings(link, downs.get(link.name, DOWN), config)
-        findings.extend(found)
+        findings += found
         links.append({"link": link.name, **numbers})
     if not touchable:
         message = "no link has collision geometry: nothing can be touched or held"
         findings.append(error("no_collision", message))
-    moving = sum(joint.kind in MOVING_KINDS for joint in description.joints)
     measurements = {
         "format": description.format,
         "links": links,
         "joints": len(description.joints),
-        "moving_joints": moving,
+        "moving_joints": sum(joint.kind in MOVING_KINDS for joint in description.joints),
         "collision_shapes": sum(len(link.collisions) for link in description.links),
     }
     return CheckResult(tuple(findings), measurements)
@@ -91,50 +85,46 @@ def _tree_findings(description: Description) -> Iterator[Finding]:
 def _joint_findings(
     joint: JointLine, description: Description, config: LintConfig
 ) -> Iterator[Finding]:
+    subject = about(joint)
+    name = f"joint {joint.name!r}"
     if joint.kind not in KNOWN_KINDS:
-        free = joint.kind == "floating" and not any(
-            other.child == joint.parent for other in description.joints
-        )
-        message = (
-            f"joint {joint.name!r} is of type {joint.kind!r}; want one of {', '.join(KNOWN_KINDS)}"
-        )
-        yield graded(not free, "unknown_joint_type", message, **about(joint))
+        held = any(other.child == joint.parent for other in description.joints)
+        message = f"{name} is of type {joint.kind!r}; want one of {', '.join(KNOWN_KINDS)}"
+        grave = held or joint.kind != "floating"
+        yield graded(grave, "unknown_joint_type", message, **subject)
         return
     if joint.kind == "fixed":
         return
     length = float(np.linalg.norm(joint.axis))
     if length < UNIT or not np.isfinite(length):
-        message = f"joint {joint.name!r} has axis {joint.axis.tolist()}, want one of length 1"
-        yield error("zero_axis", message, **about(joint))
+        message = f"{name} has axis {joint.axis.tolist()}, want one of length 1"
+        yield error("zero_axis", message, **subject)
     elif abs(length - 1.0) > UNIT:
         far = abs(length - 1.0) > config.axis_slack
-        message = (
-            f"joint {joint.name!r} has an axis of length {length:.4g}, want 1; "
-            "loaders scale motion by it or not"
-        )
-        yield graded(far, "axis_not_unit", message, **about(joint), value=length, limit=1.0)
+        words = "loaders scale motion by it or not"
+        message = f"{name} has an axis of length {length:.4g}, want 1; {words}"
+        yield graded(far, "axis_not_unit", message, **subject, value=length, limit=1.0)
     if joint.kind != "continuous":
         yield from _limit_findings(joint)
     for word, number in (("damping", joint.damping), ("friction", joint.friction)):
         if not (np.isfinite(number) and number >= 0.0):
-            message = f"joint {joint.name!r} has {word} {number}, want 0 or more"
-            yield error("invalid_dynamics", message, **about(joint))
+            yield error(
+                "invalid_dynamics", f"{name} has {word} {number}, want 0 or more", **subject
+            )
 
 
 def _limit_findings(joint: JointLine) -> Iterator[Finding]:
     subject = about(joint)
+    name = f"joint {joint.name!r}"
     unit = joint.unit
     if joint.lower is None or joint.upper is None:
-        yield error(
-            "missing_limits", f"joint {joint.name!r} ({joint.kind}) has no limits", **subject
-        )
+        yield error("missing_limits", f"{name} ({joint.kind}) has no limits", **subject)
         return
     if not (np.isfinite(joint.lower) and np.isfinite(joint.upper)):
-        ends = f"{joint.lower} .. {joint.upper} {unit}"
-        message = f"joint {joint.name!r} has limits {ends}, want finite ones"
+        message = f"{name} has limits {joint.lower} .. {joint.upper} {unit}, want finite ones"
         yield error("limits_not_finite", message, **subject)
         return
-    said = f"joint {joint.name!r} has limits {joint.lower:g} .. {joint.upper:g} {unit}"
+    said = f"{name} has limits {joint.lower:g} .. {joint.upper:g} {unit}"
     if joint.lower >= joint.upper:
         message = f"{said}: want lower below upper"
         value = joint.upper - joint.lower
@@ -150,8 +140,6 @@ def _exempt_findings(description: Description) -> Iterator[Finding]:
         return
     pairs = sorted(" and ".join(sorted(pair)) for pair in description.excluded)
     more = f" and {len(pairs) - MOST_NAMED} more" if len(pairs) > MOST_NAMED else ""
-    message = (
-        f"its SRDF exempts {len(pairs)} pairs of links from collision: "
-        f"{', '.join(pairs[:MOST_NAMED])}{more}"
-    )
+    named = f"{', '.join(pairs[:MOST_NAMED])}{more}"
+    message = f"its SRDF exempts {len(pairs)} pairs of links from collision: {named}"
     yield warning("pairs_exempt", message, value=float(len(pairs)), unit="pairs")

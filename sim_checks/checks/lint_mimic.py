@@ -8,7 +8,7 @@ from ..description import ABSURD, Description, JointLine, Mimic, sensible
 from ..geometry.coupling import Limits, common_range, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
 from ..report import Finding
-from .result import about, error, graded
+from .result import about, error, graded, rounded
 
 #: Limits written with few digits may miss what the leader asks by this share of the follower's
 #: range.
@@ -24,24 +24,19 @@ def mimic_findings(description: Description) -> Iterator[Finding]:
         mimic = joint.mimic
         if mimic is None:
             continue
+        follows = f"joint {joint.name!r} follows {mimic.leader!r}"
         if not sensible((mimic.multiplier, mimic.offset)):
-            message = (
-                f"joint {joint.name!r} follows {mimic.leader!r} by {mimic.multiplier} times its "
-                f"value plus {mimic.offset}; want finite numbers up to {ABSURD:g}"
-            )
+            numbers = f"{mimic.multiplier} times its value plus {mimic.offset}"
+            message = f"{follows} by {numbers}; want finite numbers up to {ABSURD:g}"
             yield error("mimic_not_finite", message, **about(joint))
         elif joint.name in sound:
             whole = wholes[joint.name]
-            others = [
-                (other, limits)
-                for name, other in wholes.items()
-                if other.leader == whole.leader and (limits := own_limits(moving[name])) is not None
-            ]
+            led = {name: each for name, each in wholes.items() if each.leader == whole.leader}
+            limited = ((each, own_limits(moving[name])) for name, each in led.items())
+            others = [(each, limits) for each, limits in limited if limits is not None]
             yield from _limit_findings(joint, moving[whole.leader], whole, others)
         elif joint.kind in MOVING_KINDS:
-            message = (
-                f"joint {joint.name!r} follows {mimic.leader!r}, {_fault(joint, mimic, moving)}"
-            )
+            message = f"{follows}, {_fault(joint, mimic, moving)}"
             yield error("mimic_unknown", message, **about(joint))
 
 
@@ -72,10 +67,6 @@ def _limit_findings(
             f"takes it from {asked[0]:g} to {asked[1]:g}: {beyond:.4g} {unit} too far"
         )
         if stuck:
-            message += (
-                f"; nowhere are all that move with {leader.name!r} within their limits, so none can"
-            )
-        far = round(beyond, 6)
-        yield graded(
-            stuck, "mimic_limits", message, **about(joint), value=far, unit=unit, limit=0.0
-        )
+            all_led = f"all that move with {leader.name!r}"
+            message += f"; nowhere are {all_led} within their limits, so none can"
+        yield graded(stuck, "mimic_limits", message, **about(joint), **rounded(beyond, unit, 0.0))

@@ -12,7 +12,7 @@ from ..description import Description, FloatArray, JointLine
 from ..geometry.kinematics import MOVING_KINDS, Tree, find_tree, sweep_range, unit_axis
 from ..geometry.placing import box_gap, diagonal, placed, shape_corners
 from ..report import Finding
-from .result import about, error, finite, graded, significant, warning
+from .result import about, error, graded, measured, rounded, significant, warning
 
 #: Directions in the half-degrees of a circle in which an axis may stand off.
 AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
@@ -28,13 +28,11 @@ def range_findings(description: Description, config: LintConfig) -> Iterator[Fin
     for joint in description.joints:
         if joint.kind not in MOVING_KINDS:
             continue
-        limits = (joint.lower, joint.upper)
-        if joint.kind != "continuous" and all(
-            limit is not None and math.isfinite(limit) for limit in limits
-        ):
-            yield from _size_findings(
-                joint, (joint.upper or 0.0) - (joint.lower or 0.0), across, config
-            )
+        ends = (joint.lower, joint.upper)
+        stated = all(end is not None and math.isfinite(end) for end in ends)
+        if stated and joint.kind != "continuous":
+            length = (joint.upper or 0.0) - (joint.lower or 0.0)
+            yield from _size_findings(joint, length, across, config)
         yield from _drive_findings(joint)
         if tree is not None:
             yield from _place_findings(joint, tree, poses, boxes, config)
@@ -53,21 +51,15 @@ def _size_findings(
     if length > most:
         turns = f"that is {length / (2 * math.pi):.3g} turns"
         of = f"the object is {across:.3g} m across" if slides else turns
-        message = (
-            f"joint {joint.name!r} moves by {length:.6g} {unit}, "
-            f"but {of}{_slip(length, across, slides)}"
-        )
-        limit = float(f"{most:.6g}")
-        yield error(
-            "range_implausible", message, **about(joint), value=value, unit=unit, limit=limit
-        )
+        but = f"{of}{_slip(length, across, slides)}"
+        message = f"joint {joint.name!r} moves by {length:.6g} {unit}, but {but}"
+        told = measured(value, unit, significant(most))
+        yield error("range_implausible", message, **about(joint), **told)
     elif 0.0 < length < least:
-        message = (
-            f"joint {joint.name!r} moves by {length:.3g} {unit} and so opens nothing, "
-            f"want {least:.3g} at least"
-        )
-        limit = float(f"{least:.6g}")
-        yield warning("range_tiny", message, **about(joint), value=value, unit=unit, limit=limit)
+        message = f"joint {joint.name!r} moves by {length:.3g} {unit} and so opens nothing, "
+        message += f"want {least:.3g} at least"
+        told = measured(value, unit, significant(least))
+        yield warning("range_tiny", message, **about(joint), **told)
 
 
 def _slip(length: float, across: float, slides: bool) -> str:
@@ -82,12 +74,9 @@ def _slip(length: float, across: float, slides: bool) -> str:
 def _drive_findings(joint: JointLine) -> Iterator[Finding]:
     for word, number in (("effort", joint.effort), ("velocity", joint.velocity)):
         if number is not None and not number > 0.0:
-            message = (
-                f"joint {joint.name!r} has {word} {number:g} in its limit: "
-                "nothing may move it; want more than 0"
-            )
-            value = finite(number)
-            yield warning("invalid_effort", message, **about(joint), value=value, limit=0.0)
+            message = f"joint {joint.name!r} has {word} {number:g} in its limit: "
+            message += "nothing may move it; want more than 0"
+            yield warning("invalid_effort", message, **about(joint), **measured(number, limit=0.0))
 
 
 def _place_findings(
@@ -110,13 +99,10 @@ def _place_findings(
             f"the part that joint {joint.name!r} moves is {gap:.3g} m away from the rest of the "
             f"object, further than the size of either; want at most {most:.3g} m"
         )
-        value = round(gap, 6)
-        limit = round(most, 6)
-        yield error("part_remote", message, **about(joint), value=value, unit="m", limit=limit)
+        yield error("part_remote", message, **about(joint), **rounded(gap, "m", most))
     elif joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
-        yield from _axis_findings(
-            joint, poses[joint.child], (np.vstack(moved), np.vstack(rest)), size, config
-        )
+        groups = (np.vstack(moved), np.vstack(rest))
+        yield from _axis_findings(joint, poses[joint.child], groups, size, config)
 
 
 def _axis_findings(
@@ -134,11 +120,8 @@ def _axis_findings(
             f"the axis of joint {joint.name!r} passes {distance:.3g} m beside every part, "
             f"further than the size of the part that it moves, {size:.3g} m; a hinge is on a part"
         )
-        value = round(distance, 6)
-        limit = round((config.axis_hard if hard else config.axis_soft) * size, 6)
-        yield graded(
-            hard, "axis_remote", message, **about(joint), value=value, unit="m", limit=limit
-        )
+        limit = (config.axis_hard if hard else config.axis_soft) * size
+        yield graded(hard, "axis_remote", message, **about(joint), **rounded(distance, "m", limit))
 
 
 def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
@@ -153,9 +136,8 @@ def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
 
 def closed_poses(tree: Tree) -> dict[str, FloatArray]:
     """Link frames with every joint at lower, in the root's frame, shape [4, 4] each."""
-    return tree.link_poses(
-        {joint.name: limits[0] for joint in tree.free if (limits := sweep_range(joint)) is not None}
-    )
+    limits = ((joint.name, sweep_range(joint)) for joint in tree.free)
+    return tree.link_poses({name: ends[0] for name, ends in limits if ends is not None})
 
 
 def _boxes(description: Description, poses: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
