@@ -95,9 +95,8 @@ def _identifier(reference: str, layer: Any) -> str:
 
     path, _ = Sdf.Layer.SplitIdentifier(reference)
     if "`" in path:
-        raise DescriptionError(
-            "unknown_format", f"reference {reference[:160]!r}: is computed; want a plain file name"
-        )
+        message = f"reference {reference[:160]!r}: is computed; want a plain file name"
+        raise DescriptionError("unknown_format", message)
     if _SCHEME.match(path) or "\0" in path:
         raise _outside(reference)
     found = str(Sdf.ComputeAssetPathRelativeToLayer(layer, path))
@@ -118,9 +117,8 @@ def _own_file(identifier: str, root: Path) -> Path:
     if not path.is_absolute() or not path.resolve().is_relative_to(root):
         raise _outside(outer)
     if not is_usd(path):
-        raise DescriptionError(
-            "unknown_format", f"{path.name}: want one of {', '.join(sorted(SUFFIXES))}"
-        )
+        message = f"{path.name}: want one of {', '.join(sorted(SUFFIXES))}"
+        raise DescriptionError("unknown_format", message)
     if not path.is_file():
         raise DescriptionError("missing_file", f"{path.name}: is named by a layer and not there")
     return path.resolve()
@@ -140,14 +138,10 @@ def _refuse_clips(layer: Any) -> None:
 
     layer.Traverse(Sdf.Path.absoluteRootPath, look)
     if found:
-        raise DescriptionError(
-            "unknown_format", f"prim {found[0]}: has value clips; want geometry that stands still"
-        )
+        message = f"prim {found[0]}: has value clips; want geometry that stands still"
+        raise DescriptionError("unknown_format", message)
 
 
 def _outside(reference: str) -> DescriptionError:
-    name = Path(reference).name[:160]
-    return DescriptionError(
-        "outside_folder",
-        f"reference to {name!r} leads outside the object's folder; put the file there",
-    )
+    leads = f"reference to {Path(reference).name[:160]!r} leads outside the object's folder"
+    return DescriptionError("outside_folder", f"{leads}; put the file there")
