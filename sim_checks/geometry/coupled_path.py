@@ -127,9 +127,8 @@ class CoupledOrbit:
 
     def _heights(self, direction: FloatArray, at: FloatArray) -> FloatArray:
         poses = self.path.poses(at)
-        return (direction @ poses[:, :3, :3]) @ self.start.T + (poses[:, :3, 3] @ direction)[
-            :, None
-        ]
+        lifted = (poses[:, :3, 3] @ direction)[:, None]
+        return (direction @ poses[:, :3, :3]) @ self.start.T + lifted
 
 
 AnyPath = Path | CoupledPath

@@ -136,9 +136,8 @@ def patch(
     corners = corners[inside]
     if len(rows) == 0:
         return None
-    return Patch(
-        surface, pose, rows, corners.reshape(-1, 3), np.arange(3 * len(rows)).reshape(-1, 3)
-    )
+    faces = np.arange(3 * len(rows)).reshape(-1, 3)
+    return Patch(surface, pose, rows, corners.reshape(-1, 3), faces)
 
 
 def patches(
