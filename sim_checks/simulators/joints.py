@@ -95,12 +95,9 @@ def pressing(world: World, index: int) -> tuple[str, str] | None:
         Names in the order of the model's links; ``None`` if nothing presses.
     """
     moved = world.carried[index]
-    across = [
-        (touch.force, touch.depth, pair)
-        for pair, touch in world.contacts().items()
-        if touch.presses and (pair[0] in moved) != (pair[1] in moved)
-    ]
-    return max(across)[2] if across else None
+    presses = ((pair, touch) for pair, touch in world.contacts().items() if touch.presses)
+    across = ((p, touch) for p, touch in presses if (p[0] in moved) != (p[1] in moved))
+    return max(((t.force, t.depth, p) for p, t in across), default=(0.0, 0.0, None))[2]
 
 
 def any_carried(world: World) -> bool:
