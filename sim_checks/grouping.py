@@ -56,14 +56,14 @@ def told_once(finding: Finding) -> Hashable:
 def described(report: Report) -> Hashable:
     """Return the joints, their ranges and the links with shapes; ``None`` where that is unknown.
 
-    Files of one asset share it: what was measured of one of them holds for the others.
+    Files of one asset share it: measurements of one of them hold for the others.
     """
     measured = penetrations({"": report.measurements})
     if not measured:
         return None
+    swept = measured[0].joints
     joints = sorted(
-        (j.joint, j.unit, f"{j.lower:.{DIGITS}g}", f"{j.upper:.{DIGITS}g}")
-        for j in measured[0].joints
+        (j.joint, j.unit, f"{j.lower:.{DIGITS}g}", f"{j.upper:.{DIGITS}g}") for j in swept
     )
     links = report.measurements["lint"]["links"]
     shaped = (each for each in links if each["collision_shapes"] or each["visual_shapes"])

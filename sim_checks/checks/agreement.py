@@ -74,9 +74,9 @@ def check_agreement(
             before = worst.get(name, (0.0, 0.0))
             worst[name] = (max(before[0], distance), max(before[1], angle))
     findings = [
-        _finding(name, distance, angle, simulator, config)
-        for name, (distance, angle) in worst.items()
-        if distance > config.position_m or angle > config.angle_rad
+        _finding(name, *off, simulator, config)
+        for name, off in worst.items()
+        if off[0] > config.position_m or off[1] > config.angle_rad
     ]
     measurements = {
         "pose_samples": len(observation.poses),

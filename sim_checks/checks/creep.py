@@ -6,7 +6,6 @@ friction. What its weight should move is free to move.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 from ..config import CheckConfig, MotionConfig
@@ -15,7 +14,7 @@ from ..geometry.kinematics import find_tree
 from ..geometry.statics import gravity_load
 from ..report import Finding
 from ..simulators.simulator import HoldMotion, Observation
-from .result import DECIMALS, CheckResult, about, graded, not_finite, rounded
+from .result import DECIMALS, CheckResult, Findings, about, graded, not_finite, rounded
 
 
 def check_creep(
@@ -58,7 +57,7 @@ def _findings(
     simulator: str,
     config: MotionConfig,
     soft: bool,
-) -> Iterator[Finding]:
+) -> Findings:
     subject = about(line, simulator)
     at = f"{round(held.values[line.name], DECIMALS) + 0.0:.4g}"
     if not held.finite:
@@ -85,7 +84,7 @@ def _remedy(held: HoldMotion, simulator: str, soft: bool) -> str:
     return "; solimpfriction near 1 makes MuJoCo's stiff" if simulator == "mujoco" else ""
 
 
-def _worst_of_each(findings: list[Finding]) -> Iterator[Finding]:
+def _worst_of_each(findings: list[Finding]) -> Findings:
     """Yield one finding of each code and joint, the largest."""
     worst: dict[tuple[str, str | None], Finding] = {}
     for finding in findings:

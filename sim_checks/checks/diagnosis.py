@@ -50,14 +50,13 @@ class Diagnosis:
 
     def explained(self, study: PenetrationStudy) -> PenetrationStudy:
         """Return the same study, with visible surfaces and a cause for all that is too deep."""
+        met = study.neighbours.met
         return replace(
             study,
             rest=tuple(map(self._at_rest, study.rest)),
             zero=None if study.zero is None else tuple(map(self._at_rest, study.zero)),
             sweeps=tuple(map(self._along, study.sweeps)),
-            neighbours=replace(
-                study.neighbours, met=tuple(map(self._both_open, study.neighbours.met))
-            ),
+            neighbours=replace(study.neighbours, met=tuple(map(self._both_open, met))),
             combinations=tuple(map(self._combined, study.combinations)),
         )
 

@@ -70,15 +70,13 @@ def disagreements(
 ) -> tuple[Disagreement, ...]:
     """Return every question that at least two simulators answered, and not alike.
 
-    What was found and measured is given as in a report. First comes ``loads``, then ``link_poses``,
+    Findings and measurements are given as in a report. First comes ``loads``, then ``link_poses``,
     then joint by joint ``opens``, ``returns``, ``rests``, ``leaves_others``, ``keeps_limits``.
     """
     evidence = EngineEvidence(findings, measurements, simulators)
     disputes = (case for case in _cases(evidence) if len(set(case.verdicts.values())) > 1)
-    return tuple(
-        Disagreement(d.question, d.joint, d.verdicts, d.values, d.unit, likely_reason(d))
-        for d in disputes
-    )
+    told = ((d.question, d.joint, d.verdicts, d.values, d.unit, likely_reason(d)) for d in disputes)
+    return tuple(Disagreement(*each) for each in told)
 
 
 def _cases(evidence: EngineEvidence) -> Iterator[Dispute]:

@@ -27,12 +27,7 @@ def knuckles(
 ) -> frozenset[tuple[int, int]]:
     """Return the pairs of solids (first, second) whose overlap at rest is this hinge's knuckle.
 
-    Args:
-        solids: placed at rest.
-        overlaps: the pairs that overlap, all between the two parts that the hinge joins.
-        path: the hinge's turn.
-        moving: the part that turns.
-        config: the hinge's radius, and the share of its length that a knuckle may take.
+    Solids are placed at rest; those that overlap are all of the two parts that the hinge joins.
     """
     inside: dict[tuple[int, int], FloatArray] = {}
     for pair in overlaps:

@@ -39,10 +39,8 @@ def judge_in_simulator(
         message = f"{name} is not installed; {install_line(name)} adds it"
         return CheckResult((error("simulator_missing", message, simulator=name),))
     if description.format not in engine.formats:
-        message = (
-            f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: "
-            "it did not validate this file"
-        )
+        loads = f"{name} loads {' and '.join(engine.formats)} here, not {description.format}"
+        message = f"{loads}: it did not validate this file"
         return CheckResult((note("format_not_loaded", message, simulator=name),))
     too_large = undriven(description, name, config.work)
     if too_large is not None:

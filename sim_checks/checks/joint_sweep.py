@@ -64,9 +64,8 @@ def clear_until(course: JointCourse, failing: PairSweep) -> float:
     for _ in range(CLEAR_HALVINGS):
         middle = (clear + fails) / 2.0
         rest = replace(course.rest, upper={**course.rest.upper, name: middle})
-        alike = (
-            pair for pair in replace(course, rest=rest).run().pairs if pair.contact.kind is kind
-        )
+        pairs = replace(course, rest=rest).run().pairs
+        alike = (pair for pair in pairs if pair.contact.kind is kind)
         worst = max((pair.excess for pair in alike), default=0.0)
         clear, fails = (middle, fails) if worst <= course.config.excess_m else (clear, middle)
     return clear

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -10,13 +9,12 @@ import numpy as np
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine
 from ..geometry.kinematics import MOVING_KINDS, NotATree, build_tree, find_tree
-from ..report import Finding
 from .lint_inertia import inertia_findings, missing_inertia_findings
 from .lint_mimic import mimic_findings
 from .lint_ranges import range_findings
 from .lint_resistance import resistance_findings
 from .lint_shapes import shape_findings
-from .result import CheckResult, about, error, graded, warning
+from .result import CheckResult, Findings, about, error, graded, warning
 
 KNOWN_KINDS = (*MOVING_KINDS, "fixed")
 #: How far an axis may be from length 1.
@@ -70,7 +68,7 @@ def _downs(description: Description) -> dict[str, FloatArray]:
     return {name: pose[:3, :3].T @ DOWN for name, pose in poses.items()}
 
 
-def _tree_findings(description: Description) -> Iterator[Finding]:
+def _tree_findings(description: Description) -> Findings:
     try:
         build_tree(description)
     except NotATree as caught:
@@ -82,9 +80,7 @@ def _tree_findings(description: Description) -> Iterator[Finding]:
         yield warning("no_moving_joint", "no joint moves")
 
 
-def _joint_findings(
-    joint: JointLine, description: Description, config: LintConfig
-) -> Iterator[Finding]:
+def _joint_findings(joint: JointLine, description: Description, config: LintConfig) -> Findings:
     subject = about(joint)
     name = f"joint {joint.name!r}"
     if joint.kind not in KNOWN_KINDS:
@@ -108,12 +104,11 @@ def _joint_findings(
         yield from _limit_findings(joint)
     for word, number in (("damping", joint.damping), ("friction", joint.friction)):
         if not (np.isfinite(number) and number >= 0.0):
-            yield error(
-                "invalid_dynamics", f"{name} has {word} {number}, want 0 or more", **subject
-            )
+            message = f"{name} has {word} {number}, want 0 or more"
+            yield error("invalid_dynamics", message, **subject)
 
 
-def _limit_findings(joint: JointLine) -> Iterator[Finding]:
+def _limit_findings(joint: JointLine) -> Findings:
     subject = about(joint)
     name = f"joint {joint.name!r}"
     unit = joint.unit
@@ -134,7 +129,7 @@ def _limit_findings(joint: JointLine) -> Iterator[Finding]:
         yield warning("zero_outside_limits", message, **subject, unit=unit)
 
 
-def _exempt_findings(description: Description) -> Iterator[Finding]:
+def _exempt_findings(description: Description) -> Findings:
     """Yield how many pairs of a URDF are exempt, and which; MJCF tells each where it overlaps."""
     if description.format != "urdf" or not description.excluded:
         return

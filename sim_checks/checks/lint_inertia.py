@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 
@@ -12,14 +11,13 @@ from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, se
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import find_tree
 from ..geometry.placing import box_around
-from ..report import Finding
-from .result import error, graded, in_mm, measured, rounded, significant, warning
+from .result import Findings, error, graded, in_mm, measured, rounded, significant, warning
 
 #: Relative slack of the triangle inequality: files are written with few digits.
 TRIANGLE_SLACK = 1e-3
 
 
-def missing_inertia_findings(description: Description) -> Iterator[Finding]:
+def missing_inertia_findings(description: Description) -> Findings:
     """Yield an error where a moving link has no inertia, a warning where a still one has none.
 
     MuJoCo's compiler makes up what an MJCF leaves out, by a rule of the format.
@@ -45,7 +43,7 @@ def missing_inertia_findings(description: Description) -> Iterator[Finding]:
             yield graded(moves, "missing_inertia", message, parts=(name,))
 
 
-def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
+def inertia_findings(link: Link, config: LintConfig) -> Findings:
     """Yield an error where no rigid body has such an inertia, a warning where this hardly can."""
     inertia = link.inertia
     if inertia is None:
@@ -77,7 +75,7 @@ def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
 
 def _plausible(
     link: Link, inertia: LinkInertia, moments: FloatArray, config: LintConfig
-) -> Iterator[Finding]:
+) -> Findings:
     shapes = link.collisions or link.visuals
     if not shapes:
         return
@@ -92,9 +90,7 @@ def _plausible(
     yield from _density(link, inertia.mass, config)
 
 
-def _center(
-    link: Link, center: FloatArray, box: FloatArray, config: LintConfig
-) -> Iterator[Finding]:
+def _center(link: Link, center: FloatArray, box: FloatArray, config: LintConfig) -> Findings:
     """Check how far the centre of mass lies outside the box around the link's shapes."""
     low, high = box
     diagonal = float(np.linalg.norm(high - low))
@@ -111,7 +107,7 @@ def _center(
     yield graded(hard, "center_outside", message, parts=(link.name,), **in_mm(outside, limit))
 
 
-def _density(link: Link, mass: float, config: LintConfig) -> Iterator[Finding]:
+def _density(link: Link, mass: float, config: LintConfig) -> Findings:
     """Check mass over hull volume; too dense is an error only where nothing else has room."""
     volume = _volume(link)
     if not volume > 0.0 or config.density_low <= mass / volume <= config.density_high:
@@ -139,7 +135,7 @@ def _gyration(
     box: FloatArray,
     diagonal: float,
     config: LintConfig,
-) -> Iterator[Finding]:
+) -> Findings:
     """Check an inertia against the extents that it must fit in.
 
     Args:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +15,7 @@ from ..config import LintConfig
 from ..description import DescribedShape, FloatArray, Link
 from ..geometry.hull import CollisionHull, FlatHull, convex_hull
 from ..report import Finding
-from .result import graded
+from .result import Findings, graded
 
 BoolArray = npt.NDArray[np.bool_]
 
@@ -105,7 +105,7 @@ def interior_findings(
     return list(_findings(link, numbers, config)), numbers
 
 
-def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterator[Finding]:
+def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Findings:
     kept = numbers["pocket_kept"]
     least = config.pocket_kept
     leave = f"link {link.name!r}: collision shapes leave"

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from ..description import ABSURD, Description, JointLine, Mimic, sensible
 from ..geometry.coupling import Limits, common_range, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
-from ..report import Finding
-from .result import about, error, graded, rounded
+from .result import Findings, about, error, graded, rounded
 
 #: Limits written with few digits may miss what the leader asks by this share of the follower's
 #: range.
 ROUNDING = 1e-3
 
 
-def mimic_findings(description: Description) -> Iterator[Finding]:
+def mimic_findings(description: Description) -> Findings:
     """Yield errors without a leader or a way to go, warnings where a follower stops its leader."""
     moving = {joint.name: joint for joint in description.joints if joint.kind in MOVING_KINDS}
     sound = sound_mimics(description)
@@ -50,7 +47,7 @@ def _fault(joint: JointLine, mimic: Mimic, moving: dict[str, JointLine]) -> str:
 
 def _limit_findings(
     joint: JointLine, leader: JointLine, mimic: Mimic, others: list[tuple[Mimic, Limits]]
-) -> Iterator[Finding]:
+) -> Findings:
     led = sweep_range(leader)
     own = own_limits(joint)
     if led is None or own is None:

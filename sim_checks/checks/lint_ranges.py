@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -11,14 +11,13 @@ from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine
 from ..geometry.kinematics import MOVING_KINDS, Tree, find_tree, sweep_range, unit_axis
 from ..geometry.placing import box_gap, diagonal, placed, shape_corners
-from ..report import Finding
-from .result import about, error, graded, measured, rounded, significant, warning
+from .result import Findings, about, error, graded, measured, rounded, significant, warning
 
 #: Directions in the half-degrees of a circle in which an axis may stand off.
 AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 
 
-def range_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
+def range_findings(description: Description, config: LintConfig) -> Findings:
     """Yield errors for impossible ranges and axes, warnings for tiny ranges and drives."""
     # Without a tree nothing has a place.
     tree = find_tree(description)
@@ -38,9 +37,7 @@ def range_findings(description: Description, config: LintConfig) -> Iterator[Fin
             yield from _place_findings(joint, tree, poses, boxes, config)
 
 
-def _size_findings(
-    joint: JointLine, length: float, across: float, config: LintConfig
-) -> Iterator[Finding]:
+def _size_findings(joint: JointLine, length: float, across: float, config: LintConfig) -> Findings:
     slides = joint.kind == "prismatic"
     most = config.slide_share * across if slides else config.turns * 2.0 * math.pi
     least = config.tiny_slide_m if slides else config.tiny_turn_rad
@@ -71,7 +68,7 @@ def _slip(length: float, across: float, slides: bool) -> str:
     return ""
 
 
-def _drive_findings(joint: JointLine) -> Iterator[Finding]:
+def _drive_findings(joint: JointLine) -> Findings:
     for word, number in (("effort", joint.effort), ("velocity", joint.velocity)):
         if number is not None and not number > 0.0:
             message = f"joint {joint.name!r} has {word} {number:g} in its limit: "
@@ -85,7 +82,7 @@ def _place_findings(
     poses: Mapping[str, FloatArray],
     boxes: Mapping[str, FloatArray],
     config: LintConfig,
-) -> Iterator[Finding]:
+) -> Findings:
     below = tree.below(joint)
     moved = [corners for name, corners in boxes.items() if name in below]
     rest = [corners for name, corners in boxes.items() if name not in below]
@@ -95,10 +92,9 @@ def _place_findings(
     gap = box_gap(np.vstack(moved), np.vstack(rest))
     most = config.apart * max(size, diagonal(rest))
     if gap > most:
-        message = (
-            f"the part that joint {joint.name!r} moves is {gap:.3g} m away from the rest of the "
-            f"object, further than the size of either; want at most {most:.3g} m"
-        )
+        part = f"the part that joint {joint.name!r} moves"
+        away = f"{gap:.3g} m away from the rest of the object, further than the size of either"
+        message = f"{part} is {away}; want at most {most:.3g} m"
         yield error("part_remote", message, **about(joint), **rounded(gap, "m", most))
     elif joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
         groups = (np.vstack(moved), np.vstack(rest))
@@ -111,7 +107,7 @@ def _axis_findings(
     groups: tuple[FloatArray, FloatArray],
     size: float,
     config: LintConfig,
-) -> Iterator[Finding]:
+) -> Findings:
     axis = frame[:3, :3] @ unit_axis(joint)
     distance = min(_beside(frame[:3, 3], axis, group) for group in groups)
     if distance > config.axis_soft * size:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,9 +11,8 @@ from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
 from ..geometry.kinematics import Tree, find_tree, sweep_range, unit_axis
 from ..geometry.placing import placed
-from ..report import Finding
 from .lint_ranges import closed_poses
-from .result import about, graded, measured, significant, warning
+from .result import Findings, about, graded, measured, significant, warning
 
 #: What robot-learning environments commonly step by [s].
 TIME_STEP_S = 1.0 / 240.0
@@ -33,7 +31,7 @@ class _Lever:
     inertia: float
 
 
-def resistance_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
+def resistance_findings(description: Description, config: LintConfig) -> Findings:
     """Yield errors where no hand opens the joint, warnings where it takes much or may explode.
 
     Explicit engines explode from too much damping.
@@ -54,9 +52,7 @@ def resistance_findings(description: Description, config: LintConfig) -> Iterato
         yield from _step_finding(joint, lever, config)
 
 
-def _force_findings(
-    joint: JointLine, length: float, lever: _Lever, config: LintConfig
-) -> Iterator[Finding]:
+def _force_findings(joint: JointLine, length: float, lever: _Lever, config: LintConfig) -> Findings:
     friction = joint.friction / lever.reach
     damping = joint.damping * length / config.opening_s / lever.reach
     within = f"open it against its damping within {config.opening_s:g} s"
@@ -75,7 +71,7 @@ def _force_findings(
             yield graded(hard, code, message, **about(joint), **told)
 
 
-def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterator[Finding]:
+def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Findings:
     if not lever.inertia > 0.0:
         return
     share = joint.damping * TIME_STEP_S / lever.inertia

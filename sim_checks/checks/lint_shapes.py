@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -17,7 +16,7 @@ from ..geometry.outside import distance_outside
 from ..geometry.placing import diagonal
 from ..report import Finding
 from .lint_interior import interior_findings
-from .result import Concerned, error, graded, in_mm, measured, significant, warning
+from .result import Concerned, Findings, error, graded, in_mm, measured, significant, warning
 
 #: Visible surface is sampled this many times denser where it is the yardstick.
 DENSER = 8
@@ -42,13 +41,13 @@ def shape_findings(
         doubtful += _hull_findings(link, shape, hull, config)
     findings += _worst_of_each_code(doubtful)
     count = len(link.collisions)
+    meshes = (shape for shape in link.collisions if shape.kind == "mesh")
     numbers: dict[str, Any] = {
         "collision_shapes": count,
         "visual_shapes": len(link.visuals),
         "collision_meshes": [
-            {"file": shape.file, "vertices": len(shape.vertices), "faces": len(shape.faces)}
-            for shape in link.collisions
-            if shape.kind == "mesh"
+            {"file": mesh.file, "vertices": len(mesh.vertices), "faces": len(mesh.faces)}
+            for mesh in meshes
         ],
     }
     if count > (most := config.hulls_per_link):
@@ -64,7 +63,7 @@ def shape_findings(
     return findings + filled, {**numbers, **kept}
 
 
-def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
+def _worst_of_each_code(findings: list[Finding]) -> Findings:
     """Yield one finding per code: the worst, with the number of shapes that share it.
 
     A hundred hulls must not bury the rest.
@@ -78,7 +77,7 @@ def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
 
 def _hull_findings(
     link: Link, shape: DescribedShape, hull: CollisionHull, config: LintConfig
-) -> Iterator[Finding]:
+) -> Findings:
     name = f"collision shape {shape.name!r} of link {link.name!r}"
     parts = (link.name,)
     if shape.kind == "mesh" and hull.corners > config.hull_vertices:
@@ -123,7 +122,7 @@ def _signed_volume(shape: DescribedShape) -> float:
     return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
 
 
-def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
+def _scale_findings(link: Link, config: LintConfig) -> Findings:
     if not (link.visuals and link.collisions):
         return
     seen = diagonal(shape.corners for shape in link.visuals)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from .loading_joints import SINGLE, added, joint_findings, joint_numbers
 from .result import (
     CheckResult,
     Concerned,
+    Findings,
     error,
     finite,
     graded,
@@ -54,7 +54,7 @@ def check_loading(
 
 def _link_findings(
     link: Link, held: LoadedLink | None, simulator: str, config: LoadingConfig
-) -> Iterator[Finding]:
+) -> Findings:
     subject: Concerned = {"simulator": simulator, "parts": (link.name,)}
     if held is None:
         message = f"{simulator}: link {link.name!r} of the file is not in the loaded model"
@@ -80,7 +80,7 @@ def _link_findings(
 
 def _inertia_findings(
     inertia: LinkInertia, held: LoadedLink, subject: Concerned, config: LoadingConfig
-) -> Iterator[Finding]:
+) -> Findings:
     # What never moves is compared where the engine holds it, but its mass changes nothing.
     grave = not held.static
     link = f"link {held.name!r}"
@@ -111,9 +111,7 @@ def _inertia_findings(
         yield graded(grave, "center_mismatch", message, **subject, **told)
 
 
-def _added(
-    description: Description, links: tuple[LoadedLink, ...], simulator: str
-) -> Iterator[Finding]:
+def _added(description: Description, links: tuple[LoadedLink, ...], simulator: str) -> Findings:
     written = {link.name for link in description.links}
     # The ground that some engines count as a body is empty.
     bodies = (h for h in links if not (h.static and h.shapes == 0 and h.mass == 0.0))
@@ -122,9 +120,7 @@ def _added(
         yield added("links", names, simulator=simulator, parts=tuple(names))
 
 
-def _invented(
-    description: Description, links: dict[str, LoadedLink], simulator: str
-) -> Iterator[Finding]:
+def _invented(description: Description, links: dict[str, LoadedLink], simulator: str) -> Findings:
     names = []
     total = 0.0
     for link in description.links:

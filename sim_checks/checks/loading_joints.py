@@ -6,7 +6,7 @@ Compared are kind, limits, axis, mimic, damping and friction.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Unpack
 
 import numpy as np
@@ -19,6 +19,7 @@ from ..report import Finding
 from ..simulators.simulator import LoadedJoint
 from .result import (
     Concerned,
+    Findings,
     about,
     error,
     finite,
@@ -42,7 +43,7 @@ def joint_findings(
     joints: Mapping[str, LoadedJoint],
     simulator: str,
     config: LoadingConfig,
-) -> Iterator[Finding]:
+) -> Findings:
     """Yield errors where a joint moves otherwise than the file says, warnings for omissions."""
     for line in description.joints:
         if line.kind != "fixed":
@@ -84,7 +85,7 @@ def joint_numbers(joint: LoadedJoint) -> dict[str, Any]:
 
 def _joint(
     line: JointLine, held: LoadedJoint | None, simulator: str, config: LoadingConfig
-) -> Iterator[Finding]:
+) -> Findings:
     subject = about(line, simulator)
     if held is None:
         message = f"{simulator}: joint {line.name!r} of the file is not in the loaded model"
@@ -129,7 +130,7 @@ def _coupling(
     joints: Mapping[str, LoadedJoint],
     simulator: str,
     config: LoadingConfig,
-) -> Iterator[Finding]:
+) -> Findings:
     mimics = sound_mimics(description)
     dropped = []
     for line in description.joints:
@@ -173,7 +174,7 @@ def _coupling(
 
 def _ignored(
     description: Description, joints: Mapping[str, LoadedJoint], simulator: str
-) -> Iterator[Finding]:
+) -> Findings:
     for quantity in ("friction", "damping"):
         names = []
         for line in description.joints:

@@ -5,7 +5,7 @@ Energy from nowhere is a finding, too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -17,6 +17,7 @@ from .result import (
     DECIMALS,
     CheckResult,
     Concerned,
+    Findings,
     Measured,
     about,
     graded,
@@ -92,14 +93,13 @@ class _MotionChecks:
     def _unit(self, joint: str) -> str:
         return self.lines[joint].unit if joint in self.lines else ""
 
-    def driven(self, motion: JointMotion) -> Iterator[Finding]:
+    def driven(self, motion: JointMotion) -> Findings:
         """Check a joint that was driven to upper and back, and let go of there."""
         config = self.config
         unit = self._unit(motion.joint)
         subject = self.subject(motion.joint)
-        subject["parts"] = tuple(
-            dict.fromkeys((*subject.get("parts", ()), *(motion.blocked_by or ())))
-        )
+        parts = (*subject.get("parts", ()), *(motion.blocked_by or ()))
+        subject["parts"] = tuple(dict.fromkeys(parts))
 
         def found(grave: bool, code: str, message: str, value: float, limit: float) -> Finding:
             sentence = f"{self.simulator}: joint {motion.joint!r} {message}"
@@ -135,7 +135,7 @@ class _MotionChecks:
         where = f"joint {motion.joint!r} was let go of"
         yield from self._energy(motion.energy, motion.energy_height, where, subject)
 
-    def rest(self, rest: RestMotion) -> Iterator[Finding]:
+    def rest(self, rest: RestMotion) -> Findings:
         """Check a joint that was left alone at lower without gravity and springs."""
         subject = self.subject(rest.joint)
         if not rest.finite:
@@ -153,7 +153,7 @@ class _MotionChecks:
         where = f"joint {rest.joint!r} was left alone at its lower limit"
         yield from self._energy(rest.energy, rest.energy_height, where, subject)
 
-    def fall(self, fall: Fall, *, known: bool) -> Iterator[Finding]:
+    def fall(self, fall: Fall, *, known: bool) -> Findings:
         """Check the object left alone under its own weight; ``known`` energy is not told again."""
         subject: Concerned = {"simulator": self.simulator}
         if not fall.finite:
@@ -162,7 +162,7 @@ class _MotionChecks:
             where = "the object was left alone under its own weight"
             yield from self._energy(fall.energy, fall.energy_height, where, subject)
 
-    def opened(self, fallen: FallMotion) -> Iterator[Finding]:
+    def opened(self, fallen: FallMotion) -> Findings:
         """Check how far a joint opened by its own weight."""
         if fallen.share > self.config.fall_soft:
             message = (
@@ -173,9 +173,7 @@ class _MotionChecks:
             told = _of_range(fallen.share, self.config.fall_soft)
             yield warning("opens_by_itself", message, **self.subject(fallen.joint), **told)
 
-    def _energy(
-        self, energy: float, height: float, where: str, subject: Concerned
-    ) -> Iterator[Finding]:
+    def _energy(self, energy: float, height: float, where: str, subject: Concerned) -> Findings:
         """Check energy from nowhere [J], and how high it would lift the moving parts [m]."""
         config = self.config
         if not (energy > config.energy_floor_j and height > config.energy_soft_m):

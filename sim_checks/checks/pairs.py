@@ -72,6 +72,5 @@ class Pairs:
             if key not in deepest or pair.overlap.depth > deepest[key].overlap.depth:
                 deepest[key] = pair
         found = ((deepest[key], key[1]) for key in sorted(deepest))
-        return tuple(
-            self.contact(p.first, p.second, p.overlap.depth, kind, pose) for p, kind in found
-        )
+        told = ((each.first, each.second, each.overlap.depth, kind) for each, kind in found)
+        return tuple(self.contact(*each, pose) for each in told)

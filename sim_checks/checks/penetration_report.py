@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Sequence, Set
 from dataclasses import replace
 from typing import Any
 
@@ -27,7 +27,7 @@ from .penetration_study import (
     PartPair,
     PenetrationStudy,
 )
-from .result import CheckResult, graded, in_mm, note
+from .result import CheckResult, Findings, graded, in_mm, note
 
 _EXCLUDED = ", but the file excludes this pair from contact"
 #: Of pairs that may overlap: how that is told, and why it may.
@@ -65,7 +65,7 @@ def told_parts(sweeps: Sequence[JointSweep], config: PenetrationConfig) -> froze
     return frozenset(pair.parts for pair in swept if pair.excess > config.excess_m)
 
 
-def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> Iterator[Finding]:
+def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> Findings:
     at_rest = {contact.parts: contact.depth for contact in study.rest}
     again = {parts: depth + config.excess_m for parts, depth in at_rest.items()}
     found = [("with every joint at its lower limit", each) for each in study.rest]
@@ -85,7 +85,7 @@ def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> Iterat
         yield _finding(grave, code, message, contact, contact.depth, config.rest_m)
 
 
-def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> Iterator[Finding]:
+def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> Findings:
     joint = sweep.joint.name
     unit = sweep.joint.unit
     for pair in sweep.pairs:
@@ -152,7 +152,7 @@ def _both_open(item: BothOpen, config: PenetrationConfig) -> Finding:
     return replace(found, joint=joint, joints=(joint, other))
 
 
-def _left_out(neighbours: Neighbours, config: PenetrationConfig) -> Iterator[Finding]:
+def _left_out(neighbours: Neighbours, config: PenetrationConfig) -> Findings:
     """Yield a note on the pairs of joints that were not swept together."""
     if neighbours.unswept:
         first, second = neighbours.unswept[0]
@@ -166,7 +166,7 @@ def _left_out(neighbours: Neighbours, config: PenetrationConfig) -> Iterator[Fin
 
 def _combination_findings(
     study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]
-) -> Iterator[Finding]:
+) -> Findings:
     for combination in study.combinations:
         contact = combination.contact
         excess = combination.excess
@@ -206,12 +206,8 @@ def _contact(contact: Contact) -> dict[str, Any]:
 
 def _pair(pair: PairSweep) -> dict[str, Any]:
     """Return the fields of a :class:`MeasuredPair`."""
-    return {
-        **_contact(pair.contact),
-        "excess_mm": mm(pair.excess),
-        "bound_mm": mm(pair.bound),
-        "at": round(pair.at, 6),
-    }
+    depths = {"excess_mm": mm(pair.excess), "bound_mm": mm(pair.bound)}
+    return {**_contact(pair.contact), **depths, "at": round(pair.at, 6)}
 
 
 def _measured_joint(sweep: JointSweep) -> MeasuredJoint:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypedDict, Unpack
 
 from ..description import JointLine
 from ..report import Finding, Severity
 
+Findings = Iterator[Finding]
 #: Numbers of engines keep this many decimals: they differ in the last bits from machine to machine.
 DECIMALS = 6
 

@@ -9,7 +9,7 @@ joint closed.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,7 +22,7 @@ from ..description import DescribedShape, Description, FloatArray, JointLine, Li
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import Poser, Tree, find_tree, free_ranges, unit_axis
 from ..report import Finding
-from .result import CheckResult, measured, warning
+from .result import CheckResult, Findings, measured, warning
 
 GRAVITY = 9.81
 #: Values of a joint's range that are tried before the worst is refined.
@@ -234,7 +234,7 @@ def _worst(body: _RestingBody, joint: JointLine) -> tuple[float, Stance]:
 
 def _topples(
     closed: dict[str, Any], rows: list[dict[str, Any]], together: dict[str, Any], margin_m: float
-) -> Iterator[Finding]:
+) -> Findings:
     least = 1000 * margin_m
 
     def found(subject: str, numbers: Mapping[str, Any], joint: str | None = None) -> Finding:
@@ -263,7 +263,7 @@ def _topples(
         yield found("with all joints open, and not fastened, it topples", together)
 
 
-def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Iterator[Finding]:
+def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Findings:
     most = config.hand_force_n
     tipping = [(row["tipping_force_n"], row["joint"]) for row in rows]
     weak = [each for each in tipping if each[0] is not None and each[0] < most]

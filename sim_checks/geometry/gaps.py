@@ -50,13 +50,8 @@ def visible_gap(
 ) -> float:
     """Return how two surfaces stand around a meeting [m]: a gap, or a negative depth.
 
-    The gap is at most the meeting's margin.
-
-    Args:
-        first: of the part whose hull is first in the meeting.
-        second: of the other.
-        poses: of both, shape [2, 4, 4].
-        meeting: where to look.
+    The gap is at most the meeting's margin. The first surface is of the part whose hull is first in
+    the meeting; poses have shape [2, 4, 4].
     """
     one, other = patches(first, second, poses, meeting)
     if one is None or other is None:

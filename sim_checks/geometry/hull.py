@@ -155,10 +155,8 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Coll
     sides = np.stack([equations[facet, :3], equations[other, :3]], axis=1)
     normals = _merged(equations[:, :3])
     offsets = farthest_along(vertices, normals) + normals @ center
-    faces = (triangles, normals, offsets)
-    return CollisionHull(
-        vertices + center, *faces, edges, sides, float(hull.volume), corners_before
-    )
+    faces = (triangles, normals, offsets, edges, sides)
+    return CollisionHull(vertices + center, *faces, float(hull.volume), corners_before)
 
 
 def farthest_along(points: FloatArray, directions: FloatArray) -> FloatArray:

@@ -58,7 +58,7 @@ def read_document(path: Path, most: int = MAX_DOCUMENT_BYTES) -> bytes:
 
 
 def parse_xml(data: bytes, name: str) -> ET.Element:
-    """Return the root element of an XML text; ``name`` opens the sentence of what is refused."""
+    """Return the root element of an XML text; ``name`` opens the sentence of a refusal."""
     items = data.count(b"<") + data.count(b"=")
     if items > MAX_ITEMS:
         message = f"{name}: {items} elements and attributes, at most {MAX_ITEMS} are read"

@@ -44,7 +44,7 @@ class Gathered:
 
     Attributes:
         path: the description to read: the original where that is so, else the copy.
-        files: the originals of what was copied, in the order of first use.
+        files: the originals of copies, in the order of first use.
         findings: what a reader of the report is told.
     """
 
@@ -54,12 +54,7 @@ class Gathered:
 
 
 def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
-    """Return a description with all that it refers to in one folder.
-
-    Args:
-        path: of any file.
-        folder: an empty one, for the copy.
-        options: what may be read beyond the description's own folder.
+    """Return a description with all that it refers to in one folder; an empty one is for copies.
 
     Raises:
         DescriptionError: ``outside_folder``, ``missing_file``, ``too_large``, ``unreadable``,
@@ -160,19 +155,12 @@ def _copy_model(
     above: tuple[Path, ...] = (),
 ) -> None:
     model = walk.model(path, document, above)
-    attached = [
-        inner
-        for at, root in model.documents
-        for element in root.iter("model")
-        for inner in model.inner(element, at)
-    ]
-    written = [
-        (element, key, _copied(element, key, model, at, copies))
-        for at, root in model.documents
-        for element in root.iter()
-        for key in element.attrib
-        if key.startswith("file") and element.get(key)
-    ]
+    elements = [(at, element) for at, root in model.documents for element in root.iter()]
+    attaching = ((at, element) for at, element in elements if element.tag == "model")
+    attached = [inner for at, element in attaching for inner in model.inner(element, at)]
+    keys = ((at, element, key) for at, element in elements for key in element.attrib)
+    named = (each for each in keys if each[2].startswith("file") and each[1].get(each[2]))
+    written = [(e, key, _copied(e, key, model, at, copies)) for at, e, key in named]
     for element, key, place in written:
         element.set(key, Path(os.path.relpath(place, target.parent)).as_posix())
     for at, root in model.documents:

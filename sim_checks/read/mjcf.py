@@ -161,18 +161,10 @@ def _moving(
     joint: CompiledJoint, name: str, ends: tuple[str, str], origin: FloatArray
 ) -> JointLine:
     turning = "continuous" if joint.lower is None else "revolute"
-    return JointLine(
-        name=name,
-        kind="prismatic" if joint.kind == "slide" else turning,
-        parent=ends[0],
-        child=ends[1],
-        origin=origin,
-        axis=joint.axis,
-        lower=joint.lower,
-        upper=joint.upper,
-        damping=joint.damping,
-        friction=joint.friction,
-    )
+    kind = "prismatic" if joint.kind == "slide" else turning
+    limits = (joint.lower, joint.upper)
+    resists = (joint.damping, joint.friction)
+    return JointLine(name, kind, *ends, origin, joint.axis, *limits, *resists)
 
 
 def _undo_reference(joint: CompiledJoint) -> FloatArray:

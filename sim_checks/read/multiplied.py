@@ -28,7 +28,7 @@ def refuse_multiplied(path: Path, document: ET.Element) -> None:
     The outermost file is given with its root element.
 
     Raises:
-        DescriptionError: ``too_large``, or what is wrong with an inner document.
+        DescriptionError: ``too_large``, or the fault of an inner document.
     """
     folder = path.parent.resolve()
     walk = ModelWalk(lambda place: inside(place, folder))
@@ -43,10 +43,6 @@ def refuse_multiplied(path: Path, document: ET.Element) -> None:
 
 class _ElementCount:
     """Counts what a model becomes, each document once however often it is named.
-
-    Args:
-        model: with what it includes.
-        attached: models counted so far, by their main file.
 
     Attributes:
         all: as in :data:`MOST`, and ``elements``.
@@ -121,6 +117,6 @@ def _most(counts: Iterable[Counter[str]]) -> Counter[str]:
 
 
 def _whole(text: str) -> int:
-    """Return a whole number as written; what is none counts once, and the compiler refuses it."""
+    """Return a whole number as written; any other counts once, and the compiler refuses it."""
     word = text.strip()
     return min(int(word[:13]), _LARGEST) if word.isdecimal() else 1

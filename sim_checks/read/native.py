@@ -25,7 +25,7 @@ _WORDS = ("Could not allocate memory", "Caught an unknown exception")
 
 
 def read_apart(function: Callable[[Path], T], path: Path) -> T:
-    """Call what has MuJoCo compile a file, in a child that may crash; errors of :func:`ask_of`."""
+    """Have MuJoCo compile a file in a child that may crash; errors of :func:`ask_of`."""
     with WarmChild() as child:
         return ask_of(child, path.name, function, path, limits=COMPILE_LIMITS)
 

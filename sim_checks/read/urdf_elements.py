@@ -60,17 +60,11 @@ class UrdfElements:
         name = self.name(element)
         where = f"joint {name!r}"
         kind = element.get("type", "")
-        lower, upper = self._limits(element.find("limit"), kind, where)
-        line = JointLine(
-            name=name,
-            kind=kind,
-            parent=self._end(element, "parent", where),
-            child=self._end(element, "child", where),
-            origin=self.origin(element, where),
-            axis=self._axis(element.find("axis"), where),
-            lower=lower,
-            upper=upper,
-        )
+        limits = self._limits(element.find("limit"), kind, where)
+        ends = (self._end(element, "parent", where), self._end(element, "child", where))
+        origin = self.origin(element, where)
+        axis = self._axis(element.find("axis"), where)
+        line = JointLine(name, kind, *ends, origin, axis, *limits)
         return line if self.lenient else _driven(line, element, where)
 
     def name(self, element: ET.Element) -> str:

@@ -85,14 +85,9 @@ def companions(world: World, index: int) -> frozenset[int]:
 
 
 def pressing(world: World, index: int) -> tuple[str, str] | None:
-    """Return the hardest pressed pair of links across a joint.
+    """Return the links that pressed hardest in the last step, one of them moved by a joint.
 
-    Args:
-        world: after a step in which what presses pressed.
-        index: the joint; one link of the pair is moved by it, the other is not.
-
-    Returns:
-        Names in the order of the model's links; ``None`` if nothing presses.
+    Names come in the order of the model's links; ``None`` if nothing presses across the joint.
     """
     moved = world.carried[index]
     presses = ((pair, touch) for pair, touch in world.contacts().items() if touch.presses)

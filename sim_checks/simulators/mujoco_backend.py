@@ -17,16 +17,7 @@ from ..geometry.placing import rigid
 from ..read.mjcf_model import begin_compiling
 from ..read.read import format_of
 from ..read.srdf import exempt_pairs
-from .simulator import (
-    LoadedJoint,
-    LoadedLink,
-    LoadedModel,
-    PairRules,
-    Touch,
-    Touches,
-    add_touch,
-    triple,
-)
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
 from .twin import write_twin
 
 WORLD = 0
@@ -168,13 +159,13 @@ class MujocoWorld:
         """Return which links touch here, under the forces of the last step."""
         # After a step only the places of the new contacts are known, not yet their forces.
         self._mujoco.mj_forward(self._model, self._data)
-        found: Touches = {}
+        found = Touches()
         wrench = np.zeros(6)
         for i in range(self._data.ncon):
             self._mujoco.mj_contactForce(self._model, self._data, i, wrench)
             a, b = sorted(int(body) for body in self._model.geom_bodyid[self._data.contact.geom[i]])
             pair = (self.model.links[a].name, self.model.links[b].name)
-            add_touch(found, pair, Touch(float(wrench[0]), -float(self._data.contact.dist[i])))
+            found.add(pair, Touch(float(wrench[0]), -float(self._data.contact.dist[i])))
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:

@@ -18,16 +18,7 @@ from ..geometry.placing import rigid
 from ..read.srdf import exempt_pairs
 from ..read.urdf import read_mimics
 from .pybullet_dynamics import BulletClient, Dynamics
-from .simulator import (
-    LoadedJoint,
-    LoadedLink,
-    LoadedModel,
-    PairRules,
-    Touch,
-    Touches,
-    add_touch,
-    triple,
-)
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
 from .twin import write_twin
 
 BASE = -1
@@ -186,11 +177,11 @@ class PybulletWorld:
 
     def contacts(self) -> Touches:
         """Return which links touched in the last step."""
-        found: Touches = {}
+        found = Touches()
         for point in self._bullet.getContactPoints(self._body, self._body):
             a, b = sorted((int(point[3]), int(point[4])))
             touch = Touch(float(point[9]), -float(point[8]))
-            add_touch(found, (self._names[a], self._names[b]), touch)
+            found.add((self._names[a], self._names[b]), touch)
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:

@@ -34,12 +34,8 @@ class BulletClient:
 class Dynamics:
     """Inertias, balancing forces and kinetic energy of one multibody.
 
-    Args:
-        bullet: whose it is.
-        body: its number.
-        joints: joint numbers, in the order of all vectors here.
-        slides: whether each joint slides.
-        beyond: link numbers that each joint moves.
+    All vectors are in the order of its joints, each given with whether it slides, and with the
+    links beyond it, which it moves.
     """
 
     def __init__(

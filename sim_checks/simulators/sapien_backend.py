@@ -15,16 +15,7 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
-from .simulator import (
-    LoadedJoint,
-    LoadedLink,
-    LoadedModel,
-    PairRules,
-    Touch,
-    Touches,
-    add_touch,
-    triple,
-)
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
 from .twin import write_twin
 
 GRAVITY = 9.81
@@ -175,13 +166,13 @@ class SapienWorld:
     def contacts(self) -> Touches:
         """Return which links touched in the last step."""
         order = {link.name: i for i, link in enumerate(self.model.links)}
-        found: Touches = {}
+        found = Touches()
         for contact in self._scene.get_contacts():
             a, b = sorted((body.entity.name for body in contact.bodies), key=order.__getitem__)
             impulse = sum(np.asarray(point.impulse, np.float64) for point in contact.points)
             depth = max(-float(point.separation) for point in contact.points)
             force = float(np.linalg.norm(impulse)) / self.time_step
-            add_touch(found, (a, b), Touch(force, depth))
+            found.add((a, b), Touch(force, depth))
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:

@@ -140,13 +140,12 @@ class Touch:
         return Touch(self.force + other.force, max(self.depth, other.depth))
 
 
-Touches = dict[tuple[str, str], Touch]
-"""How links touch, by pair in the model's order."""
+class Touches(dict[tuple[str, str], Touch]):
+    """How links touch, by pair in the model's order."""
 
-
-def add_touch(found: Touches, pair: tuple[str, str], touch: Touch) -> None:
-    """Note one more contact of a pair of links."""
-    found[pair] = found[pair] + touch if pair in found else touch
+    def add(self, pair: tuple[str, str], touch: Touch) -> None:
+        """Note one more contact of a pair of links."""
+        self[pair] = self[pair] + touch if pair in self else touch
 
 
 @dataclass(frozen=True)

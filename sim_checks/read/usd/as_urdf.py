@@ -27,8 +27,8 @@ UPRIGHT = 1e-9
 def write_as_urdf(path: Path, folder: Path) -> Path:
     """Write what a USD asset says as a URDF with meshes beside it.
 
-    A body becomes a link, with its frame where its joint is; what is fastened to nothing by a
-    joint is one more link, ``world``. All that the root layer at ``path`` is composed of lies in or
+    A body becomes a link, with its frame where its joint is; all that no joint fastens is one
+    more link, ``world``. All that the root layer at ``path`` is composed of lies in or
     below its folder. Call it in a killable child, with :func:`..native.ask_of`.
 
     Raises:

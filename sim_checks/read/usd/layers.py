@@ -27,11 +27,7 @@ def layer_files(main: Path, folder: Path) -> Iterator[Path]:
 
     It is followed through sublayers, references and payloads. Opening a layer opens no other; only
     composing does, and that comes later. Textures and materials named in attributes are never
-    opened.
-
-    Args:
-        main: the layer to begin with.
-        folder: everything lies in or below it, symbolic links followed.
+    opened. Everything lies in or below the folder, symbolic links followed.
 
     Raises:
         DescriptionError: ``outside_folder``, ``missing_file``, ``unreadable``, ``unknown_format``
@@ -65,13 +61,8 @@ def layer_files(main: Path, folder: Path) -> Iterator[Path]:
 def require_inside(path: Path, folder: Path, most_bytes: int = MOST_BYTES) -> tuple[Path, ...]:
     """Refuse an asset that leads out of a folder by composition arcs, or is too large.
 
-    Args:
-        path: the layer to begin with.
-        folder: everything lies in or below it, symbolic links followed.
-        most_bytes: largest size of all layers' files together.
-
     Returns:
-        The files that it is composed of, in order of their names.
+        The files that it is composed of, in order of their names; at most so many bytes together.
 
     Raises:
         DescriptionError: ``too_large``, and those of :func:`layer_files`.
@@ -81,10 +72,9 @@ def require_inside(path: Path, folder: Path, most_bytes: int = MOST_BYTES) -> tu
         files[file] = file.stat().st_size
         total = sum(files.values())
         if number > MOST_LAYERS or total > most_bytes:
-            message = (
-                f"{path.name}: {number:,} layers of {total:,} bytes together, the limit is "
-                f"{MOST_LAYERS:,} and {most_bytes:,}; simplify it or raise the limit"
-            )
+            limit = f"the limit is {MOST_LAYERS:,} and {most_bytes:,}"
+            message = f"{path.name}: {number:,} layers of {total:,} bytes together, {limit}; "
+            message += "simplify it or raise the limit"
             raise DescriptionError("too_large", message)
     return tuple(sorted(files))
 
