@@ -137,14 +137,12 @@ def read_registry(registry: str | Path) -> dict[str, RegisteredAsset]:
     """
     folder = Path(registry) / "assets"
     if not folder.is_dir():
-        raise RegistryError(
-            f"{registry}: no registry here (no folder 'assets'); `factory build --output` makes one"
-        )
+        remedy = "`factory build --output` makes one"
+        raise RegistryError(f"{registry}: no registry here (no folder 'assets'); {remedy}")
     manifests = sorted(folder.glob("*/asset.json"))
     if not manifests:
-        raise RegistryError(
-            f"{registry}: a registry without assets; `factory build --output {registry}` adds some"
-        )
+        remedy = f"`factory build --output {registry}` adds some"
+        raise RegistryError(f"{registry}: a registry without assets; {remedy}")
     return {path.parent.name: _read_asset(path) for path in manifests}
 
 
@@ -160,9 +158,7 @@ def named(
     """
     whole = set()
     for id in ids:
-        begun = (
-            [id] if id in assets else [known for known in sorted(assets) if known.startswith(id)]
-        )
+        begun = [id] if id in assets else [each for each in sorted(assets) if each.startswith(id)]
         if len(begun) != 1:
             found = f"{len(begun)} assets" if begun else "no asset"
             there = listed(begun or sorted(assets))
@@ -227,15 +223,13 @@ def _holds(manifest: Manifest) -> dict[str, _Hold]:
     """Return the best place to hold what a joint moves, by its child: a target, else a handle."""
     best = {}
     for joint in manifest.joints:
-        if joint.handle is not None:
-            handle = joint.handle
-            best[joint.child] = _Hold(joint.child, handle.point, handle.normal, handle.pull)
+        if (hold := joint.handle) is not None:
+            best[joint.child] = _Hold(joint.child, hold.point, hold.normal, hold.pull)
     children = {joint.name: joint.child for joint in manifest.joints}
     # The surest last, so that it is the one that stays.
     for target in sorted(manifest.targets, key=lambda target: target.score):
-        best[children[target.joint]] = _Hold(
-            target.part, target.point, target.normal, target.pull, target.opening_m
-        )
+        vectors = (target.point, target.normal, target.pull)
+        best[children[target.joint]] = _Hold(target.part, *vectors, target.opening_m)
     return best
 
 

@@ -91,10 +91,8 @@ def opening_values(
 ) -> list[dict[str, float]]:
     """Return joint values [rad] or [m] of the closed object with ``joint`` open by each share."""
     closed = closed_values(asset)
-    return [
-        {**closed, joint.name: joint.lower + float(share) * (joint.upper - joint.lower)}
-        for share in shares
-    ]
+    values = (joint.lower + float(share) * (joint.upper - joint.lower) for share in shares)
+    return [{**closed, joint.name: value} for value in values]
 
 
 @lru_cache(maxsize=256)

@@ -18,32 +18,25 @@ def check_unaltered(asset: RegisteredAsset) -> None:
     The report's ``files``, where it has them, are the digests at registration; else the manifest
     must be what it was when the registry was read.
     """
+    name = f"asset {asset.id!r}"
     try:
         manifest = digest_bytes((asset.folder / MANIFEST).read_bytes())
         asset.urdf.stat()
     except OSError as error:
         there = sorted(path.parent.name for path in asset.folder.parent.glob(f"*/{MANIFEST}"))
-        raise RegistryError(
-            f"asset {asset.id!r}: {error.filename} is gone since the registry was read; "
-            f"there are {listed(there)}"
-        ) from error
+        gone = f"{error.filename} is gone since the registry was read"
+        raise RegistryError(f"{name}: {gone}; there are {listed(there)}") from error
     if manifest != asset.digest:
-        raise RegistryError(
-            f"asset {asset.id!r}: {MANIFEST} changed since the registry was "
-            "read; make the task again"
-        )
+        changed = f"{MANIFEST} changed since the registry was read"
+        raise RegistryError(f"{name}: {changed}; make the task again")
     registered = _registered_digests(asset.folder)
     if registered is not None:
         found = file_digests(asset.folder)
-        wrong = sorted(
-            name
-            for name in registered.keys() | found.keys()
-            if registered.get(name) != found.get(name)
-        )
+        files = registered.keys() | found.keys()
+        wrong = sorted(file for file in files if registered.get(file) != found.get(file))
         if wrong:
-            raise RegistryError(
-                f"asset {asset.id!r}: {listed(wrong)} not as registered (SHA-256); build it again"
-            )
+            words = f"{listed(wrong)} not as registered (SHA-256)"
+            raise RegistryError(f"{name}: {words}; build it again")
 
 
 def _registered_digests(folder: Path) -> dict[str, str] | None:

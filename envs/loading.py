@@ -38,13 +38,7 @@ def load_asset(scene: Any, asset: RegisteredAsset, name: str, index: int) -> Any
     """Build the asset's articulation in one of the parallel scenes.
 
     Its root is fixed, it stands on the ground, and its joints move as freely as PhysX leaves them:
-    see :func:`resist`.
-
-    Args:
-        scene: ManiSkill's.
-        asset: what to load; its files must be those that were registered.
-        name: of the articulation, unique among all scenes.
-        index: of the parallel scene.
+    see :func:`resist`. Its name is unique among all scenes.
 
     Raises:
         RegistryError: the asset was deleted or altered since it was registered.
@@ -141,12 +135,8 @@ def resist(
 
 def warn_of_hulls(assets: Iterable[RegisteredAsset]) -> None:
     """Say which assets have convex pieces that PhysX cannot simulate well on a GPU."""
-    known = list(assets)
-    unfit = [
-        a.id
-        for a in known
-        if a.hull_vertices > GPU_HULL_VERTICES or a.hull_aspect > GPU_HULL_ASPECT
-    ]
+    known = [(a.id, a.hull_vertices, a.hull_aspect) for a in assets]
+    unfit = [id for id, most, long in known if most > GPU_HULL_VERTICES or long > GPU_HULL_ASPECT]
     if unfit:
         warnings.warn(
             f"{len(unfit)} of {len(known)} assets have hulls of more than {GPU_HULL_VERTICES} "

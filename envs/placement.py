@@ -63,7 +63,7 @@ class RobotShape:
 
 
 #: Measured on ManiSkill's robots: Fetch in its rest keyframe, Panda in its maker's ready pose,
-#: which reaches out less.
+#: which reaches out less. Rows of an arm are x, y and z of its points.
 ROBOTS = {
     "panda": RobotShape(
         mobile=False,
@@ -72,17 +72,11 @@ ROBOTS = {
         near=0.3,
         far=0.85,
         body=(0.14, 0.45),
-        arm=np.array(
+        arm=np.column_stack(
             [
-                *[
-                    [-0.2, 0, 0.5],
-                    [-0.19, 0, 0.6],
-                    [-0.05, 0, 0.65],
-                    [0.1, 0, 0.68],
-                    [0.22, 0, 0.7],
-                    [0.307, 0, 0.66],
-                ],
-                *[[0.307, y, z] for y in (-0.08, 0.0, 0.08) for z in (0.49, 0.55)],
+                [-0.2, -0.19, -0.05, 0.1, 0.22, *[0.307] * 7],
+                [0, 0, 0, 0, 0, 0, -0.08, -0.08, 0, 0, 0.08, 0.08],
+                [0.5, 0.6, 0.65, 0.68, 0.7, 0.66, *[0.49, 0.55] * 3],
             ]
         ),
         arm_radius=0.07,
@@ -95,17 +89,11 @@ ROBOTS = {
         near=0.35,
         far=0.9,
         body=(0.29, 1.15),
-        arm=np.array(
+        arm=np.column_stack(
             [
-                [0.1, 0, 1.4],
-                [0.25, -0.08, 1.36],
-                [0.31, -0.11, 1.47],
-                [0.5, -0.07, 1.51],
-                [0.62, -0.05, 1.53],
-                [0.57, -0.03, 1.4],
-                [0.51, 0, 1.25],
-                [0.51, 0.06, 1.25],
-                [0.51, -0.06, 1.25],
+                [0.1, 0.25, 0.31, 0.5, 0.62, 0.57, 0.51, 0.51, 0.51],
+                [0, -0.08, -0.11, -0.07, -0.05, -0.03, 0, 0.06, -0.06],
+                [1.4, 1.36, 1.47, 1.51, 1.53, 1.4, 1.25, 1.25, 1.25],
             ]
         ),
         arm_radius=0.08,
@@ -154,9 +142,8 @@ def find_place(
         start: how far the joint is open when the robot arrives, a share of its range.
         spread: how much more or less than that it may be.
     """
-    return _search(
-        asset, joint, ROBOTS[robot], np.clip([start - spread, start, start + spread], 0.0, 1.0)
-    )
+    starts = np.clip([start - spread, start, start + spread], 0.0, 1.0)
+    return _search(asset, joint, ROBOTS[robot], starts)
 
 
 def _search(
@@ -168,15 +155,9 @@ def _search(
     moving = carried_links(asset, joint.child)
     everything = frozenset(other.child for other in asset.joints) | {asset.joints[0].parent}
     still = hull_boxes(asset, closed_values(asset), everything - moving)
-    swept, start = (
-        np.concatenate(
-            [
-                still,
-                *(hull_boxes(asset, values, moving) for values in opening_values(asset, joint, at)),
-            ]
-        )
-        for at in (shares, np.unique(starts))
-    )
+    opened = (opening_values(asset, joint, at) for at in (shares, np.unique(starts)))
+    boxes = ((hull_boxes(asset, values, moving) for values in each) for each in opened)
+    swept, start = (np.concatenate([still, *each]) for each in boxes)
 
     facing = facing_direction(path[0], joint.pull, joint.normal, asset.standing_bounds)
     places, turns = _candidates(path, facing, robot)
@@ -217,9 +198,8 @@ def _candidates(
     start = path[0]
     middle = 0.5 * (path[:, 2].min() + path[:, 2].max())
     heights = [0.0] if robot.mobile else sorted({max(0.0, float(middle) - drop) for drop in DROPS})
-    turn, distance, height = (
-        grid.ravel() for grid in np.meshgrid(TURNS, DISTANCES, heights, indexing="ij")
-    )
+    grids = np.meshgrid(TURNS, DISTANCES, heights, indexing="ij")
+    turn, distance, height = (grid.ravel() for grid in grids)
     angle = math.atan2(facing[1], facing[0]) + turn
     flat = start[:2] + distance[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     return np.column_stack([flat, height]), turn
@@ -229,12 +209,9 @@ def _in_world(places: FloatArray, yaws: FloatArray, points: FloatArray) -> Float
     """Return the points of the base frame at every place [m], shape [place, point, 3]."""
     cos = np.cos(yaws)[:, None]
     sin = np.sin(yaws)[:, None]
-    x = points[:, 0]
-    y = points[:, 1]
-    turned = np.stack(
-        [cos * x - sin * y, sin * x + cos * y, np.broadcast_to(points[:, 2], (len(yaws), len(x)))],
-        -1,
-    )
+    x, y, z = points.T
+    level = np.broadcast_to(z, (len(yaws), len(z)))
+    turned = np.stack([cos * x - sin * y, sin * x + cos * y, level], -1)
     return np.asarray(turned + places[:, None])
 
 
@@ -254,14 +231,17 @@ def _stretch(
 def _body_clearance(places: FloatArray, boxes: FloatArray, robot: RobotShape) -> FloatArray:
     """Return the upright body's level distance to all boxes at its height [m], shape [place]."""
     radius, height = robot.body
-    gap = np.maximum(
-        boxes[None, :, 0, :2] - places[:, None, :2], places[:, None, :2] - boxes[None, :, 1, :2]
-    )
-    distance = np.linalg.norm(np.maximum(gap, 0.0), axis=-1) + np.minimum(gap.max(axis=-1), 0.0)
-    beside = (boxes[None, :, 0, 2] < places[:, None, 2] + height) & (
-        boxes[None, :, 1, 2] > places[:, None, 2] - MARGIN
-    )
+    low, high = boxes.transpose(1, 0, 2)
+    feet = places[:, None]
+    distance = _distance(np.maximum(low[:, :2] - feet[..., :2], feet[..., :2] - high[:, :2]))
+    beside = (low[:, 2] < feet[..., 2] + height) & (high[:, 2] > feet[..., 2] - MARGIN)
     return np.asarray(np.where(beside, distance, np.inf).min(axis=1, initial=np.inf) - radius)
+
+
+def _distance(gap: FloatArray) -> FloatArray:
+    """Return the distance to boxes by the gap along each axis, negative inside [m]."""
+    beyond = np.linalg.norm(np.maximum(gap, 0.0), axis=-1)
+    return np.asarray(beyond + np.minimum(gap.max(axis=-1), 0.0))
 
 
 def _arm_clearance(
@@ -269,8 +249,7 @@ def _arm_clearance(
 ) -> FloatArray:
     """Return the distance between the arm at rest and all boxes [m], shape [place]."""
     points = _in_world(places, yaws, robot.arm)[:, :, None]
-    gap = np.maximum(boxes[:, 0] - points, points - boxes[:, 1])
-    distance = np.linalg.norm(np.maximum(gap, 0.0), axis=-1) + np.minimum(gap.max(axis=-1), 0.0)
+    distance = _distance(np.maximum(boxes[:, 0] - points, points - boxes[:, 1]))
     return np.asarray(distance.min(axis=(1, 2), initial=np.inf) - robot.arm_radius)
 
 

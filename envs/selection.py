@@ -6,22 +6,10 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.factory.registry.entry import SPLITS, TEST_SHARE, Split, split_of
+from asset_factory.factory.registry.entry import SPLITS, Split, split_of
 from asset_factory.factory.registry.report_file import read_report
 
 from .assets import OpenableJoint, RegisteredAsset, listed
-
-__all__ = [
-    "JOINT_TYPES",
-    "SPLITS",
-    "TEST_SHARE",
-    "VERDICTS",
-    "Split",
-    "Wanted",
-    "select",
-    "split_of",
-    "verdicts_of",
-]
 
 #: What can be asked of an asset's report.
 VERDICTS = ("passed", "clean")
@@ -59,9 +47,8 @@ class Wanted:
             ("verdict", self.verdict, VERDICTS),
         ):
             if value not in known:
-                raise ConfigError(
-                    f"{name} must be one of {', '.join(map(repr, known))}, not {value!r}"
-                )
+                words = ", ".join(map(repr, known))
+                raise ConfigError(f"{name} must be one of {words}, not {value!r}")
 
     def admits(self, joint: OpenableJoint) -> bool:
         """Return whether the joint passes, its name aside."""
@@ -86,14 +73,12 @@ def select(assets: Assets, wanted: Wanted) -> Assets:
         RegistryError: there are none; says which filter left nothing and what there was before it.
     """
     if wanted.asset is not None and wanted.asset not in assets:
-        raise RegistryError(
-            f"no asset {wanted.asset!r} in the registry; there are {listed(list(assets))}"
-        )
+        there = listed(list(assets))
+        raise RegistryError(f"no asset {wanted.asset!r} in the registry; there are {there}")
     left = {wanted.asset: assets[wanted.asset]} if wanted.asset is not None else assets
     left = _filter(left, "category", wanted.categories, lambda asset: (asset.category,))
-    left = _filter(
-        left, "split", (wanted.split,) if wanted.split else (), lambda asset: (split_of(asset.id),)
-    )
+    splits = (wanted.split,) if wanted.split else ()
+    left = _filter(left, "split", splits, lambda asset: (split_of(asset.id),))
     if wanted.verdict != "passed":
         left = _filter(left, "verdict", (wanted.verdict,), verdicts_of)
     return _with_joints(left, wanted, assets)
@@ -110,10 +95,9 @@ def _filter(
     said = {key: set(words(asset)) for key, asset in assets.items()}
     kept = {key: asset for key, asset in assets.items() if said[key] & set(values)}
     if not kept:
-        there = sorted({word for each in said.values() for word in each})
-        raise RegistryError(
-            f"{_where(assets)}: none with {name} {listed(list(values))}; there are {listed(there)}"
-        )
+        there = listed(sorted({word for each in said.values() for word in each}))
+        none = f"{_where(assets)}: none with {name} {listed(list(values))}"
+        raise RegistryError(f"{none}; there are {there}")
     return kept
 
 
@@ -126,31 +110,23 @@ def _with_joints(left: Assets, wanted: Wanted, assets: Assets) -> Assets:
     named = _admitted(admitted, wanted, wanted.joint)
     if not named:
         names = sorted({joint.name for asset in admitted.values() for joint in asset.openable})
-        reasons = [
-            asset.unusable[wanted.joint]
-            for asset in left.values()
-            if wanted.joint in asset.unusable
-        ]
-        why = f" ({reasons[0]})" if reasons else ""
-        raise RegistryError(
-            f"{_where(left)}: no joint {wanted.joint!r} to move{why}; there are {listed(names)}"
-        )
+        reasons = [asset.unusable.get(wanted.joint) for asset in left.values()]
+        reason = next(filter(None, reasons), "")
+        none = f"{_where(left)}: no joint {wanted.joint!r} to move"
+        why = f" ({reason})" if reason else ""
+        raise RegistryError(f"{none}{why}; there are {listed(names)}")
     return named
 
 
 def _admitted(assets: Assets, wanted: Wanted, name: str | None = None) -> Assets:
     """Return the assets that keep a joint, each with those that it keeps."""
-    kept = {
-        key: asset.narrowed(
-            tuple(
-                joint
-                for joint in asset.openable
-                if wanted.admits(joint) and name in (None, joint.name)
-            )
-        )
-        for key, asset in assets.items()
-    }
-    return {key: asset for key, asset in kept.items() if asset.openable}
+    kept = {}
+    for key, asset in assets.items():
+        named = (joint for joint in asset.openable if name in (None, joint.name))
+        admitted = tuple(joint for joint in named if wanted.admits(joint))
+        if admitted:
+            kept[key] = asset.narrowed(admitted)
+    return kept
 
 
 def _nothing_to_move(left: Assets, wanted: Wanted, assets: Assets) -> str:
@@ -159,14 +135,13 @@ def _nothing_to_move(left: Assets, wanted: Wanted, assets: Assets) -> str:
         need += f", held at least {wanted.min_lever} m from its axis"
     kinds = sorted({joint.kind for asset in left.values() for joint in asset.openable})
     there = f"; there are {listed(kinds)} joints" if kinds else ""
-    reasons = sorted(
-        {f"{name!r}: {why}" for asset in left.values() for name, why in asset.unusable.items()}
-    )
+    unusable = (item for asset in left.values() for item in asset.unusable.items())
+    reasons = sorted({f"{name!r}: {why}" for name, why in unusable})
     why = f" ({'; '.join(reasons[:3])})" if reasons else ""
-    # Asked for one asset, people want to know which others would do.
-    others = f"; assets with one: {listed(list(_admitted(assets, wanted)))}"
-    if wanted.asset is None:
-        others = ""
+    others = ""
+    if wanted.asset is not None:
+        # Asked for one asset, people want to know which others would do.
+        others = f"; assets with one: {listed(list(_admitted(assets, wanted)))}"
     return f"{_where(left)}: no {need}{there}{why}{others}"
 
 

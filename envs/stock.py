@@ -32,13 +32,14 @@ import trimesh
 from defusedxml.ElementTree import parse
 
 from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.registry.entry import Split
 from asset_factory.sim_checks.simulators.sapien_backend import couple_as_written
 
 from .assets import FloatArray, RegisteredAsset, read_registry
 from .integrity import check_unaltered
 from .loading import invisible_robots, replaced, resist
 from .placement import facing_direction
-from .selection import Split, Wanted, select
+from .selection import Wanted, select
 from .tasks.arguments import words
 
 #: The ids whose classes ask for drawers and for doors, and how ManiSkill limits their episodes.
@@ -73,9 +74,8 @@ def described(asset: RegisteredAsset) -> ElementTree.Element:
             joint.set("type", "fixed")
             for mimic in joint.findall("mimic"):
                 joint.remove(mimic)
-    root = next(
-        link.get("name", "") for link in robot.iter("link") if link.get("name") not in children
-    )
+    names = (link.get("name", "") for link in robot.iter("link"))
+    root = next(name for name in names if name not in children)
     best = asset.openable[0]
     front = facing_direction(best.rest_point, best.pull, best.normal, asset.bounds)
     yaw = math.pi - math.atan2(front[1], front[0])
@@ -124,9 +124,7 @@ class RegistryCabinets:
     ) -> None:
         root = Path(self.registry if registry is None else registry)
         kinds = tuple(kind for kind in ("prismatic", "revolute") if kind in self.handle_types)
-        wanted = Wanted(
-            asset, categories=words(category), joint_types=kinds, split=split, verdict=verdict
-        )
+        wanted = Wanted(asset, None, words(category), kinds, split, verdict)
         folder = Path(tempfile.mkdtemp(prefix="stock-cabinets-"))
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         self._sources = {}
@@ -137,10 +135,8 @@ class RegistryCabinets:
                 ElementTree.ElementTree(tree).write(path, encoding="utf-8", xml_declaration=True)
                 self._sources[record.id] = (record, path)
         if not self._sources:
-            raise RegistryError(
-                f"{root}: no {' or '.join(kinds)} joint whose part carries "
-                f"a visual named {HANDLE!r}"
-            )
+            none = f"{root}: no {' or '.join(kinds)} joint"
+            raise RegistryError(f"{none} whose part carries a visual named {HANDLE!r}")
         # The stock code reads its ids from a file.
         listing = folder / "ids.json"
         listing.write_text(json.dumps(dict.fromkeys(self._sources)), encoding="utf-8")
@@ -253,11 +249,9 @@ def _handles(link: ElementTree.Element) -> list[ElementTree.Element]:
 
 def _corners(visuals: Iterable[ElementTree.Element]) -> Iterator[FloatArray]:
     """Yield the vertices of visuals [m], link frame, shape [vertex, 3] each."""
-    for visual in visuals:
-        for mesh in visual.iter("mesh"):
-            yield np.asarray(
-                trimesh.load(mesh.get("filename"), force="mesh", process=False).vertices
-            )
+    for mesh in (mesh for visual in visuals for mesh in visual.iter("mesh")):
+        found = trimesh.load(mesh.get("filename"), force="mesh", process=False)
+        yield np.asarray(found.vertices)
 
 
 def _asset_of(cabinet: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -40,13 +41,9 @@ class Targets:
         self._px = px
         self._on_gpu = device.type == "cuda"
         self.count = torch.tensor([len(names) for names in allowed], device=device)
-        self._allowed = torch.tensor(
-            [
-                _padded([named_slot(asset, name) for name in names], slots)
-                for asset, names in zip(assets, allowed, strict=True)
-            ],
-            device=device,
-        )
+        pairs = zip(assets, allowed, strict=True)
+        named = ([named_slot(asset, name) for name in names] for asset, names in pairs)
+        self._allowed = torch.tensor([_padded(each, slots) for each in named], device=device)
         self.slot = self._allowed[:, 0].clone()
         self._rows = torch.arange(len(assets), device=device)
         columns = {
@@ -54,23 +51,17 @@ class Targets:
             for name in (*VECTORS, *VALUES)
         }
         columns["slides"] = [[float(j.kind == "prismatic") for j in row] for row in joints]
-        self._table = {
-            name: torch.tensor(rows, dtype=torch.float32, device=device)
-            for name, rows in columns.items()
-        }
-        orders = [
-            {joint.name: i for i, joint in enumerate(each.active_joints)} for each in articulations
-        ]
-        degrees = [[order[j.name] for j in row] for order, row in zip(orders, joints, strict=True)]
+        single = partial(torch.tensor, dtype=torch.float32, device=device)
+        self._table = {name: single(rows) for name, rows in columns.items()}
+        degrees = []
+        self._handles = []
+        self._movers = []
+        for articulation, row in zip(articulations, joints, strict=True):
+            order = {joint.name: i for i, joint in enumerate(articulation.active_joints)}
+            degrees.append([order[j.name] for j in row])
+            self._handles.append([articulation.links_map[j.handle_link] for j in row])
+            self._movers.append([articulation.links_map[j.child] for j in row])
         self._table["dof"] = torch.tensor(degrees, device=device)
-        self._handles = [
-            [a.links_map[j.handle_link] for j in row]
-            for a, row in zip(articulations, joints, strict=True)
-        ]
-        self._movers = [
-            [a.links_map[j.child] for j in row]
-            for a, row in zip(articulations, joints, strict=True)
-        ]
         self._now = {name: table[self._rows, self.slot] for name, table in self._table.items()}
 
     def find_bodies(self) -> None:

@@ -128,8 +128,7 @@ class Weights:
     Attributes:
         file: name of the checkpoint (not its path).
         digest: SHA-256 of it.
-        license: terms of use of them and of assets made with them; ``None`` if
-            unknown.
+        license: terms of use of them and of assets made with them; ``None``: unknown.
         outputs: the license that they put on whatever they help to make; ``None``: none.
     """
 

@@ -246,8 +246,7 @@ class InertiaConfig:
     """Masses.
 
     Attributes:
-        density: of the material [kg/m3] where neither a sidecar nor the category tells the mass;
-            the default is that of chipboard and plywood.
+        density: of the material [kg/m3] where nothing else tells the mass; chipboard's by default.
         shell_thickness_m: wall assumed for surfaces that enclose no volume [m].
     """
 

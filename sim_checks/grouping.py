@@ -19,10 +19,8 @@ def group_findings(findings: Sequence[Finding]) -> tuple[tuple[Finding, ...], ..
     for finding in findings:
         groups.setdefault((finding.severity, finding.code), []).append(finding)
     order = list(Severity)
-    return tuple(
-        tuple(sorted(group, key=_excess, reverse=True))
-        for (severity, _), group in sorted(groups.items(), key=lambda each: order.index(each[0][0]))
-    )
+    keys = sorted(groups, key=lambda key: order.index(key[0]))
+    return tuple(tuple(sorted(groups[key], key=_excess, reverse=True)) for key in keys)
 
 
 def group_disagreements(
@@ -58,34 +56,25 @@ def told_once(finding: Finding) -> Hashable:
 def described(report: Report) -> Hashable:
     """Return the joints, their ranges and the links with shapes; ``None`` where that is unknown.
 
-    Files of one asset share it: what was measured of one of them holds for the others.
+    Files of one asset share it: measurements of one of them hold for the others.
     """
     measured = penetrations({"": report.measurements})
     if not measured:
         return None
-    links = report.measurements["lint"]["links"]
-    return (
-        tuple(
-            sorted(
-                (joint.joint, joint.unit, f"{joint.lower:.{DIGITS}g}", f"{joint.upper:.{DIGITS}g}")
-                for joint in measured[0].joints
-            )
-        ),
-        frozenset(
-            link["link"] for link in links if link["collision_shapes"] or link["visual_shapes"]
-        ),
+    swept = measured[0].joints
+    joints = sorted(
+        (j.joint, j.unit, f"{j.lower:.{DIGITS}g}", f"{j.upper:.{DIGITS}g}") for j in swept
     )
+    links = report.measurements["lint"]["links"]
+    shaped = (each for each in links if each["collision_shapes"] or each["visual_shapes"])
+    return tuple(joints), frozenset(link["link"] for link in shaped)
 
 
 def excuse_unread(report: Report, beside: Collection[Report]) -> Report:
     """Return a report without its ``not_simulated`` where a file beside it was simulated instead.
 
     An engine that does not read a format by nature says nothing of the asset, if it drove another
-    file that has the same joints, ranges and links.
-
-    Args:
-        report: of one file.
-        beside: of the other files in its folder.
+    file in its folder (``beside``) that has the same joints, ranges and links.
     """
     asset = described(report)
     driven = [each for each in beside if each.simulators and described(each) == asset]

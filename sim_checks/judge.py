@@ -198,12 +198,7 @@ def run_checks(
 
 
 def readable(path: Path, folder: Path, options: ReadOptions) -> Gathered:
-    """Return what engines can be asked of a file: itself, or what says the same in a folder.
-
-    Args:
-        path: the file.
-        folder: an empty one.
-        options: what may be read beyond the file's folder and its package.
+    """Return what engines can be asked of a file: itself, or what says the same in an empty folder.
 
     Raises:
         DescriptionError: it cannot be read, or refers to what may not be.
@@ -216,12 +211,7 @@ def readable(path: Path, folder: Path, options: ReadOptions) -> Gathered:
 
 
 def examine_here(path: Path, config: CheckConfig, *, native: bool = True) -> Examination:
-    """Read a file and run the static checks on it, in this process.
-
-    Args:
-        path: the file.
-        config: every threshold.
-        native: whether checks that run native code take part.
+    """Read a file and run the static checks on it in this process; native code only if allowed.
 
     Raises:
         DescriptionError: if it cannot be read.
@@ -257,13 +247,9 @@ def _unasked(description: Description, simulators: Sequence[str]) -> list[Findin
 
     if not simulators or any(description.format in SIMULATORS[name].formats for name in simulators):
         return []
-    readers = ", ".join(
-        name for name, engine in SIMULATORS.items() if description.format in engine.formats
-    )
-    message = (
-        f"none of {', '.join(simulators)} loads {description.format} here: "
-        f"nobody drove {description.path.name}; ask {readers}"
-    )
+    readers = [name for name, each in SIMULATORS.items() if description.format in each.formats]
+    unread = f"none of {', '.join(simulators)} loads {description.format} here"
+    message = f"{unread}: nobody drove {description.path.name}; ask {', '.join(readers)}"
     return [Finding("not_simulated", Severity.ERROR, message)]
 
 

@@ -144,10 +144,9 @@ class MeasuredPenetration:
 
 
 def penetrations(measurements: Mapping[str, Any]) -> tuple[MeasuredPenetration, ...]:
-    """Return the measurements of each file of an asset; those of another version are left out.
+    """Return the measurements of each file of an asset, from a report's by file and check.
 
-    Args:
-        measurements: of a report, by file and check.
+    Those of another version are left out.
     """
     found = []
     for checks in measurements.values():

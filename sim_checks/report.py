@@ -180,19 +180,8 @@ class Report:
             "passed": self.passed,
             "description": self.description,
             "simulators": list(self.simulators),
-            "findings": [
-                {
-                    **asdict(f),
-                    "severity": str(f.severity),
-                    "parts": list(f.parts),
-                    "joints": list(f.joints),
-                }
-                for f in self.findings
-            ],
-            "disagreements": [
-                {**asdict(d), "verdicts": dict(d.verdicts), "values": dict(d.values)}
-                for d in self.disagreements
-            ],
+            "findings": [_as_data(finding) for finding in self.findings],
+            "disagreements": [_as_data(each) for each in self.disagreements],
             "measurements": dict(self.measurements),
         }
 
@@ -203,12 +192,14 @@ class Report:
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Report:
         """Return the inverse of :meth:`to_dict`."""
-        findings = (Finding(**f) for f in data["findings"])
+        findings = tuple(Finding(**f) for f in data["findings"])
         disagreements = tuple(Disagreement(**d) for d in data.get("disagreements", ()))
-        return cls(
-            data["description"],
-            tuple(data["simulators"]),
-            tuple(findings),
-            data["measurements"],
-            disagreements,
-        )
+        told = (tuple(data["simulators"]), findings, data["measurements"], disagreements)
+        return cls(data["description"], *told)
+
+
+def _as_data(record: Finding | Disagreement) -> dict[str, Any]:
+    """Return a record as JSON holds it: lists, and strings that are no enumeration's."""
+    plain = {tuple: list, Severity: str}
+    data = asdict(record)
+    return {key: plain[type(v)](v) if type(v) in plain else v for key, v in data.items()}

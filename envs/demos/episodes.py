@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 from asset_factory.factory.runtime.code import code_digest
@@ -55,11 +56,8 @@ class Settings:
             "max_episode_steps": STEPS,
         }
         # With the module before it gymnasium imports this package by itself.
-        return {
-            "env_id": f"asset_factory.envs:{self.task}",
-            "env_kwargs": arguments,
-            "max_episode_steps": STEPS,
-        }
+        named = f"asset_factory.envs:{self.task}"
+        return {"env_id": named, "env_kwargs": arguments, "max_episode_steps": STEPS}
 
 
 @dataclass(frozen=True)
@@ -138,11 +136,8 @@ def make_shards(
     """
     shards = []
     for asset in assets:
-        wanted = [
-            Episode(asset.id, asset.digest, joint.name, seed)
-            for seed in seeds
-            for joint in asset.openable
-        ]
+        named = product(seeds, (joint.name for joint in asset.openable))
+        wanted = [Episode(asset.id, asset.digest, joint, seed) for seed, joint in named]
         for number, start in enumerate(range(0, len(wanted), size)):
             shards.append(Shard(f"{asset.id}-{number:03d}", tuple(wanted[start : start + size])))
     return tuple(shards)

@@ -26,18 +26,16 @@ TRAJECTORY = ".trajectory"
 #: Where in a shard's JSON the rest of what was found lies, beside what ManiSkill reads.
 OURS = "asset_factory"
 SOURCE = "motionplanning"
+DESCRIBED = (
+    "A scripted robot of asset_factory.envs.solving, acted again before ManiSkill's recorder."
+)
 GROUP = "traj_0"
 
 
 def keep_episode(folder: Path, settings: Settings, taken: Taken, trajectory: Path | None) -> None:
-    """Keep an episode until its shard is written.
+    """Keep what came of an episode, in a folder of episodes, until its shard is written.
 
-    Args:
-        folder: of episodes.
-        settings: that it was made with.
-        taken: what came of it.
-        trajectory: an ``.h5`` in the same folder with one trajectory, which is moved; ``None`` if
-            there is none.
+    Its trajectory, an ``.h5`` in the same folder with no other, is moved.
     """
     key = taken.episode.key(settings)
     if trajectory is not None:
@@ -72,24 +70,14 @@ def write_shard(
     settings: Settings,
     registry: str,
 ) -> None:
-    """Put kept episodes together.
-
-    Args:
-        target: folder of shards.
-        episodes: folder of episodes.
-        shard: which.
-        taken: its episodes, in its order.
-        settings: that they were made with.
-        registry: as it was given.
-    """
+    """Put kept episodes of a folder together in a shard's order; ``target`` is that of shards."""
     kept = [each for each in taken if each.info is not None]
     file = target / f"{shard.name}.h5"
     # No name that somebody who looks for .h5 would find.
     temporary = target / f"{WRITING_PREFIX}{shard.name}"
     if kept:
-        _put_together(
-            temporary, [episodes / f"{each.episode.key(settings)}{TRAJECTORY}" for each in kept]
-        )
+        keys = [each.episode.key(settings) for each in kept]
+        _put_together(temporary, [episodes / f"{key}{TRAJECTORY}" for key in keys])
         _sync(temporary)
     # What is there belongs to another JSON than the one that comes now.
     file.unlink(missing_ok=True)
@@ -107,9 +95,8 @@ def read_shard(target: Path, shard: Shard, settings: Settings) -> tuple[Taken, .
         if data[OURS]["key"] != shard.key(settings):
             return None
         rows = [_with_info(row, data["episodes"]) for row in data[OURS]["attempts"]]
-        taken = tuple(
-            _taken(row, episode) for row, episode in zip(rows, shard.episodes, strict=True)
-        )
+        pairs = zip(rows, shard.episodes, strict=True)
+        taken = tuple(_taken(row, episode) for row, episode in pairs)
     except (OSError, ValueError, LookupError, TypeError):
         return None
     complete = all(each.judged for each in taken)
@@ -146,21 +133,14 @@ def _described(
         if info is not None:
             entries.append({**info, "episode_id": len(entries)})
         rows.append(row)
+    ours = {"version": VERSION, "key": shard.key(settings), "settings": asdict(settings)}
     return {
         "env_info": settings.env_info(registry),
         "commit_info": None,
         "episodes": entries,
         "source_type": SOURCE,
-        "source_desc": (
-            "A scripted robot of asset_factory.envs.solving, "
-            "acted again before ManiSkill's recorder."
-        ),
-        OURS: {
-            "version": VERSION,
-            "key": shard.key(settings),
-            "settings": asdict(settings),
-            "attempts": rows,
-        },
+        "source_desc": DESCRIBED,
+        OURS: {**ours, "attempts": rows},
     }
 
 

@@ -23,10 +23,7 @@ KIND = ("task", "robot", "obs_mode", "control_mode")
 def hold(target: Path, settings: Settings, shards: Sequence[Shard]) -> Iterator[None]:
     """Keep every other run out of a folder of demonstrations; it is made if need be.
 
-    Args:
-        target: the folder.
-        settings: of the episodes that are to come,
-        shards: and the files that they are to lie in.
+    The episodes to come are to lie in some shards.
 
     Raises:
         ConfigError: another run is at work there; it holds demonstrations of another kind, such
@@ -35,9 +32,8 @@ def hold(target: Path, settings: Settings, shards: Sequence[Shard]) -> Iterator[
     target.mkdir(parents=True, exist_ok=True)
     held = claim(target, LOCK)
     if held is None:
-        raise ConfigError(
-            f"{target}: another run writes demonstrations here; wait for it, or name another --to"
-        )
+        remedy = "wait for it, or name another --to"
+        raise ConfigError(f"{target}: another run writes demonstrations here; {remedy}")
     try:
         _require_room(target, settings, shards)
         yield
@@ -54,20 +50,17 @@ def _require_room(target: Path, settings: Settings, shards: Sequence[Shard]) -> 
     for name, data in _described(target):
         there = tuple(str(data["settings"][each]) for each in KIND)
         if there != kind:
-            raise ConfigError(
-                f"{target}: holds demonstrations of {', '.join(there)}, "
-                f"these are {', '.join(kind)}; name another --to"
-            )
+            holds = f"{target}: holds demonstrations of {', '.join(there)}"
+            raise ConfigError(f"{holds}, these are {', '.join(kind)}; name another --to")
         for row in data["attempts"]:
             place = planned.get((row["asset"], row["joint"], row["seed"]))
             lost = place is None and name in names and (row["asset"], row["digest"]) in current
             if lost or place not in (None, name):
                 fate = "leave out" if lost else f"put into {place}"
-                raise ConfigError(
-                    f"{target}/{name}.json: holds {row['asset']} {row['joint']} seed "
-                    f"{row['seed']}, which these flags {fate}; remove that file and its .h5, "
-                    "or name another --to"
-                )
+                holds = f"holds {row['asset']} {row['joint']} seed {row['seed']}"
+                remedy = "remove that file and its .h5, or name another --to"
+                words = f"{holds}, which these flags {fate}; {remedy}"
+                raise ConfigError(f"{target}/{name}.json: {words}")
 
 
 def _described(target: Path) -> Iterator[tuple[str, dict[str, Any]]]:

@@ -38,9 +38,6 @@ class Making:
     def run(self, shards: Sequence[Shard]) -> Iterator[tuple[Shard, tuple[Taken, ...]]]:
         """Make the missing shards; yields those that existed, then the others as they finish.
 
-        Args:
-            shards: no two of one name.
-
         Raises:
             ConfigError: the environment cannot be made like this.
         """
@@ -62,13 +59,11 @@ class Making:
         for shard in shards:
             kept = (kept_episode(waiting, self.settings, episode) for episode in shard.episodes)
             gathered[shard.name] = {taken.episode: taken for taken in kept if taken is not None}
-        missing = [
-            each for shard in shards for each in shard.episodes if each not in gathered[shard.name]
-        ]
+        owners = {episode: shard for shard in shards for episode in shard.episodes}
+        missing = [each for each, shard in owners.items() if each not in gathered[shard.name]]
         for shard in shards:
             if len(gathered[shard.name]) == len(shard.episodes):
                 yield shard, self._finish(shard, gathered.pop(shard.name))
-        owners = {episode: shard for shard in shards for episode in shard.episodes}
         for taken in self._episodes(missing, waiting):
             shard = owners[taken.episode]
             gathered[shard.name][taken.episode] = taken
@@ -87,18 +82,9 @@ class Making:
     def _episodes(self, episodes: Iterable[Episode], waiting: Path) -> Iterator[Taken]:
         """Make episodes, in processes that may die."""
         wanted = list(episodes)
-        calls = (
-            Call(
-                f"{each.asset} {each.joint} {each.seed}",
-                {
-                    "registry": self.registry,
-                    "episode": each,
-                    "settings": self.settings,
-                    "folder": str(waiting),
-                },
-            )
-            for each in wanted
-        )
+        shared = {"registry": self.registry, "settings": self.settings, "folder": str(waiting)}
+        named = ((f"{each.asset} {each.joint} {each.seed}", each) for each in wanted)
+        calls = (Call(name, {**shared, "episode": each}) for name, each in named)
         executor = LocalExecutor(self.workers, retries=0)
         limits = Limits(wall_s=self.timeout_s)
         for count, (call, outcome) in enumerate(executor.run(record, calls, limits), 1):

@@ -13,21 +13,13 @@ from .files import keep_episode
 
 
 def record(registry: str, episode: Episode, settings: Settings, folder: str) -> Taken:
-    """Solve an episode and keep its trajectory in ``folder``.
-
-    Args:
-        registry: folder that ``factory build --output`` wrote.
-        episode: which.
-        settings: how.
-        folder: it must exist; see :func:`~asset_factory.envs.demos.files.keep_episode`.
+    """Solve an episode and keep its trajectory in ``folder``, which must exist.
 
     Raises:
         RegistryError, ConfigError: as the environment does.
     """
-    asset = episode.asset
-    joint = episode.joint
-    task = SolveTask(registry, asset, joint, settings.robot, episode.seed, settings.tries)
-    attempt = attempted(task)
+    what = (episode.asset, episode.joint)
+    attempt = attempted(SolveTask(registry, *what, settings.robot, episode.seed, settings.tries))
     why = attempt.reason, attempt.message
     opened = round(attempt.open_fraction, 6)
     taken = Taken(episode, attempt.solved, *why, opened, attempt.steps)
@@ -47,14 +39,9 @@ def act_again(
     name = f"{taken.episode.key(settings)}-recording"
     written = folder / f"{name}.h5"
     described = folder / f"{name}.json"
-    environment = RecordEpisode(
-        _make(registry, settings),
-        str(folder),
-        trajectory_name=name,
-        save_video=False,
-        save_on_reset=False,
-        clean_on_close=False,
-    )
+    unasked = {"save_video": False, "save_on_reset": False, "clean_on_close": False}
+    made = _make(registry, settings)
+    environment = RecordEpisode(made, str(folder), trajectory_name=name, **unasked)
     try:
         success = _act(environment, registry, attempt, settings)
         environment.flush_trajectory()

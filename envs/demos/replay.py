@@ -40,10 +40,8 @@ def replay(arguments: Sequence[str]) -> None:
     if not (wanted.save_video or wanted.vis) and wanted.obs_mode in (None, *BLIND_MODES):
         wanted.render_mode = None
     if wanted.num_envs > 1 and "ee" in (wanted.target_control_mode or ""):
-        _refuse(
-            f"--num-envs must be 1 with --target-control-mode {wanted.target_control_mode}, "
-            f"not {wanted.num_envs}"
-        )
+        mode = f"--target-control-mode {wanted.target_control_mode}"
+        _refuse(f"--num-envs must be 1 with {mode}, not {wanted.num_envs}")
     with _told(registry):
         tool.main(wanted)
 

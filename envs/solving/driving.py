@@ -233,9 +233,8 @@ class Driver:
         most = max((float(np.linalg.norm(force)) for force in pressed.values()), default=0.0)
         if most == 0.0:
             return np.zeros(3), 0.0
-        return np.array(
-            self._arm.get_link_incoming_joint_forces()[self.world.palm][:3], dtype=float
-        ), most
+        carried = self._arm.get_link_incoming_joint_forces()[self.world.palm][:3]
+        return np.array(carried, dtype=float), most
 
 
 def sustained(forces: Sequence[float]) -> float:

@@ -95,9 +95,8 @@ def read_film(registry: str, attempt: Attempt) -> FilmScene:
         poses = {whose: _matrix(actor) for whose, actor in where.items()}
     finally:
         environment.close()
-    scene = put_together(
-        attempt.asset, {"robot": (robot, poses["robot"]), "asset": (asset, poses["asset"])}
-    )
+    parts = {"robot": (robot, poses["robot"]), "asset": (asset, poses["asset"])}
+    scene = put_together(attempt.asset, parts)
     hand = SOLVERS[attempt.robot]
     moved = next(joint.child for joint in scene.joints if joint.name == f"asset/{attempt.joint}")
     watched = {scene.links.index(f"robot/{name}") for name in (hand.palm, *hand.fingers)}
@@ -106,14 +105,7 @@ def read_film(registry: str, attempt: Attempt) -> FilmScene:
 
 
 def draw_film(made: FilmScene, width: int, height: int, every: int = 1) -> Iterator[Pixels]:
-    """Yield the pictures of an episode, sRGB, shape [height, width, 3].
-
-    Args:
-        made: the episode.
-        width: of the pictures [pixels].
-        height: of the pictures [pixels].
-        every: of how many control steps one is drawn.
-    """
+    """Yield pictures of an episode, sRGB, shape [height, width, 3], one of every so many steps."""
     camera = _camera(made, width, height)
     caster = Caster(made.scene, made.scene.visuals)
     look = Coloring(caster)

@@ -97,9 +97,8 @@ def pushes(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
             if facing > 0.5:
                 continue
             tip_first = facing < -0.7
-            side = (
-                np.cross(normal, ahead) if not tip_first else np.cross(ahead, _most_across(ahead))
-            )
+            ends = (ahead, _most_across(ahead)) if tip_first else (normal, ahead)
+            side = np.cross(*ends)
             side /= np.linalg.norm(side)
             # Fingers lie against the surface with their narrow side, one beside the other.
             for roll, distance in product((0, 1), BESIDE):
@@ -127,9 +126,8 @@ def drags(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
         for (column, lean), turn, aloft in product(enumerate(LEANS[:3]), range(4), ALOFT):
             fingers = Rotation.from_rotvec(0.5 * np.pi * turn * normal).apply(across)
             ahead = Rotation.from_rotvec(lean * fingers).apply(-normal)
-            hand = _hand(
-                point + aloft * along - (world.robot.length + SHORT_OF) * ahead, ahead, fingers
-            )
+            place = point + aloft * along - (world.robot.length + SHORT_OF) * ahead
+            hand = _hand(place, ahead, fingers)
             score = (0.2 - 3.0 * aloft) * worth[row]
             found.append(Grip("drag", -1, hand, score, (row, column, turn, aloft)))
     return _only_what_moves(world, found, poses)
@@ -165,11 +163,8 @@ def _only_what_moves(world: RobotWorld, grips: list[Grip], poses: FloatArray) ->
     stays = [link for link in range(len(poses)) if link not in world.carried]
     clear = (world.pieces.distance(points, poses[None], world.carried) - fingers.radius).min(axis=1)
     pressed = world.pieces.distance(points, poses[None], stays).min(axis=1)
-    return [
-        grip
-        for grip, gap, depth in zip(grips, clear, pressed, strict=True)
-        if gap > 0.0 and depth < -INTO
-    ]
+    fine = (clear > 0.0) & (pressed < -INTO)
+    return [grip for grip, ok in zip(grips, fine, strict=True) if ok]
 
 
 def _clear(
@@ -231,13 +226,9 @@ def _outer(
     if not len(spots):
         return spots, outward, lever
     worth = lever / max(lever.max(), 1e-9)
-    outer = (world.pieces.distance((spots + 0.006 * outward)[None], poses[None])[0] > 0.003) & (
-        worth > 0.3
-    )
-    spots = spots[outer]
-    outward = outward[outer]
-    worth = worth[outer]
-    return _spread(spots, outward, worth)
+    clear = world.pieces.distance((spots + 0.006 * outward)[None], poses[None])[0] > 0.003
+    outer = clear & (worth > 0.3)
+    return _spread(spots[outer], outward[outer], worth[outer])
 
 
 def _motion(world: RobotWorld, poses: FloatArray, points: FloatArray) -> FloatArray:

@@ -106,16 +106,13 @@ def read_chain(articulation: Any) -> Chain:
     order = {joint.name: i for i, joint in enumerate(articulation.active_joints)}
     limits = np.array(articulation.get_qlimits(), dtype=float).reshape(-1, 2)
     limits = np.where(np.isfinite(limits), limits, np.array([-ENDLESS, ENDLESS]))
+    before = [link.joint.pose_in_parent.to_transformation_matrix() for link in links]
+    after = [link.joint.pose_in_child.inv().to_transformation_matrix() for link in links]
     return Chain(
         tuple(link.name for link in links),
         tuple(-1 if link.parent is None else index[link.parent.name] for link in links),
-        np.array(
-            [link.joint.pose_in_parent.to_transformation_matrix() for link in links], dtype=float
-        ),
-        np.array(
-            [link.joint.pose_in_child.inv().to_transformation_matrix() for link in links],
-            dtype=float,
-        ),
+        np.array(before, dtype=float),
+        np.array(after, dtype=float),
         tuple(order.get(link.joint.name, -1) for link in links),
         tuple("prismatic" in link.joint.type for link in links),
         limits,
@@ -169,9 +166,8 @@ def reach(
         step = rest + (jacobian.transpose(0, 2, 1) @ solved)[:, :, 0]
         values[:, columns] = np.clip(values[:, columns] + np.clip(step, -STEP, STEP), lower, upper)
     error = pose_error(chain.forward(values, root, line)[:, tip], goals)
-    return values, np.stack(
-        [np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)], axis=1
-    )
+    off = [np.linalg.norm(part, axis=1) for part in (error[:, :3], error[:, 3:])]
+    return values, np.stack(off, axis=1)
 
 
 def pose_error(poses: FloatArray, goals: FloatArray) -> FloatArray:
@@ -185,9 +181,8 @@ def pose_error(poses: FloatArray, goals: FloatArray) -> FloatArray:
     length = np.linalg.norm(twice, axis=1)
     angle = np.arctan2(length, np.trace(turn, axis1=1, axis2=2) - 1.0)
     # A turn by half a circle has no direction here; any will do for one step.
-    axis = np.where(
-        length[:, None] > 1e-9, twice / np.maximum(length, 1e-9)[:, None], np.array([0.0, 0.0, 1.0])
-    )
+    unit = twice / np.maximum(length, 1e-9)[:, None]
+    axis = np.where(length[:, None] > 1e-9, unit, np.array([0.0, 0.0, 1.0]))
     return np.concatenate([goals[:, :3, 3] - poses[:, :3, 3], axis * angle[:, None]], axis=1)
 
 

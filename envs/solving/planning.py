@@ -108,15 +108,12 @@ def motion(
     span = world.joint.upper - world.joint.lower
     placed = np.empty((len(shares), *hands.shape))
     for row, share in enumerate(shares):
-        moved = world.object_poses(object_values, share)[world.mover] @ np.linalg.inv(
-            now[world.mover]
-        )
-        placed[row] = moved @ hands
+        then = world.object_poses(object_values, share)
+        placed[row] = then[world.mover] @ np.linalg.inv(now[world.mover]) @ hands
         if not slides:
             back = -lag * (share - world.share(object_values)) * span
-            placed[row, :, :3, :3] = (
-                Rotation.from_rotvec(back[:, None] * axis).as_matrix() @ placed[row, :, :3, :3]
-            )
+            turn = Rotation.from_rotvec(back[:, None] * axis).as_matrix()
+            placed[row, :, :3, :3] = turn @ placed[row, :, :3, :3]
     return placed
 
 
@@ -126,9 +123,8 @@ def _starts(world: RobotWorld, values: FloatArray, seed: int) -> FloatArray:
     starts = np.tile(values, (STARTS, 1))
     free = list(world.free)
     lower, upper = world.chain.limits[free].T
-    starts[1:, free] = lower + (upper - lower) * rng.uniform(
-        0.15, 0.85, size=(STARTS - 1, len(free))
-    )
+    shares = rng.uniform(0.15, 0.85, size=(STARTS - 1, len(free)))
+    starts[1:, free] = lower + (upper - lower) * shares
     return starts
 
 
@@ -252,11 +248,8 @@ def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
         current = following
         steps.append(current)
     entries = np.array(steps[::-1]).transpose(1, 0, 2)
-    return [
-        replace(plan, before=entry[0], entry=entry)
-        for plan, entry, ok in zip(plans, entries, fine, strict=True)
-        if ok
-    ]
+    entered = [(plans[i], entries[i]) for i in np.flatnonzero(fine)]
+    return [replace(plan, before=entry[0], entry=entry) for plan, entry in entered]
 
 
 def _gripped(world: RobotWorld, values: FloatArray, grip: Grip, opened: bool) -> FloatArray:

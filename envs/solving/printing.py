@@ -58,9 +58,7 @@ def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
 
 
 def _said(attempt: Attempt) -> str:
+    said = f"{attempt.reason}: {attempt.message}"
     if attempt.solved:
-        return (
-            f"solved in {attempt.steps} steps, "
-            f"with up to {attempt.peak_force:.0f} N ({attempt.seconds:.0f} s)"
-        )
-    return f"{attempt.reason}: {attempt.message} ({attempt.seconds:.0f} s)"
+        said = f"solved in {attempt.steps} steps, with up to {attempt.peak_force:.0f} N"
+    return f"{said} ({attempt.seconds:.0f} s)"

@@ -38,15 +38,13 @@ class SolveRecord:
         """Tell whether an attempt adds anything: none solved yet, this one not tried as often."""
         rows = [row for row in self.rows if row["joint"] == joint and row["seed"] == seed]
         known = [row for row in rows if row["robot"] == robot and row["reason"] not in UNJUDGED]
-        return not any(row["solved"] for row in rows) and not any(
-            row["tries_allowed"] >= tries for row in known
-        )
+        tried = any(row["tries_allowed"] >= tries for row in known)
+        return not tried and not any(row["solved"] for row in rows)
 
     def is_solved(self, joint: str, robot: str) -> bool:
         """Tell whether a robot opened a joint, with any seed."""
-        return any(
-            row["solved"] and row["joint"] == joint and row["robot"] == robot for row in self.rows
-        )
+        rows = (row for row in self.rows if row["joint"] == joint and row["robot"] == robot)
+        return any(row["solved"] for row in rows)
 
     def noting(self, attempt: Attempt, tries: int) -> SolveRecord:
         """Add one more attempt, of at most so many tries, in the place of an older one."""

@@ -37,9 +37,8 @@ class Balls:
     def placed(self, poses: FloatArray) -> FloatArray:
         """Return world points, shape [count, point, 3], by link ``poses``, [count, link, 4, 4]."""
         chosen = poses[:, self.link]
-        return np.asarray(
-            (chosen[..., :3, :3] @ self.points[:, :, None])[..., 0] + chosen[..., :3, 3]
-        )
+        turned = (chosen[..., :3, :3] @ self.points[:, :, None])[..., 0]
+        return np.asarray(turned + chosen[..., :3, 3])
 
     def of(self, links: Sequence[int]) -> Balls:
         """Return only the points of some links."""
@@ -133,9 +132,8 @@ def robot_balls(articulation: Any, fingers: Sequence[int]) -> Balls:
     for index, link in enumerate(articulation.links):
         spacing = FINGER_SPACING if index in fingers else ARM_SPACING
         for mesh in _meshes(link):
-            corners, _ = trimesh.remesh.subdivide_to_size(
-                mesh.vertices, mesh.faces, spacing, max_iter=12
-            )
+            finer = trimesh.remesh.subdivide_to_size
+            corners, _ = finer(mesh.vertices, mesh.faces, spacing, max_iter=12)
             cells, first = np.unique(np.floor(corners / spacing), axis=0, return_index=True)
             points.append(corners[np.sort(first)])
             links.append(np.full(len(cells), index))

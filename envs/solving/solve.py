@@ -108,9 +108,8 @@ def _require_there(registry: str | Path, asset_id: str, joint: str, robot: str) 
         raise ConfigError(f"no robot {robot!r}; want one of {', '.join(SOLVERS)}")
     assets = read_registry(registry)
     if asset_id not in assets:
-        raise RegistryError(
-            f"{registry}: no asset {asset_id!r}; there are {listed(sorted(assets))}"
-        )
+        there = listed(sorted(assets))
+        raise RegistryError(f"{registry}: no asset {asset_id!r}; there are {there}")
     assets[asset_id].joint(joint)
 
 

@@ -42,12 +42,9 @@ class EpisodeCourse:
 
 
 def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> EpisodeCourse:
-    """Act until the task is solved or nothing is left to try.
+    """Act in an episode that has just begun until it is solved or nothing is left to try.
 
-    Args:
-        driver: of an episode that has just begun.
-        seed: of the planner's random choices.
-        avoided: grips of earlier tries.
+    Grips of earlier tries are avoided.
     """
     used: list[Key] = []
     kinds: list[str] = []

@@ -67,9 +67,8 @@ class _MotionTree:
         """Extend the nearest node towards a sample; tell whether the line was free."""
         nearest = int(np.argmin(np.linalg.norm(np.array(self.nodes) - sample, axis=1)))
         offset = sample - self.nodes[nearest]
-        step = self.nodes[nearest] + offset * min(
-            1.0, GROW / max(float(np.abs(offset).max()), 1e-9)
-        )
+        share = min(1.0, GROW / max(float(np.abs(offset).max()), 1e-9))
+        step = self.nodes[nearest] + offset * share
         if not _free(self._world, self.nodes[nearest], step, self._object_poses):
             return False
         self.nodes.append(step)

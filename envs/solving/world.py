@@ -99,9 +99,8 @@ class RobotWorld:
 
     def share(self, values: FloatArray) -> float:
         """Return how far the joint is open."""
-        return float(
-            (values[self.degree] - self.joint.lower) / (self.joint.upper - self.joint.lower)
-        )
+        lower = self.joint.lower
+        return float((values[self.degree] - lower) / (self.joint.upper - lower))
 
     def axis(self, poses: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return a point of the joint's axis [m] and its direction, in the world, shapes [3]."""
@@ -142,14 +141,11 @@ class RobotWorld:
         points = self.balls.placed(self.chain.forward(values, self.root))
         hit = points[..., 2].min(axis=1) < FLOOR
         if not touching:
-            return np.asarray(
-                hit | (self.pieces.distance(points, object_poses) < self.balls.radius).any(axis=1)
-            )
+            inside = self.pieces.distance(points, object_poses) < self.balls.radius
+            return np.asarray(hit | inside.any(axis=1))
         finger = np.isin(self.balls.link, self.fingers)
-        rest = (
-            self.pieces.distance(points[:, ~finger], object_poses)
-            < self.balls.radius[~finger] - YIELDING
-        )
+        yielding = self.balls.radius[~finger] - YIELDING
+        rest = self.pieces.distance(points[:, ~finger], object_poses) < yielding
         fingers = self.pieces.distance(points[:, finger], object_poses, self.carried) < 0.0
         # A hand that does not turn with what it holds may end up with a finger through it.
         fingers |= self.pieces.distance(points[:, finger], object_poses) < -HOLDING
@@ -194,9 +190,7 @@ def read_world(task: Any) -> RobotWorld:
         joint=joint,
         degree=[other.name for other in part.active_joints].index(joint.name),
         mover=object_links.index(joint.child),
-        carried=tuple(
-            sorted(object_links.index(name) for name in carried_links(record, joint.child))
-        ),
+        carried=tuple(sorted(map(object_links.index, carried_links(record, joint.child)))),
         targets=read_targets(record, joint, object_links),
     )
 
@@ -205,20 +199,13 @@ def read_targets(
     record: RegisteredAsset, joint: OpenableJoint, links: Sequence[str]
 ) -> tuple[GraspTarget, ...]:
     """Return a joint's interaction targets, best first; its handle if it has none."""
-    found = [
-        GraspTarget(
-            number,
-            target.kind,
-            links.index(target.part),
-            np.array(target.point),
-            np.array(target.normal),
-            np.array(target.fingers),
-            target.opening_m,
-            target.score,
-        )
-        for number, target in enumerate(record.targets)
-        if target.joint == joint.name
-    ]
+    found = []
+    for number, target in enumerate(record.targets):
+        if target.joint == joint.name:
+            held = (number, target.kind, links.index(target.part))
+            point, normal, fingers = map(np.array, (target.point, target.normal, target.fingers))
+            sizes = (target.opening_m, target.score)
+            found.append(GraspTarget(*held, point, normal, fingers, *sizes))
     return tuple(sorted(found, key=lambda target: -target.score))
 
 

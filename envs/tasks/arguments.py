@@ -21,33 +21,31 @@ NO_RENDERER_SIGNS = (
 
 def check_robot(task: str, robot: object, supported: Sequence[str]) -> None:
     """Raise ConfigError unless ``robot`` is one that the task can place."""
-    if robot not in supported:
-        raise ConfigError(
-            f"{task}: robot_uids must be one of {', '.join(map(repr, supported))}, not {robot!r}"
-        )
+    known = ", ".join(map(repr, supported))
+    _require(robot in supported, task, f"robot_uids must be one of {known}, not {robot!r}")
+
+
+def _require(holds: bool, task: str, words: str) -> None:
+    """Raise ConfigError, with words on what the task wants, unless it holds."""
+    if not holds:
+        raise ConfigError(f"{task}: {words}")
 
 
 def check_number(task: str, num_envs: int, sim_backend: str) -> bool:
     """Tell whether the simulation runs on a GPU; ConfigError for several environments on a CPU."""
-    on_gpu = any(word in sim_backend for word in ("cuda", "gpu")) or (
-        sim_backend == "auto" and num_envs > 1
-    )
-    advice = (
-        "run several as processes, with asset_factory.envs.make_processes or "
-        "gymnasium.vector.AsyncVectorEnv"
-    )
-    if num_envs > 1 and not on_gpu:
-        raise ConfigError(
-            f"{task}: num_envs must be 1 with sim_backend {sim_backend!r}, not {num_envs}; {advice}"
-        )
+    on_gpu = "cuda" in sim_backend or "gpu" in sim_backend
+    on_gpu = on_gpu or (sim_backend == "auto" and num_envs > 1)
+    makers = "asset_factory.envs.make_processes or gymnasium.vector.AsyncVectorEnv"
+    advice = f"run several as processes, with {makers}"
+    asked = f"with sim_backend {sim_backend!r}"
+    single = f"num_envs must be 1 {asked}, not {num_envs}; {advice}"
+    _require(on_gpu or num_envs <= 1, task, single)
     if on_gpu:
         import torch
 
-        if not torch.cuda.is_available():
-            raise ConfigError(
-                f"{task}: num_envs is {num_envs} with sim_backend {sim_backend!r}, and there is no "
-                f"CUDA device; want num_envs=1 and sim_backend='physx_cpu', or {advice}"
-            )
+        words = f"num_envs is {num_envs} {asked}, and there is no CUDA device; "
+        words += f"want num_envs=1 and sim_backend='physx_cpu', or {advice}"
+        _require(torch.cuda.is_available(), task, words)
     return on_gpu
 
 
@@ -65,30 +63,23 @@ def common_types(task: str, asked: Sequence[str], known: Sequence[str]) -> tuple
     if not asked or not known:
         return tuple(asked or known)
     types = tuple(kind for kind in asked if kind in known)
-    if not types:
-        raise ConfigError(
-            f"{task}: joint_type must be {', '.join(map(repr, known))}, "
-            f"not {', '.join(map(repr, asked))}"
-        )
+    must, given = (", ".join(map(repr, kinds)) for kinds in (known, asked))
+    _require(bool(types), task, f"joint_type must be {must}, not {given}")
     return types
 
 
 def check_range(task: str, name: str, bounds: tuple[float, float]) -> tuple[float, float]:
     """Return the bounds of a random factor. Raises ConfigError unless ``0 <= lower <= upper``."""
     lower, upper = (float(value) for value in bounds)
-    if not 0.0 <= lower <= upper < float("inf"):
-        raise ConfigError(
-            f"{task}: {name} must be two finite numbers, 0 <= lower <= upper, not {tuple(bounds)}"
-        )
+    words = f"{name} must be two finite numbers, 0 <= lower <= upper, not {tuple(bounds)}"
+    _require(0.0 <= lower <= upper < float("inf"), task, words)
     return lower, upper
 
 
 def check_share(task: str, name: str, value: float) -> float:
     """Return a share of a joint's range. Raises ConfigError unless it lies between 0 and 1."""
-    if not 0.0 <= value <= 1.0:
-        raise ConfigError(
-            f"{task}: {name} must be a share of the joint's range, 0 to 1, not {value}"
-        )
+    words = f"{name} must be a share of the joint's range, 0 to 1, not {value}"
+    _require(0.0 <= value <= 1.0, task, words)
     return float(value)
 
 
@@ -104,12 +95,10 @@ def choose_renderer(
     if render_backend == "auto":
         return "gpu" if pictures else "none"
     if render_backend in (None, "none"):
-        if pictures:
-            raise ConfigError(
-                f"{task}: {_picture_words(obs_mode, render_mode)} needs a renderer, "
-                "and render_backend is 'none'; want 'auto', 'gpu' or 'cpu', "
-                f"or obs_mode {BLIND_MODES[0]!r} without render_mode"
-            )
+        words = f"{_picture_words(obs_mode, render_mode)} needs a renderer, and render_backend is "
+        words += "'none'; want 'auto', 'gpu' or 'cpu', "
+        words += f"or obs_mode {BLIND_MODES[0]!r} without render_mode"
+        _require(not pictures, task, words)
         return "none"
     return str(render_backend)
 
@@ -130,6 +119,5 @@ def no_renderer(task: str, obs_mode: str, render_mode: str | None, error: Except
 
 
 def _picture_words(obs_mode: str, render_mode: str | None) -> str:
-    return (
-        f"obs_mode {obs_mode!r}" if obs_mode not in BLIND_MODES else f"render_mode {render_mode!r}"
-    )
+    blind = obs_mode in BLIND_MODES
+    return f"render_mode {render_mode!r}" if blind else f"obs_mode {obs_mode!r}"

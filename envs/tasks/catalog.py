@@ -44,11 +44,9 @@ def register_tasks() -> None:
             continue
         # As ManiSkill's own decorator does: its checker refuses batched tensors, its time limit
         # counts them.
-        limit = WrapperSpec(
-            "MSTimeLimit",
-            "mani_skill.utils.registration:TimeLimitWrapper",
-            {"max_episode_steps": task.max_episode_steps},
-        )
+        wrapper = "mani_skill.utils.registration:TimeLimitWrapper"
+        steps = {"max_episode_steps": task.max_episode_steps}
+        limit = WrapperSpec("MSTimeLimit", wrapper, steps)
         gymnasium.register(
             task.id,
             entry_point=f"{__package__}.{task.module}:{task.class_name}",

@@ -14,10 +14,12 @@ from mani_skill.utils import sapien_utils  # noqa: TID253
 from mani_skill.utils.structs import Articulation  # noqa: TID253
 from mani_skill.utils.structs.types import GPUMemoryConfig, SimConfig  # noqa: TID253
 
+from asset_factory.factory.registry.entry import Split
+
 from ..assets import OpenableJoint, RegisteredAsset, read_registry
 from ..loading import build_ground, invisible_robots, load_asset, resist, warn_of_hulls
 from ..placement import CAMERA_FOV, Place, camera_place, facing_direction, find_place
-from ..selection import Split, Wanted, select
+from ..selection import Wanted, select
 from ..targets import Targets
 from . import arguments
 
@@ -84,9 +86,10 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         task = type(self).__name__
         arguments.check_robot(task, robot_uids, self.SUPPORTED_ROBOTS)
         on_gpu = arguments.check_number(task, num_envs, sim_backend)
+        ranges = {"friction": friction_range, "damping": damping_range}
         self._factors = {
-            "friction": arguments.check_range(task, "friction_range", friction_range),
-            "damping": arguments.check_range(task, "damping_range", damping_range),
+            name: arguments.check_range(task, f"{name}_range", each)
+            for name, each in ranges.items()
         }
         backend = arguments.choose_renderer(task, obs_mode, render_mode, render_backend)
         everything = read_registry(registry)
@@ -95,9 +98,8 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         self._about = Wanted(joint_types=self.joint_types, min_lever=self.min_lever)
         self._available = everything
         kinds = arguments.common_types(task, arguments.words(joint_type), self.joint_types)
-        wanted = Wanted(
-            asset, joint, arguments.words(category), kinds, split, verdict, self.min_lever
-        )
+        categories = arguments.words(category)
+        wanted = Wanted(asset, joint, categories, kinds, split, verdict, self.min_lever)
         self._assets = select(everything, wanted)
         self._admitted = select(everything, self._about)
         if on_gpu:
@@ -119,9 +121,8 @@ class JointScene(BaseEnv):  # type: ignore[misc]
                 **kwargs,
             )
         except RuntimeError as error:
-            if backend != "none" and any(
-                sign in str(error) for sign in arguments.NO_RENDERER_SIGNS
-            ):
+            signs = any(sign in str(error) for sign in arguments.NO_RENDERER_SIGNS)
+            if signs and backend != "none":
                 raise arguments.no_renderer(task, obs_mode, render_mode, error) from error
             raise
 
@@ -175,13 +176,11 @@ class JointScene(BaseEnv):  # type: ignore[misc]
             self.ground.set_collision_group_bit(group=2, bit_idx=FETCH_WHEELS_COLLISION_BIT, bit=1)
         draws = self._draw(torch.arange(self.num_envs))
         ids = sorted(self._acceptable(options))
-        self.assets = tuple(
-            self._admitted[ids[int(draw * len(ids))]] for draw in draws["asset"].tolist()
-        )
+        drawn = (ids[int(draw * len(ids))] for draw in draws["asset"].tolist())
+        self.assets = tuple(self._admitted[id] for id in drawn)
         names = ["asset"] if self.num_envs == 1 else [f"asset-{i}" for i in range(self.num_envs)]
-        self._parts = [
-            load_asset(self.scene, asset, names[i], i) for i, asset in enumerate(self.assets)
-        ]
+        named = enumerate(zip(self.assets, names, strict=True))
+        self._parts = [load_asset(self.scene, asset, name, i) for i, (asset, name) in named]
         self._resist(torch.arange(self.num_envs), draws)
         if self.num_envs == 1:
             self.asset = self._parts[0]
@@ -193,10 +192,8 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         self._prepare_targets()
 
     def _prepare_targets(self) -> None:
-        allowed = [
-            [joint.name for joint in self._assets.get(asset.id, asset).openable]
-            for asset in self.assets
-        ]
+        narrowed = (self._assets.get(asset.id, asset) for asset in self.assets)
+        allowed = [[joint.name for joint in asset.openable] for asset in narrowed]
         self.targets = Targets(self.assets, self._parts, allowed, self.scene.px)
         self._closed = torch.zeros(self.num_envs, self.asset.max_dof, device=self.device)
         for row, (asset, part) in enumerate(zip(self.assets, self._parts, strict=True)):
@@ -210,9 +207,8 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         key = (asset.id, joint.name, start)
         if key not in self._places:
             spread = 0.5 / (len(self.starts) - 1) if len(self.starts) > 1 else 0.0
-            self._places[key] = find_place(
-                asset, joint, str(self.robot_uids), start=start, spread=spread
-            )
+            robot = str(self.robot_uids)
+            self._places[key] = find_place(asset, joint, robot, start=start, spread=spread)
         return self._places[key]
 
     def _resist(self, env_idx: torch.Tensor, draws: dict[str, torch.Tensor]) -> None:
@@ -234,19 +230,12 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         return self._camera("render_camera", 512)
 
     def _camera(self, name: str, pixels: int) -> CameraConfig:
-        eyes = []
-        middles = []
+        places = []
         for asset in self.assets:
             joint = asset.openable[0]
             direction = facing_direction(joint.rest_point, joint.pull, joint.normal, asset.bounds)
-            eye, middle = camera_place(asset.standing_bounds, direction)
-            eyes.append(eye.tolist())
-            middles.append(middle.tolist())
-        pose = sapien_utils.look_at(
-            torch.tensor(eyes, device=self.device),
-            torch.tensor(middles, device=self.device),
-            device=self.device,
-        )
-        return CameraConfig(
-            name, pose=pose, width=pixels, height=pixels, fov=CAMERA_FOV, near=0.01, far=100.0
-        )
+            places.append([end.tolist() for end in camera_place(asset.standing_bounds, direction)])
+        eyes, middles = torch.tensor(places, device=self.device).unbind(1)
+        pose = sapien_utils.look_at(eyes, middles, device=self.device)
+        lens = {"fov": CAMERA_FOV, "near": 0.01, "far": 100.0}
+        return CameraConfig(name, pose=pose, width=pixels, height=pixels, **lens)

@@ -48,9 +48,8 @@ class JointTask(JointScene):
 
     def _initialize_episode(self, env_idx: torch.Tensor, options: dict[str, Any]) -> None:
         draws = self._draw(env_idx)
-        self.targets.choose(
-            env_idx, self._choose_slots(env_idx, draws["joint"], options.get("joint"))
-        )
+        slots = self._choose_slots(env_idx, draws["joint"], options.get("joint"))
+        self.targets.choose(env_idx, slots)
         start, goal = (value.to(torch.float32) for value in self.start_and_goal(draws))
         if "goal" in options:
             goal = torch.full_like(goal, check_share(type(self).__name__, "goal", options["goal"]))
@@ -73,18 +72,14 @@ class JointTask(JointScene):
         return torch.tensor(slots, device=self.device)
 
     def _place_robot(self, env_idx: torch.Tensor, draws: dict[str, torch.Tensor]) -> None:
-        noise = (
-            torch.stack([draws[name] for name in ("x", "y", "yaw")], dim=1).to(torch.float32) * 2.0
-            - 1.0
-        )
+        drawn = torch.stack([draws[name] for name in ("x", "y", "yaw")], dim=1)
+        noise = drawn.to(torch.float32) * 2.0 - 1.0
         robot = ROBOTS[str(self.robot_uids)]
         found = self._places_of(env_idx)
         place = torch.tensor([each.position.tolist() for each in found], device=self.device)
         place[:, :2] += START_NOISE_M * noise[:, :2]
-        yaw = (
-            torch.tensor([each.yaw for each in found], device=self.device)
-            + START_NOISE_RAD * noise[:, 2]
-        )
+        yaw = torch.tensor([each.yaw for each in found], device=self.device)
+        yaw = yaw + START_NOISE_RAD * noise[:, 2]
         rest = torch.tensor(robot.rest, device=self.device).repeat(len(env_idx), 1)
         if robot.mobile:
             rest[:, :2] = place[:, :2]
@@ -116,9 +111,8 @@ class JointTask(JointScene):
     def get_state_dict(self) -> dict[str, Any]:
         """Return ManiSkill's state, plus target, goal and start as ``task``, [environment, 3]."""
         # Without a robot there is no controller to ask.
-        state: dict[str, Any] = (
-            self.scene.get_sim_state() if self.agent is None else super().get_state_dict()
-        )
+        ask = self.scene.get_sim_state if self.agent is None else super().get_state_dict
+        state: dict[str, Any] = ask()
         goal, start = self._goal_start
         state["task"] = torch.stack([self.targets.slot.to(goal.dtype), goal, start], dim=1)
         return state
@@ -173,9 +167,8 @@ class JointTask(JointScene):
         """Tell of success: the joint is at its goal, and the moving link nearly at rest."""
         share = self.open_fraction()
         _, velocity, turning = self.targets.motion()
-        still = (torch.linalg.norm(turning, dim=1) <= STATIC_TURN) & (
-            torch.linalg.norm(velocity, dim=1) <= STATIC_MOVE
-        )
+        still = torch.linalg.norm(turning, dim=1) <= STATIC_TURN
+        still &= torch.linalg.norm(velocity, dim=1) <= STATIC_MOVE
         reached = self.at_goal(share, self._goal_start[0])
         return {
             "success": reached & still,
@@ -191,11 +184,8 @@ class JointTask(JointScene):
     def _get_obs_extra(self, info: dict[str, Any]) -> dict[str, torch.Tensor]:
         handle = info["handle_position"]
         pull = turned(self.targets["pull"], self.targets.handle_pose()[:, 3:])
-        observation = {
-            "handle_position": handle,
-            "pull": pull,
-            "goal_fraction": self._goal_start[0].clone(),
-        }
+        goal = self._goal_start[0].clone()
+        observation = {"handle_position": handle, "pull": pull, "goal_fraction": goal}
         if self.agent is not None:
             observation["tcp_pose"] = self.agent.tcp.pose.raw_pose
         if self.obs_mode_struct.use_state:
@@ -238,11 +228,9 @@ def _unflattened(flat: torch.Tensor, like: dict[str, Any]) -> dict[str, Any]:
     start = 0
     for name, value in like.items():
         piece = flat[:, start : start + _width(value)]
-        state[name] = (
-            _unflattened(piece, value)
-            if isinstance(value, dict)
-            else piece.reshape(-1, *value.shape[1:])
-        )
+        nested = isinstance(value, dict)
+        inner = _unflattened(piece, value) if nested else piece.reshape(-1, *value.shape[1:])
+        state[name] = inner
         start += piece.shape[1]
     return state
 

@@ -25,9 +25,7 @@ DECIMALS = 12
 
 
 def pose_samples(description: Description) -> tuple[JointValues, ...]:
-    """Return joint values where every engine must agree with our kinematics: ends and mixtures.
-
-    The two mixtures are uneven.
+    """Return joint values where every engine must agree with our kinematics: ends, uneven mixtures.
 
     Joints that follow others are where these take them; every joint that moves has a value.
     """
@@ -40,18 +38,15 @@ def pose_samples(description: Description) -> tuple[JointValues, ...]:
 
 def _sample(joints: list[JointLine], share: float) -> dict[str, float]:
     mixed = 0.0 < share < 1.0
-    return {
-        joint.name: _at(joint, (share + 0.618034 * i) % 1.0 if mixed else share)
-        for i, joint in enumerate(joints)
-    }
+    shares = ((share + 0.618034 * i) % 1.0 if mixed else share for i in range(len(joints)))
+    return {joint.name: _at(joint, at) for joint, at in zip(joints, shares, strict=True)}
 
 
 def _at(joint: JointLine, share: float) -> float:
     lower = joint.lower
     upper = joint.upper
     if lower is None or upper is None or not sensible((lower, upper)):
-        lower = 0.0
-        upper = 1.0
+        return share
     return lower + share * (upper - lower)
 
 
@@ -79,9 +74,9 @@ def check_agreement(
             before = worst.get(name, (0.0, 0.0))
             worst[name] = (max(before[0], distance), max(before[1], angle))
     findings = [
-        _finding(name, distance, angle, simulator, config)
-        for name, (distance, angle) in worst.items()
-        if distance > config.position_m or angle > config.angle_rad
+        _finding(name, *off, simulator, config)
+        for name, off in worst.items()
+        if off[0] > config.position_m or off[1] > config.angle_rad
     ]
     measurements = {
         "pose_samples": len(observation.poses),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from operator import attrgetter
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from ..geometry.kinematics import build_tree, sweep_range
 from ..geometry.path import joint_path
 from ..geometry.placing import box_gap, joined, placed
 from .lint_ranges import closed_poses
-from .result import CheckResult, about, error
+from .result import CheckResult, about, error, in_mm
 
 #: Poses along a joint that are asked, both ends among them.
 POSES = 9
@@ -23,10 +24,6 @@ def check_attachment(description: Description, config: LintConfig) -> CheckResul
     """Find moving parts that no pose brings near what carries them, and hinges that let go.
 
     Near is a finger's width, and a tenth of the part's size: racks ride on rails that no mesh has.
-
-    Args:
-        description: as read; its links form one tree.
-        config: how wide a finger is.
     """
     surfaces = _Surfaces(description)
     findings = []
@@ -42,10 +39,7 @@ def check_attachment(description: Description, config: LintConfig) -> CheckResul
             f"the part that joint {joint.name!r} moves is {1000 * gap:.1f} mm away from its "
             f"parent {joint.parent!r} {where}; want at most {1000 * away:.3g} mm"
         )
-        value, limit = (round(1000 * length, 4) for length in (gap, away))
-        findings.append(
-            error("part_detached", message, **about(joint), value=value, unit="mm", limit=limit)
-        )
+        findings.append(error("part_detached", message, **about(joint), **in_mm(gap, away)))
     return CheckResult(tuple(findings))
 
 
@@ -83,7 +77,7 @@ class _Surfaces:
             if moved is None or still is None:
                 continue
             size = max(size, float(np.linalg.norm(np.ptp(moved[0], axis=0))))
-            for index, vertices in enumerate(self._along(joint, limits, moved[0])):
+            for index, vertices in enumerate(self._along(joint, limits[1] - limits[0], moved[0])):
                 if gaps[index] <= enough:
                     continue
                 gap = box_gap(vertices, still[0])
@@ -120,18 +114,12 @@ class _Surfaces:
         self, names: Sequence[str], *, visible: bool
     ) -> tuple[FloatArray, IntArray] | None:
         """Return corners [m] and faces of links' visible or collision shapes; ``None`` if none."""
-        links = [self._links[name] for name in names]
-        return joined(
-            (shape, self._poses[link.name])
-            for link in links
-            for shape in (link.visuals if visible else link.collisions)
-        )
+        shapes = attrgetter("visuals" if visible else "collisions")
+        links = ((self._links[name], self._poses[name]) for name in names)
+        return joined((shape, pose) for link, pose in links for shape in shapes(link))
 
-    def _along(
-        self, joint: JointLine, limits: tuple[float, float], vertices: FloatArray
-    ) -> Iterator[FloatArray]:
+    def _along(self, joint: JointLine, length: float, vertices: FloatArray) -> Iterator[FloatArray]:
         """Yield points that a joint moves, given at lower, at poses along its range."""
-        length = limits[1] - limits[0]
         path = joint_path(joint, self._poses[joint.child], length)
         for pose in path.poses(np.linspace(0.0, length, POSES)):
             yield placed(vertices, pose)

@@ -31,18 +31,14 @@ class StaticCheck:
     native: bool = True
 
 
+def _penetration(file: Description, config: CheckConfig) -> CheckResult:
+    return check_penetration(file, config.penetration, config.work.looks)
+
+
 #: Every check, in the order in which they speak.
 CHECKS = (
     StaticCheck("lint", lambda file, config: check_lint(file, config.lint), native=False),
-    StaticCheck(
-        "attachment",
-        lambda file, config: check_attachment(file, config.lint),
-        needs_tree=True,
-    ),
+    StaticCheck("attachment", lambda file, config: check_attachment(file, config.lint), True),
     StaticCheck("standing", lambda file, config: check_standing(file, config.standing)),
-    StaticCheck(
-        "penetration",
-        lambda file, config: check_penetration(file, config.penetration, config.work.looks),
-        needs_tree=True,
-    ),
+    StaticCheck("penetration", _penetration, needs_tree=True),
 )

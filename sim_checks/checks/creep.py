@@ -6,7 +6,6 @@ friction. What its weight should move is free to move.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 from ..config import CheckConfig, MotionConfig
@@ -15,7 +14,7 @@ from ..geometry.kinematics import find_tree
 from ..geometry.statics import gravity_load
 from ..report import Finding
 from ..simulators.simulator import HoldMotion, Observation
-from .result import DECIMALS, CheckResult, about, error, graded
+from .result import DECIMALS, CheckResult, Findings, about, graded, not_finite, rounded
 
 
 def check_creep(
@@ -28,13 +27,8 @@ def check_creep(
 ) -> CheckResult:
     """Check what joints did that were left alone part-way open.
 
-    Args:
-        description: what the file says.
-        simulator: whose word ``observation`` is.
-        observation: from :func:`~asset_factory.sim_checks.simulators.observe.observe`.
-        config: thresholds in ``config.motion``.
-        soft: whether no file of this format can tell the engine how stiffly friction holds; then
-            creep is a warning.
+    Creep is a warning where no file of the format can tell the engine how stiffly friction holds
+    (``soft``).
     """
     tree = find_tree(description)
     if tree is None:
@@ -63,14 +57,11 @@ def _findings(
     simulator: str,
     config: MotionConfig,
     soft: bool,
-) -> Iterator[Finding]:
+) -> Findings:
     subject = about(line, simulator)
     at = f"{round(held.values[line.name], DECIMALS) + 0.0:.4g}"
     if not held.finite:
-        message = (
-            f"{simulator}: joint {line.name!r} went to infinity or NaN while left alone at {at}"
-        )
-        yield error("not_finite", message, **subject)
+        yield not_finite(f"joint {line.name!r}", f"left alone at {at}", **subject)
         return
     most = config.creep_m if line.kind == "prismatic" else config.creep_rad
     allowed = min(most, config.creep_share * length)
@@ -81,8 +72,7 @@ def _findings(
             f"{unit} in {config.held_s:g} s though its friction of {line.friction:.3g} holds its "
             f"weight; at most {allowed:.3g} {unit} is allowed{_remedy(held, simulator, soft)}"
         )
-        moved, limit = (round(length, DECIMALS) for length in (held.moved, allowed))
-        yield graded(not soft, "creeps", message, **subject, value=moved, unit=unit, limit=limit)
+        yield graded(not soft, "creeps", message, **subject, **rounded(held.moved, unit, allowed))
 
 
 def _remedy(held: HoldMotion, simulator: str, soft: bool) -> str:
@@ -94,7 +84,7 @@ def _remedy(held: HoldMotion, simulator: str, soft: bool) -> str:
     return "; solimpfriction near 1 makes MuJoCo's stiff" if simulator == "mujoco" else ""
 
 
-def _worst_of_each(findings: list[Finding]) -> Iterator[Finding]:
+def _worst_of_each(findings: list[Finding]) -> Findings:
     """Yield one finding of each code and joint, the largest."""
     worst: dict[tuple[str, str | None], Finding] = {}
     for finding in findings:

@@ -50,14 +50,13 @@ class Diagnosis:
 
     def explained(self, study: PenetrationStudy) -> PenetrationStudy:
         """Return the same study, with visible surfaces and a cause for all that is too deep."""
+        met = study.neighbours.met
         return replace(
             study,
             rest=tuple(map(self._at_rest, study.rest)),
             zero=None if study.zero is None else tuple(map(self._at_rest, study.zero)),
             sweeps=tuple(map(self._along, study.sweeps)),
-            neighbours=replace(
-                study.neighbours, met=tuple(map(self._both_open, study.neighbours.met))
-            ),
+            neighbours=replace(study.neighbours, met=tuple(map(self._both_open, met))),
             combinations=tuple(map(self._combined, study.combinations)),
         )
 
@@ -93,11 +92,11 @@ class Diagnosis:
             return sweep
         course = JointCourse(sweep.joint, self.pairs, self.rest, self.config, self.rest.lower)
         otherwise = cache(lambda: self._least_otherwise(course))
-        pairs = tuple(
+        pairs = (
             self._failing(pair, sweep, course, otherwise) if pair in failing else pair
             for pair in sweep.pairs
         )
-        return replace(sweep, pairs=pairs)
+        return replace(sweep, pairs=tuple(pairs))
 
     def _with_clearance(self, sweep: JointSweep) -> JointSweep:
         if not sweep.pairs:
@@ -161,12 +160,10 @@ class Diagnosis:
         # Along the part's widest direction only: the hinge stays on the face that it is on.
         reach = (points - own.origin) @ widest
         near, far = sorted((float(reach.min()), float(reach.max())), key=abs)
-        edges = own.origin + near * widest, own.origin + far * widest
-        return (
-            around,
-            *(replace(own, origin=edge) for edge in edges),
-            replace(around, origin=edges[1]),
-        )
+        nearer = own.origin + near * widest
+        farther = own.origin + far * widest
+        hung = [(own, nearer), (own, farther), (around, farther)]
+        return (around, *(replace(path, origin=edge) for path, edge in hung))
 
     def _both_open(self, item: BothOpen) -> BothOpen:
         if item.pair.excess <= self.config.excess_m:

@@ -70,23 +70,13 @@ def disagreements(
 ) -> tuple[Disagreement, ...]:
     """Return every question that at least two simulators answered, and not alike.
 
-    Args:
-        findings: of all checks on one asset.
-        measurements: by check and by simulator, as in a report.
-        simulators: who was asked, in order.
-
-    Returns:
-        In the order ``loads``, ``link_poses``, then joint by joint: ``opens``, ``returns``,
-        ``rests``, ``leaves_others``, ``keeps_limits``.
+    Findings and measurements are given as in a report. First comes ``loads``, then ``link_poses``,
+    then joint by joint ``opens``, ``returns``, ``rests``, ``leaves_others``, ``keeps_limits``.
     """
     evidence = EngineEvidence(findings, measurements, simulators)
     disputes = (case for case in _cases(evidence) if len(set(case.verdicts.values())) > 1)
-    return tuple(
-        Disagreement(
-            case.question, case.joint, case.verdicts, case.values, case.unit, likely_reason(case)
-        )
-        for case in disputes
-    )
+    told = ((d.question, d.joint, d.verdicts, d.values, d.unit, likely_reason(d)) for d in disputes)
+    return tuple(Disagreement(*each) for each in told)
 
 
 def _cases(evidence: EngineEvidence) -> Iterator[Dispute]:
@@ -124,9 +114,8 @@ def _asked(question: _Question, joint: str, evidence: EngineEvidence) -> Dispute
     for name in evidence.simulators:
         entries = evidence.said(name, "motion").get(question.among, ())
         entry = next((entry for entry in entries if entry["joint"] == joint), None)
-        if entry is None or (
-            question.needs_open and evidence.answer(name, NOT_OPENED, joint) != PASS
-        ):
+        stayed = question.needs_open and evidence.answer(name, NOT_OPENED, joint) != PASS
+        if entry is None or stayed:
             continue
         verdicts[name] = NOT_FINITE
         values[name] = None

@@ -40,10 +40,8 @@ def undriven(description: Description, name: str, config: WorkConfig) -> Finding
     work = driven * len(description.links)
     if work <= config.driven_links:
         return None
-    words = (
-        f"{driven} joints to drive, one by one, in a model of {len(description.links)} links: "
-        f"{name} was not asked"
-    )
+    model = f"a model of {len(description.links)} links"
+    words = f"{driven} joints to drive, one by one, in {model}: {name} was not asked"
     return beyond(words, work, config.driven_links, simulator=name)
 
 

@@ -27,19 +27,12 @@ def knuckles(
 ) -> frozenset[tuple[int, int]]:
     """Return the pairs of solids (first, second) whose overlap at rest is this hinge's knuckle.
 
-    Args:
-        solids: placed at rest.
-        overlaps: the pairs that overlap, all between the two parts that the hinge joins.
-        path: the hinge's turn.
-        moving: the part that turns.
-        config: the hinge's radius and the largest share of the hinge's length that a knuckle may
-            take.
+    Solids are placed at rest; those that overlap are all of the two parts that the hinge joins.
     """
     inside: dict[tuple[int, int], FloatArray] = {}
     for pair in overlaps:
-        region = contact_region(
-            solids.items[pair.first].collider.hull, solids.items[pair.second].collider.hull
-        )
+        one, other = (solids.items[index].collider.hull for index in (pair.first, pair.second))
+        region = contact_region(one, other)
         if len(region) and within(region, path, config.hinge_radius_m):
             inside[pair.first, pair.second] = region
     if not inside:

@@ -29,12 +29,7 @@ def judge_in_simulator(
     """Load and drive the file in one engine, in one child process, and check both.
 
     A crash, a hang, a missing engine or a format it does not load is a finding, never an exception.
-
-    Args:
-        description: as read.
-        name: of the engine.
-        config: thresholds.
-        child: who looks; ``None`` for a child of this call's own.
+    Without a ``child`` that looks, one is started for this call.
 
     Raises:
         ValueError: if there is no engine of this name.
@@ -44,20 +39,16 @@ def judge_in_simulator(
         message = f"{name} is not installed; {install_line(name)} adds it"
         return CheckResult((error("simulator_missing", message, simulator=name),))
     if description.format not in engine.formats:
-        message = (
-            f"{name} loads {' and '.join(engine.formats)} here, not {description.format}: "
-            "it did not validate this file"
-        )
+        loads = f"{name} loads {' and '.join(engine.formats)} here, not {description.format}"
+        message = f"{loads}: it did not validate this file"
         return CheckResult((note("format_not_loaded", message, simulator=name),))
     too_large = undriven(description, name, config.work)
     if too_large is not None:
         return CheckResult((too_large,))
-    samples = pose_samples(description)
-    apart = joints_apart(description)
+    asked = (name, description.path, config.motion)
+    together = (pose_samples(description), joints_apart(description))
     ask = run_isolated if child is None else child.call
-    outcome = ask(
-        observe, name, description.path, config.motion, samples, apart, limits=config.child.limits
-    )
+    outcome = ask(observe, *asked, *together, limits=config.child.limits)
     if outcome.value is None:
         return CheckResult((_failure(outcome, name, description.path),))
     observation = outcome.value

@@ -54,25 +54,19 @@ class Rest:
 def clear_until(course: JointCourse, failing: PairSweep) -> float:
     """Return how far a joint goes from lower before such a pair fails [rad] or [m]; never too far.
 
-    Found by halving.
-
-    Args:
-        course: the joint's way; what it looks at decides which pairs count.
-        failing: fails where it is worst.
+    Found by halving. What the course looks at decides which pairs count.
     """
     name = course.joint.name
+    kind = failing.contact.kind
     course = replace(course, located=False, decides=True)
     clear = course.rest.lower[name]
     fails = failing.at
     for _ in range(CLEAR_HALVINGS):
         middle = (clear + fails) / 2.0
-        shorter = replace(
-            course, rest=replace(course.rest, upper={**course.rest.upper, name: middle})
-        ).run()
-        worst = max(
-            (pair.excess for pair in shorter.pairs if pair.contact.kind is failing.contact.kind),
-            default=0.0,
-        )
+        rest = replace(course.rest, upper={**course.rest.upper, name: middle})
+        pairs = replace(course, rest=rest).run().pairs
+        alike = (pair for pair in pairs if pair.contact.kind is kind)
+        worst = max((pair.excess for pair in alike), default=0.0)
         clear, fails = (middle, fails) if worst <= course.config.excess_m else (clear, middle)
     return clear
 
@@ -132,9 +126,8 @@ class JointCourse:
         return self.rest.upper[self.joint.name] - self.rest.lower[self.joint.name]
 
     def _placed(self) -> Mapping[str, FloatArray]:
-        return self.pairs.solids.place(
-            {**self.values, self.joint.name: self.rest.lower[self.joint.name]}
-        )
+        name = self.joint.name
+        return self.pairs.solids.place({**self.values, name: self.rest.lower[name]})
 
     def _groups(self) -> tuple[SolidGroup, ...]:
         """Return the solids that are looked at, those that stand first."""
@@ -143,12 +136,8 @@ class JointCourse:
             return groups
         parts = {part for pair in self.only for part in pair}
         items = self.pairs.solids.items
-        return tuple(
-            replace(
-                group, solids=tuple(index for index in group.solids if items[index].part in parts)
-            )
-            for group in groups
-        )
+        kept = (tuple(i for i in group.solids if items[i].part in parts) for group in groups)
+        return tuple(replace(g, solids=solids) for g, solids in zip(groups, kept, strict=True))
 
     def _encounter(self, moving: SolidGroup, standing: SolidGroup) -> _Encounter:
         solids = self.pairs.solids
@@ -158,9 +147,8 @@ class JointCourse:
         else:
             path = solids.seen(moving, standing, poses, self._length)
         colliders = [solids.items[index].collider for index in moving.solids]
-        reach = path.travel(
-            np.vstack([np.zeros((0, 3)), *(collider.hull.vertices for collider in colliders)])
-        )
+        corners = [np.zeros((0, 3)), *(collider.hull.vertices for collider in colliders)]
+        reach = path.travel(np.vstack(corners))
         step = self.config.step_fraction * self.rest.diagonal
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
         still = [solids.items[index].collider for index in standing.solids]
@@ -188,9 +176,9 @@ class _Encounter:
 
     def pairs(self) -> Iterator[tuple[tuple[PartPair, PairKind], PairSweep]]:
         """Yield the worst places, one or more for each pair of parts and kind."""
-        for (parts, kind), candidates in sorted(
-            self._candidates().items(), key=lambda entry: entry[0]
-        ):
+        groups = self._candidates()
+        for parts, kind in sorted(groups):
+            candidates = groups[parts, kind]
             # Knuckles are few and each has to be one by itself.
             batches = [[item] for item in candidates] if kind is PairKind.HINGE else [candidates]
             for batch in batches:
@@ -236,9 +224,8 @@ class _Encounter:
             kind = PairKind.PLAIN
         at = course.rest.lower[course.joint.name] + float(worst.at)
         pose = {**course.values, course.joint.name: at}
-        contact = course.pairs.contact(
-            first, second, worst.depth, kind, pose, located=course.located
-        )
+        where = (first, second, worst.depth, kind, pose)
+        contact = course.pairs.contact(*where, located=course.located)
         if contact.point is not None and self.frame is not None:
             frame = self.frame.pose(worst.at)
             point = frame[:3, :3] @ contact.point + frame[:3, 3]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -10,13 +9,12 @@ import numpy as np
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine
 from ..geometry.kinematics import MOVING_KINDS, NotATree, build_tree, find_tree
-from ..report import Finding
 from .lint_inertia import inertia_findings, missing_inertia_findings
 from .lint_mimic import mimic_findings
 from .lint_ranges import range_findings
 from .lint_resistance import resistance_findings
 from .lint_shapes import shape_findings
-from .result import CheckResult, about, error, graded, warning
+from .result import CheckResult, Findings, about, error, graded, warning
 
 KNOWN_KINDS = (*MOVING_KINDS, "fixed")
 #: How far an axis may be from length 1.
@@ -28,20 +26,15 @@ MOST_NAMED = 5
 
 
 def check_lint(description: Description, config: LintConfig) -> CheckResult:
-    """Check all that can be known without moving anything.
-
-    Args:
-        description: as read.
-        config: what a sound file looks like.
-    """
+    """Check all that can be known without moving anything."""
     findings = [*_tree_findings(description)]
     for joint in description.joints:
-        findings.extend(_joint_findings(joint, description, config))
-    findings.extend(range_findings(description, config))
-    findings.extend(resistance_findings(description, config))
-    findings.extend(mimic_findings(description))
-    findings.extend(_exempt_findings(description))
-    findings.extend(missing_inertia_findings(description))
+        findings += _joint_findings(joint, description, config)
+    findings += range_findings(description, config)
+    findings += resistance_findings(description, config)
+    findings += mimic_findings(description)
+    findings += _exempt_findings(description)
+    findings += missing_inertia_findings(description)
     links: list[dict[str, Any]] = []
     touchable = any(link.collisions for link in description.links)
     downs = _downs(description)
@@ -51,19 +44,18 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
             name = repr(link.name)
             message = f"link {name} is visible but has no collision geometry: hands pass through it"
             findings.append(error("no_collision", message, parts=(link.name,)))
-        findings.extend(inertia_findings(link, config))
+        findings += inertia_findings(link, config)
         found, numbers = shape_findings(link, downs.get(link.name, DOWN), config)
-        findings.extend(found)
+        findings += found
         links.append({"link": link.name, **numbers})
     if not touchable:
         message = "no link has collision geometry: nothing can be touched or held"
         findings.append(error("no_collision", message))
-    moving = sum(joint.kind in MOVING_KINDS for joint in description.joints)
     measurements = {
         "format": description.format,
         "links": links,
         "joints": len(description.joints),
-        "moving_joints": moving,
+        "moving_joints": sum(joint.kind in MOVING_KINDS for joint in description.joints),
         "collision_shapes": sum(len(link.collisions) for link in description.links),
     }
     return CheckResult(tuple(findings), measurements)
@@ -76,7 +68,7 @@ def _downs(description: Description) -> dict[str, FloatArray]:
     return {name: pose[:3, :3].T @ DOWN for name, pose in poses.items()}
 
 
-def _tree_findings(description: Description) -> Iterator[Finding]:
+def _tree_findings(description: Description) -> Findings:
     try:
         build_tree(description)
     except NotATree as caught:
@@ -88,53 +80,46 @@ def _tree_findings(description: Description) -> Iterator[Finding]:
         yield warning("no_moving_joint", "no joint moves")
 
 
-def _joint_findings(
-    joint: JointLine, description: Description, config: LintConfig
-) -> Iterator[Finding]:
+def _joint_findings(joint: JointLine, description: Description, config: LintConfig) -> Findings:
+    subject = about(joint)
+    name = f"joint {joint.name!r}"
     if joint.kind not in KNOWN_KINDS:
-        free = joint.kind == "floating" and not any(
-            other.child == joint.parent for other in description.joints
-        )
-        message = (
-            f"joint {joint.name!r} is of type {joint.kind!r}; want one of {', '.join(KNOWN_KINDS)}"
-        )
-        yield graded(not free, "unknown_joint_type", message, **about(joint))
+        held = any(other.child == joint.parent for other in description.joints)
+        message = f"{name} is of type {joint.kind!r}; want one of {', '.join(KNOWN_KINDS)}"
+        grave = held or joint.kind != "floating"
+        yield graded(grave, "unknown_joint_type", message, **subject)
         return
     if joint.kind == "fixed":
         return
     length = float(np.linalg.norm(joint.axis))
     if length < UNIT or not np.isfinite(length):
-        message = f"joint {joint.name!r} has axis {joint.axis.tolist()}, want one of length 1"
-        yield error("zero_axis", message, **about(joint))
+        message = f"{name} has axis {joint.axis.tolist()}, want one of length 1"
+        yield error("zero_axis", message, **subject)
     elif abs(length - 1.0) > UNIT:
         far = abs(length - 1.0) > config.axis_slack
-        message = (
-            f"joint {joint.name!r} has an axis of length {length:.4g}, want 1; "
-            "loaders scale motion by it or not"
-        )
-        yield graded(far, "axis_not_unit", message, **about(joint), value=length, limit=1.0)
+        words = "loaders scale motion by it or not"
+        message = f"{name} has an axis of length {length:.4g}, want 1; {words}"
+        yield graded(far, "axis_not_unit", message, **subject, value=length, limit=1.0)
     if joint.kind != "continuous":
         yield from _limit_findings(joint)
     for word, number in (("damping", joint.damping), ("friction", joint.friction)):
         if not (np.isfinite(number) and number >= 0.0):
-            message = f"joint {joint.name!r} has {word} {number}, want 0 or more"
-            yield error("invalid_dynamics", message, **about(joint))
+            message = f"{name} has {word} {number}, want 0 or more"
+            yield error("invalid_dynamics", message, **subject)
 
 
-def _limit_findings(joint: JointLine) -> Iterator[Finding]:
+def _limit_findings(joint: JointLine) -> Findings:
     subject = about(joint)
+    name = f"joint {joint.name!r}"
     unit = joint.unit
     if joint.lower is None or joint.upper is None:
-        yield error(
-            "missing_limits", f"joint {joint.name!r} ({joint.kind}) has no limits", **subject
-        )
+        yield error("missing_limits", f"{name} ({joint.kind}) has no limits", **subject)
         return
     if not (np.isfinite(joint.lower) and np.isfinite(joint.upper)):
-        ends = f"{joint.lower} .. {joint.upper} {unit}"
-        message = f"joint {joint.name!r} has limits {ends}, want finite ones"
+        message = f"{name} has limits {joint.lower} .. {joint.upper} {unit}, want finite ones"
         yield error("limits_not_finite", message, **subject)
         return
-    said = f"joint {joint.name!r} has limits {joint.lower:g} .. {joint.upper:g} {unit}"
+    said = f"{name} has limits {joint.lower:g} .. {joint.upper:g} {unit}"
     if joint.lower >= joint.upper:
         message = f"{said}: want lower below upper"
         value = joint.upper - joint.lower
@@ -144,14 +129,12 @@ def _limit_findings(joint: JointLine) -> Iterator[Finding]:
         yield warning("zero_outside_limits", message, **subject, unit=unit)
 
 
-def _exempt_findings(description: Description) -> Iterator[Finding]:
+def _exempt_findings(description: Description) -> Findings:
     """Yield how many pairs of a URDF are exempt, and which; MJCF tells each where it overlaps."""
     if description.format != "urdf" or not description.excluded:
         return
     pairs = sorted(" and ".join(sorted(pair)) for pair in description.excluded)
     more = f" and {len(pairs) - MOST_NAMED} more" if len(pairs) > MOST_NAMED else ""
-    message = (
-        f"its SRDF exempts {len(pairs)} pairs of links from collision: "
-        f"{', '.join(pairs[:MOST_NAMED])}{more}"
-    )
+    named = f"{', '.join(pairs[:MOST_NAMED])}{more}"
+    message = f"its SRDF exempts {len(pairs)} pairs of links from collision: {named}"
     yield warning("pairs_exempt", message, value=float(len(pairs)), unit="pairs")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 
@@ -12,14 +11,13 @@ from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, se
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import find_tree
 from ..geometry.placing import box_around
-from ..report import Finding
-from .result import error, graded, significant, warning
+from .result import Findings, error, graded, in_mm, measured, rounded, significant, warning
 
 #: Relative slack of the triangle inequality: files are written with few digits.
 TRIANGLE_SLACK = 1e-3
 
 
-def missing_inertia_findings(description: Description) -> Iterator[Finding]:
+def missing_inertia_findings(description: Description) -> Findings:
     """Yield an error where a moving link has no inertia, a warning where a still one has none.
 
     MuJoCo's compiler makes up what an MJCF leaves out, by a rule of the format.
@@ -45,48 +43,39 @@ def missing_inertia_findings(description: Description) -> Iterator[Finding]:
             yield graded(moves, "missing_inertia", message, parts=(name,))
 
 
-def inertia_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
+def inertia_findings(link: Link, config: LintConfig) -> Findings:
     """Yield an error where no rigid body has such an inertia, a warning where this hardly can."""
     inertia = link.inertia
     if inertia is None:
         return
     parts = (link.name,)
+    name = f"link {link.name!r}"
     if not (sensible(inertia.mass) and sensible(inertia.center) and sensible(inertia.tensor)):
-        message = f"link {link.name!r}: a number of its inertia is not finite, or beyond {ABSURD:g}"
+        message = f"{name}: a number of its inertia is not finite, or beyond {ABSURD:g}"
         yield error("inertia_not_finite", message, parts=parts)
         return
     if inertia.mass <= 0.0:
-        mass = inertia.mass
-        message = f"link {link.name!r} weighs {mass:g} kg, want more than 0"
-        yield error("mass_not_positive", message, parts=parts, value=mass, unit="kg", limit=0.0)
+        message = f"{name} weighs {inertia.mass:g} kg, want more than 0"
+        yield error("mass_not_positive", message, parts=parts, **measured(inertia.mass, "kg", 0.0))
         return
     symmetric = 0.5 * (inertia.tensor + inertia.tensor.T)
     moments: FloatArray = np.linalg.eigvalsh(symmetric).astype(np.float64)
-    if moments[0] <= 0.0:
-        message = (
-            f"link {link.name!r}: smallest principal moment is "
-            f"{moments[0]:.3g} kg m2, want more than 0"
-        )
-        least = float(moments[0])
-        yield error(
-            "inertia_not_positive", message, parts=parts, value=least, unit="kg m2", limit=0.0
-        )
-        return
-    if moments[0] + moments[1] < moments[2] * (1.0 - TRIANGLE_SLACK):
-        a, b, c = moments
-        message = (
-            f"link {link.name!r}: principal moments {a:.3g}, {b:.3g}, {c:.3g} kg m2: "
-            "the two smaller must add up to the largest at least"
-        )
-        ratio = float((a + b) / c)
-        yield error("inertia_triangle", message, parts=parts, value=round(ratio, 6), limit=1.0)
-        return
-    yield from _plausible(link, inertia, moments, config)
+    a, b, c = moments.tolist()
+    if a <= 0.0:
+        message = f"{name}: smallest principal moment is {a:.3g} kg m2, want more than 0"
+        yield error("inertia_not_positive", message, parts=parts, **measured(a, "kg m2", 0.0))
+    elif a + b < c * (1.0 - TRIANGLE_SLACK):
+        message = f"{name}: principal moments {a:.3g}, {b:.3g}, {c:.3g} kg m2: "
+        message += "the two smaller must add up to the largest at least"
+        ratio = round((a + b) / c, 6)
+        yield error("inertia_triangle", message, parts=parts, value=ratio, limit=1.0)
+    else:
+        yield from _plausible(link, inertia, moments, config)
 
 
 def _plausible(
     link: Link, inertia: LinkInertia, moments: FloatArray, config: LintConfig
-) -> Iterator[Finding]:
+) -> Findings:
     shapes = link.collisions or link.visuals
     if not shapes:
         return
@@ -101,9 +90,7 @@ def _plausible(
     yield from _density(link, inertia.mass, config)
 
 
-def _center(
-    link: Link, center: FloatArray, box: FloatArray, config: LintConfig
-) -> Iterator[Finding]:
+def _center(link: Link, center: FloatArray, box: FloatArray, config: LintConfig) -> Findings:
     """Check how far the centre of mass lies outside the box around the link's shapes."""
     low, high = box
     diagonal = float(np.linalg.norm(high - low))
@@ -117,13 +104,10 @@ def _center(
         f"link {link.name!r}: centre of mass lies {1000 * outside:.1f} mm outside the link's box, "
         f"want at most {1000 * limit:.3g} mm"
     )
-    value, limit = (round(1000 * length, 4) for length in (outside, limit))
-    yield graded(
-        hard, "center_outside", message, parts=(link.name,), value=value, unit="mm", limit=limit
-    )
+    yield graded(hard, "center_outside", message, parts=(link.name,), **in_mm(outside, limit))
 
 
-def _density(link: Link, mass: float, config: LintConfig) -> Iterator[Finding]:
+def _density(link: Link, mass: float, config: LintConfig) -> Findings:
     """Check mass over hull volume; too dense is an error only where nothing else has room."""
     volume = _volume(link)
     if not volume > 0.0 or config.density_low <= mass / volume <= config.density_high:
@@ -140,11 +124,8 @@ def _density(link: Link, mass: float, config: LintConfig) -> Iterator[Finding]:
         f"link {link.name!r}: {mass:.3g} kg in {1000 * room:.3g} litres is {density:.3g} kg/m3, "
         f"want at {'least' if low else 'most'} {limit:g}"
     )
-    value = significant(density, 4)
-    parts = (link.name,)
-    yield graded(
-        hard, "density_implausible", message, parts=parts, value=value, unit="kg/m3", limit=limit
-    )
+    told = measured(significant(density, 4), "kg/m3", limit)
+    yield graded(hard, "density_implausible", message, parts=(link.name,), **told)
 
 
 def _gyration(
@@ -154,14 +135,13 @@ def _gyration(
     box: FloatArray,
     diagonal: float,
     config: LintConfig,
-) -> Iterator[Finding]:
+) -> Findings:
     """Check an inertia against the extents that it must fit in.
 
     Args:
         link: whose.
         gyration: the largest radius of gyration [m].
-        spread: root mean square distance of its mass from its centre along each axis [m], shape
-            [3].
+        spread: root mean square distance of its mass from its centre along each axis [m], [3].
         box: lowest and highest corner around all its shapes [m], shape [2, 3].
         diagonal: of its collision shapes [m].
         config: thresholds.
@@ -175,21 +155,13 @@ def _gyration(
             f"link {link.name!r}: its inertia spreads its mass by {spread[axis]:.3g} m along "
             f"{'xyz'[axis]}, where the link is {extent[axis]:.3g} m long: mass inside it cannot"
         )
-        value = significant(float(spread[axis]))
-        limit = round(float(most[axis]), 6)
-        yield error(
-            "inertia_impossible", message, parts=(link.name,), value=value, unit="m", limit=limit
-        )
+        told = measured(significant(float(spread[axis])), "m", round(float(most[axis]), 6))
+        yield error("inertia_impossible", message, parts=(link.name,), **told)
     elif gyration > config.gyration_share * diagonal:
-        message = (
-            f"link {link.name!r}: radius of gyration {gyration:.3g} m is too large for a "
-            f"link {diagonal:.3g} m across"
-        )
-        number = round(gyration, 6) if math.isfinite(gyration) else None
-        limit = round(config.gyration_share * diagonal, 6)
-        yield warning(
-            "inertia_implausible", message, parts=(link.name,), value=number, unit="m", limit=limit
-        )
+        message = f"link {link.name!r}: radius of gyration {gyration:.3g} m is too large for a "
+        message += f"link {diagonal:.3g} m across"
+        told = rounded(gyration, "m", config.gyration_share * diagonal)
+        yield warning("inertia_implausible", message, parts=(link.name,), **told)
 
 
 def _volume(link: Link) -> float:

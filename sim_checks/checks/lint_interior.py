@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +15,7 @@ from ..config import LintConfig
 from ..description import DescribedShape, FloatArray, Link
 from ..geometry.hull import CollisionHull, FlatHull, convex_hull
 from ..report import Finding
-from .result import error, warning
+from .result import Findings, graded
 
 BoolArray = npt.NDArray[np.bool_]
 
@@ -105,25 +105,21 @@ def interior_findings(
     return list(_findings(link, numbers, config)), numbers
 
 
-def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Iterator[Finding]:
-    pocket = numbers["pocket_kept"]
-    cavity = numbers["interior_kept"]
-    if pocket is not None and pocket < config.pocket_kept:
-        message = (
-            f"link {link.name!r}: collision shapes leave {100 * pocket:.0f} % of its open inside "
-            f"empty, want at least {100 * config.pocket_kept:.0f} %: no hand can reach into it"
-        )
-        yield error(
-            "interior_filled", message, parts=(link.name,), value=pocket, limit=config.pocket_kept
-        )
-    elif cavity < config.interior_kept:
-        message = (
-            f"link {link.name!r}: collision shapes leave {100 * cavity:.0f} % of the open space "
-            f"within its outline empty, want at least {100 * config.interior_kept:.0f} %"
-        )
-        yield warning(
-            "interior_filled", message, parts=(link.name,), value=cavity, limit=config.interior_kept
-        )
+def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Findings:
+    kept = numbers["pocket_kept"]
+    least = config.pocket_kept
+    leave = f"link {link.name!r}: collision shapes leave"
+    grave = kept is not None and kept < least
+    if grave:
+        message = f"{leave} {100 * kept:.0f} % of its open inside empty, want at least "
+        message += f"{100 * least:.0f} %: no hand can reach into it"
+    else:
+        kept = numbers["interior_kept"]
+        least = config.interior_kept
+        message = f"{leave} {100 * kept:.0f} % of the open space within its outline empty, "
+        message += f"want at least {100 * least:.0f} %"
+    if kept < least:
+        yield graded(grave, "interior_filled", message, parts=(link.name,), value=kept, limit=least)
 
 
 def _same(visuals: Sequence[DescribedShape], collisions: Sequence[DescribedShape]) -> bool:
@@ -157,10 +153,8 @@ def _surface(shapes: Sequence[DescribedShape], grid: _Grid) -> BoolArray:
     first = (middle + 2) % 3
     rows = np.arange(len(corners))
     a, b, c = (corners[rows, (first + k) % 3] for k in range(3))
-    steps = [
-        np.maximum(1, np.ceil(np.linalg.norm(end - a, axis=1) / SPACING).astype(np.int64))
-        for end in (b, c)
-    ]
+    spaced = (np.ceil(np.linalg.norm(end - a, axis=1) / SPACING) for end in (b, c))
+    steps = [np.maximum(1, each.astype(np.int64)) for each in spaced]
     across = steps[0] + 1
     ends = np.cumsum(across * (steps[1] + 1))
     start = 0

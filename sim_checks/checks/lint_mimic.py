@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from ..description import ABSURD, Description, JointLine, Mimic, sensible
 from ..geometry.coupling import Limits, common_range, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
-from ..report import Finding
-from .result import about, error, graded
+from .result import Findings, about, error, graded, rounded
 
 #: Limits written with few digits may miss what the leader asks by this share of the follower's
 #: range.
 ROUNDING = 1e-3
 
 
-def mimic_findings(description: Description) -> Iterator[Finding]:
+def mimic_findings(description: Description) -> Findings:
     """Yield errors without a leader or a way to go, warnings where a follower stops its leader."""
     moving = {joint.name: joint for joint in description.joints if joint.kind in MOVING_KINDS}
     sound = sound_mimics(description)
@@ -24,24 +21,19 @@ def mimic_findings(description: Description) -> Iterator[Finding]:
         mimic = joint.mimic
         if mimic is None:
             continue
+        follows = f"joint {joint.name!r} follows {mimic.leader!r}"
         if not sensible((mimic.multiplier, mimic.offset)):
-            message = (
-                f"joint {joint.name!r} follows {mimic.leader!r} by {mimic.multiplier} times its "
-                f"value plus {mimic.offset}; want finite numbers up to {ABSURD:g}"
-            )
+            numbers = f"{mimic.multiplier} times its value plus {mimic.offset}"
+            message = f"{follows} by {numbers}; want finite numbers up to {ABSURD:g}"
             yield error("mimic_not_finite", message, **about(joint))
         elif joint.name in sound:
             whole = wholes[joint.name]
-            others = [
-                (other, limits)
-                for name, other in wholes.items()
-                if other.leader == whole.leader and (limits := own_limits(moving[name])) is not None
-            ]
+            led = {name: each for name, each in wholes.items() if each.leader == whole.leader}
+            limited = ((each, own_limits(moving[name])) for name, each in led.items())
+            others = [(each, limits) for each, limits in limited if limits is not None]
             yield from _limit_findings(joint, moving[whole.leader], whole, others)
         elif joint.kind in MOVING_KINDS:
-            message = (
-                f"joint {joint.name!r} follows {mimic.leader!r}, {_fault(joint, mimic, moving)}"
-            )
+            message = f"{follows}, {_fault(joint, mimic, moving)}"
             yield error("mimic_unknown", message, **about(joint))
 
 
@@ -55,7 +47,7 @@ def _fault(joint: JointLine, mimic: Mimic, moving: dict[str, JointLine]) -> str:
 
 def _limit_findings(
     joint: JointLine, leader: JointLine, mimic: Mimic, others: list[tuple[Mimic, Limits]]
-) -> Iterator[Finding]:
+) -> Findings:
     led = sweep_range(leader)
     own = own_limits(joint)
     if led is None or own is None:
@@ -72,10 +64,6 @@ def _limit_findings(
             f"takes it from {asked[0]:g} to {asked[1]:g}: {beyond:.4g} {unit} too far"
         )
         if stuck:
-            message += (
-                f"; nowhere are all that move with {leader.name!r} within their limits, so none can"
-            )
-        far = round(beyond, 6)
-        yield graded(
-            stuck, "mimic_limits", message, **about(joint), value=far, unit=unit, limit=0.0
-        )
+            all_led = f"all that move with {leader.name!r}"
+            message += f"; nowhere are {all_led} within their limits, so none can"
+        yield graded(stuck, "mimic_limits", message, **about(joint), **rounded(beyond, unit, 0.0))

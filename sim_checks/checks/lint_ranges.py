@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -11,14 +11,13 @@ from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine
 from ..geometry.kinematics import MOVING_KINDS, Tree, find_tree, sweep_range, unit_axis
 from ..geometry.placing import box_gap, diagonal, placed, shape_corners
-from ..report import Finding
-from .result import about, error, finite, graded, significant, warning
+from .result import Findings, about, error, graded, measured, rounded, significant, warning
 
 #: Directions in the half-degrees of a circle in which an axis may stand off.
 AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 
 
-def range_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
+def range_findings(description: Description, config: LintConfig) -> Findings:
     """Yield errors for impossible ranges and axes, warnings for tiny ranges and drives."""
     # Without a tree nothing has a place.
     tree = find_tree(description)
@@ -28,21 +27,17 @@ def range_findings(description: Description, config: LintConfig) -> Iterator[Fin
     for joint in description.joints:
         if joint.kind not in MOVING_KINDS:
             continue
-        limits = (joint.lower, joint.upper)
-        if joint.kind != "continuous" and all(
-            limit is not None and math.isfinite(limit) for limit in limits
-        ):
-            yield from _size_findings(
-                joint, (joint.upper or 0.0) - (joint.lower or 0.0), across, config
-            )
+        ends = (joint.lower, joint.upper)
+        stated = all(end is not None and math.isfinite(end) for end in ends)
+        if stated and joint.kind != "continuous":
+            length = (joint.upper or 0.0) - (joint.lower or 0.0)
+            yield from _size_findings(joint, length, across, config)
         yield from _drive_findings(joint)
         if tree is not None:
             yield from _place_findings(joint, tree, poses, boxes, config)
 
 
-def _size_findings(
-    joint: JointLine, length: float, across: float, config: LintConfig
-) -> Iterator[Finding]:
+def _size_findings(joint: JointLine, length: float, across: float, config: LintConfig) -> Findings:
     slides = joint.kind == "prismatic"
     most = config.slide_share * across if slides else config.turns * 2.0 * math.pi
     least = config.tiny_slide_m if slides else config.tiny_turn_rad
@@ -53,21 +48,15 @@ def _size_findings(
     if length > most:
         turns = f"that is {length / (2 * math.pi):.3g} turns"
         of = f"the object is {across:.3g} m across" if slides else turns
-        message = (
-            f"joint {joint.name!r} moves by {length:.6g} {unit}, "
-            f"but {of}{_slip(length, across, slides)}"
-        )
-        limit = float(f"{most:.6g}")
-        yield error(
-            "range_implausible", message, **about(joint), value=value, unit=unit, limit=limit
-        )
+        but = f"{of}{_slip(length, across, slides)}"
+        message = f"joint {joint.name!r} moves by {length:.6g} {unit}, but {but}"
+        told = measured(value, unit, significant(most))
+        yield error("range_implausible", message, **about(joint), **told)
     elif 0.0 < length < least:
-        message = (
-            f"joint {joint.name!r} moves by {length:.3g} {unit} and so opens nothing, "
-            f"want {least:.3g} at least"
-        )
-        limit = float(f"{least:.6g}")
-        yield warning("range_tiny", message, **about(joint), value=value, unit=unit, limit=limit)
+        message = f"joint {joint.name!r} moves by {length:.3g} {unit} and so opens nothing, "
+        message += f"want {least:.3g} at least"
+        told = measured(value, unit, significant(least))
+        yield warning("range_tiny", message, **about(joint), **told)
 
 
 def _slip(length: float, across: float, slides: bool) -> str:
@@ -79,15 +68,12 @@ def _slip(length: float, across: float, slides: bool) -> str:
     return ""
 
 
-def _drive_findings(joint: JointLine) -> Iterator[Finding]:
+def _drive_findings(joint: JointLine) -> Findings:
     for word, number in (("effort", joint.effort), ("velocity", joint.velocity)):
         if number is not None and not number > 0.0:
-            message = (
-                f"joint {joint.name!r} has {word} {number:g} in its limit: "
-                "nothing may move it; want more than 0"
-            )
-            value = finite(number)
-            yield warning("invalid_effort", message, **about(joint), value=value, limit=0.0)
+            message = f"joint {joint.name!r} has {word} {number:g} in its limit: "
+            message += "nothing may move it; want more than 0"
+            yield warning("invalid_effort", message, **about(joint), **measured(number, limit=0.0))
 
 
 def _place_findings(
@@ -96,7 +82,7 @@ def _place_findings(
     poses: Mapping[str, FloatArray],
     boxes: Mapping[str, FloatArray],
     config: LintConfig,
-) -> Iterator[Finding]:
+) -> Findings:
     below = tree.below(joint)
     moved = [corners for name, corners in boxes.items() if name in below]
     rest = [corners for name, corners in boxes.items() if name not in below]
@@ -106,17 +92,13 @@ def _place_findings(
     gap = box_gap(np.vstack(moved), np.vstack(rest))
     most = config.apart * max(size, diagonal(rest))
     if gap > most:
-        message = (
-            f"the part that joint {joint.name!r} moves is {gap:.3g} m away from the rest of the "
-            f"object, further than the size of either; want at most {most:.3g} m"
-        )
-        value = round(gap, 6)
-        limit = round(most, 6)
-        yield error("part_remote", message, **about(joint), value=value, unit="m", limit=limit)
+        part = f"the part that joint {joint.name!r} moves"
+        away = f"{gap:.3g} m away from the rest of the object, further than the size of either"
+        message = f"{part} is {away}; want at most {most:.3g} m"
+        yield error("part_remote", message, **about(joint), **rounded(gap, "m", most))
     elif joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
-        yield from _axis_findings(
-            joint, poses[joint.child], (np.vstack(moved), np.vstack(rest)), size, config
-        )
+        groups = (np.vstack(moved), np.vstack(rest))
+        yield from _axis_findings(joint, poses[joint.child], groups, size, config)
 
 
 def _axis_findings(
@@ -125,7 +107,7 @@ def _axis_findings(
     groups: tuple[FloatArray, FloatArray],
     size: float,
     config: LintConfig,
-) -> Iterator[Finding]:
+) -> Findings:
     axis = frame[:3, :3] @ unit_axis(joint)
     distance = min(_beside(frame[:3, 3], axis, group) for group in groups)
     if distance > config.axis_soft * size:
@@ -134,11 +116,8 @@ def _axis_findings(
             f"the axis of joint {joint.name!r} passes {distance:.3g} m beside every part, "
             f"further than the size of the part that it moves, {size:.3g} m; a hinge is on a part"
         )
-        value = round(distance, 6)
-        limit = round((config.axis_hard if hard else config.axis_soft) * size, 6)
-        yield graded(
-            hard, "axis_remote", message, **about(joint), value=value, unit="m", limit=limit
-        )
+        limit = (config.axis_hard if hard else config.axis_soft) * size
+        yield graded(hard, "axis_remote", message, **about(joint), **rounded(distance, "m", limit))
 
 
 def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
@@ -153,9 +132,8 @@ def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
 
 def closed_poses(tree: Tree) -> dict[str, FloatArray]:
     """Link frames with every joint at lower, in the root's frame, shape [4, 4] each."""
-    return tree.link_poses(
-        {joint.name: limits[0] for joint in tree.free if (limits := sweep_range(joint)) is not None}
-    )
+    limits = ((joint.name, sweep_range(joint)) for joint in tree.free)
+    return tree.link_poses({name: ends[0] for name, ends in limits if ends is not None})
 
 
 def _boxes(description: Description, poses: Mapping[str, FloatArray]) -> dict[str, FloatArray]:

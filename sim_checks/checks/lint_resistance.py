@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,9 +11,8 @@ from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
 from ..geometry.kinematics import Tree, find_tree, sweep_range, unit_axis
 from ..geometry.placing import placed
-from ..report import Finding
 from .lint_ranges import closed_poses
-from .result import about, graded, warning
+from .result import Findings, about, graded, measured, significant, warning
 
 #: What robot-learning environments commonly step by [s].
 TIME_STEP_S = 1.0 / 240.0
@@ -33,7 +31,7 @@ class _Lever:
     inertia: float
 
 
-def resistance_findings(description: Description, config: LintConfig) -> Iterator[Finding]:
+def resistance_findings(description: Description, config: LintConfig) -> Findings:
     """Yield errors where no hand opens the joint, warnings where it takes much or may explode.
 
     Explicit engines explode from too much damping.
@@ -45,10 +43,8 @@ def resistance_findings(description: Description, config: LintConfig) -> Iterato
     links = {link.name: link for link in description.links}
     for joint in tree.moving:
         limits = sweep_range(joint)
-        usable = (
-            float(np.linalg.norm(joint.axis)) > 0.0 and min(joint.friction, joint.damping) >= 0.0
-        )
-        if limits is None or not usable:
+        points = float(np.linalg.norm(joint.axis)) > 0.0
+        if limits is None or not points or not min(joint.friction, joint.damping) >= 0.0:
             continue
         lever = _lever(joint, tree, links, poses)
         if lever.reach > 0.0:
@@ -56,12 +52,11 @@ def resistance_findings(description: Description, config: LintConfig) -> Iterato
         yield from _step_finding(joint, lever, config)
 
 
-def _force_findings(
-    joint: JointLine, length: float, lever: _Lever, config: LintConfig
-) -> Iterator[Finding]:
+def _force_findings(joint: JointLine, length: float, lever: _Lever, config: LintConfig) -> Findings:
     friction = joint.friction / lever.reach
     damping = joint.damping * length / config.opening_s / lever.reach
     within = f"open it against its damping within {config.opening_s:g} s"
+    where = "" if joint.kind == "prismatic" else " at its far edge"
     ways = (
         ("friction_excessive", friction, "overcome its friction"),
         ("damping_excessive", damping, within),
@@ -70,16 +65,13 @@ def _force_findings(
         if force > config.pull_soft_n:
             hard = force > config.pull_hard_n
             limit = config.pull_hard_n if hard else config.pull_soft_n
-            where = "" if joint.kind == "prismatic" else " at its far edge"
-            message = (
-                f"joint {joint.name!r}: it takes {force:.4g} N{where} to {purpose}, "
-                f"want at most {limit:g} N"
-            )
-            value = round(force, 3)
-            yield graded(hard, code, message, **about(joint), value=value, unit="N", limit=limit)
+            takes = f"joint {joint.name!r}: it takes {force:.4g} N{where} to {purpose}"
+            told = measured(round(force, 3), "N", limit)
+            message = f"{takes}, want at most {limit:g} N"
+            yield graded(hard, code, message, **about(joint), **told)
 
 
-def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterator[Finding]:
+def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Findings:
     if not lever.inertia > 0.0:
         return
     share = joint.damping * TIME_STEP_S / lever.inertia
@@ -89,11 +81,8 @@ def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Iterat
             "1/240 s: Bullet and others that integrate it explicitly overshoot "
             f"above {config.damping_step:g} and become unstable above 2"
         )
-        value = float(f"{share:.6g}")
-        limit = config.damping_step
-        yield warning(
-            "damping_stiff", message, **about(joint), value=value, unit="of speed", limit=limit
-        )
+        told = measured(significant(share), "of speed", config.damping_step)
+        yield warning("damping_stiff", message, **about(joint), **told)
 
 
 def _lever(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -17,7 +16,7 @@ from ..geometry.outside import distance_outside
 from ..geometry.placing import diagonal
 from ..report import Finding
 from .lint_interior import interior_findings
-from .result import error, graded, significant, warning
+from .result import Concerned, Findings, error, graded, in_mm, measured, significant, warning
 
 #: Visible surface is sampled this many times denser where it is the yardstick.
 DENSER = 8
@@ -39,37 +38,32 @@ def shape_findings(
             findings.append(error("degenerate_collision", message, parts=(link.name,)))
             continue
         hulls.append(hull)
-        doubtful.extend(_hull_findings(link, shape, hull, config))
-    findings.extend(_worst_of_each_code(doubtful))
+        doubtful += _hull_findings(link, shape, hull, config)
+    findings += _worst_of_each_code(doubtful)
     count = len(link.collisions)
+    meshes = (shape for shape in link.collisions if shape.kind == "mesh")
     numbers: dict[str, Any] = {
         "collision_shapes": count,
         "visual_shapes": len(link.visuals),
         "collision_meshes": [
-            {"file": shape.file, "vertices": len(shape.vertices), "faces": len(shape.faces)}
-            for shape in link.collisions
-            if shape.kind == "mesh"
+            {"file": mesh.file, "vertices": len(mesh.vertices), "faces": len(mesh.faces)}
+            for mesh in meshes
         ],
     }
-    if count > config.hulls_per_link:
-        message = (
-            f"link {link.name!r} has {count} collision shapes; "
-            f"GPU simulation allows {config.hulls_per_link}"
-        )
-        limit = float(config.hulls_per_link)
-        findings.append(
-            warning("many_hulls", message, parts=(link.name,), value=float(count), limit=limit)
-        )
-    findings.extend(_scale_findings(link, config))
+    if count > (most := config.hulls_per_link):
+        message = f"link {link.name!r} has {count} collision shapes; GPU simulation allows {most}"
+        told = measured(float(count), limit=float(most))
+        findings.append(warning("many_hulls", message, parts=(link.name,), **told))
+    findings += _scale_findings(link, config)
     if hulls and link.visuals:
         found, distances = _cover_findings(link, hulls, config)
-        findings.extend(found)
-        numbers.update(distances)
+        findings += found
+        numbers |= distances
     filled, kept = interior_findings(link, hulls, down, config)
     return findings + filled, {**numbers, **kept}
 
 
-def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
+def _worst_of_each_code(findings: list[Finding]) -> Findings:
     """Yield one finding per code: the worst, with the number of shapes that share it.
 
     A hundred hulls must not bury the rest.
@@ -83,7 +77,7 @@ def _worst_of_each_code(findings: list[Finding]) -> Iterator[Finding]:
 
 def _hull_findings(
     link: Link, shape: DescribedShape, hull: CollisionHull, config: LintConfig
-) -> Iterator[Finding]:
+) -> Findings:
     name = f"collision shape {shape.name!r} of link {link.name!r}"
     parts = (link.name,)
     if shape.kind == "mesh" and hull.corners > config.hull_vertices:
@@ -94,30 +88,23 @@ def _hull_findings(
             allowed = "each engine cooks it down to another; want at most"
         grave = most == config.most_vertices
         message = f"{name} has a hull of {hull.corners} corners; {allowed} {most}"
-        count = float(hull.corners)
-        limit = float(most)
-        yield graded(grave, "many_hull_vertices", message, parts=parts, value=count, limit=limit)
+        told = measured(float(hull.corners), limit=float(most))
+        yield graded(grave, "many_hull_vertices", message, parts=parts, **told)
     aspect = _aspect(hull)
-    if aspect > config.hull_aspect:
-        message = (
-            f"{name} is {aspect:.0f} times longer than thick; "
-            f"GPU simulation takes up to {config.hull_aspect:g}"
-        )
-        yield warning(
-            "oblong_hull", message, parts=parts, value=round(aspect, 3), limit=config.hull_aspect
-        )
+    if aspect > (limit := config.hull_aspect):
+        longer = f"{name} is {aspect:.0f} times longer than thick"
+        message = f"{longer}; GPU simulation takes up to {limit:g}"
+        yield warning("oblong_hull", message, parts=parts, value=round(aspect, 3), limit=limit)
     if shape.kind == "mesh":
         volume = _signed_volume(shape)
-        if volume <= 0.0 or hull.volume > config.convexity * volume:
+        limit = config.convexity
+        if volume <= 0.0 or hull.volume > limit * volume:
             ratio = round(hull.volume / volume, 4) if volume > 0.0 else None
             message = f"{name} is open, flat or inside out: engines take its hull"
             if ratio is not None and ratio <= 1e3:
-                message = (
-                    f"{name} is not convex: engines take its hull, {ratio:.3g} times its own volume"
-                )
-            yield warning(
-                "nonconvex_collision", message, parts=parts, value=ratio, limit=config.convexity
-            )
+                larger = f"{ratio:.3g} times its own volume"
+                message = f"{name} is not convex: engines take its hull, {larger}"
+            yield warning("nonconvex_collision", message, parts=parts, value=ratio, limit=limit)
 
 
 def _aspect(hull: CollisionHull) -> float:
@@ -131,19 +118,15 @@ def _aspect(hull: CollisionHull) -> float:
 
 def _signed_volume(shape: DescribedShape) -> float:
     """Return the volume by the divergence theorem [m3]; means something only for a closed mesh."""
-    corners = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces]
-    volume = (
-        np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6.0
-    )
-    return float(volume)
+    a, b, c = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces].transpose(1, 0, 2)
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
 
 
-def _scale_findings(link: Link, config: LintConfig) -> Iterator[Finding]:
+def _scale_findings(link: Link, config: LintConfig) -> Findings:
     if not (link.visuals and link.collisions):
         return
-    seen, touched = (
-        diagonal(shape.corners for shape in shapes) for shapes in (link.visuals, link.collisions)
-    )
+    seen = diagonal(shape.corners for shape in link.visuals)
+    touched = diagonal(shape.corners for shape in link.collisions)
     if not config.scale_share * seen <= touched <= seen / config.scale_share:
         smaller = touched < seen
         limit = config.scale_share if smaller else 1.0 / config.scale_share
@@ -181,11 +164,13 @@ def _cover_findings(
         "shift_mm": round(1000 * shift, 3),
         "covered": round(covered, 4),
     }
+    subject: Concerned = {"parts": (link.name,)}
     most_shift = config.offset_share * across
     if shift > most_shift:
         words = f"lies {1000 * shift:.1f} mm beside what is visible"
         message = f"collision geometry of link {link.name!r} {words}"
-        return [_apart(True, "collision_offset", message, link, shift, most_shift)], numbers
+        beside = error("collision_offset", message, **subject, **in_mm(shift, most_shift, 3))
+        return [beside], numbers
 
     findings = []
     if covered < config.least_covered:
@@ -194,11 +179,8 @@ def _cover_findings(
             f"{1000 * config.gap_m:g} mm outside its collision geometry, where nothing is felt; "
             f"want {config.least_covered:.0%} covered"
         )
-        share = round(covered, 4)
-        limit = config.least_covered
-        findings.append(
-            error("collision_gap", message, parts=(link.name,), value=share, limit=limit)
-        )
+        told = measured(round(covered, 4), limit=config.least_covered)
+        findings.append(error("collision_gap", message, **subject, **told))
         uncovered = 0.0
     allowed = max(config.gap_m, config.gap_share * across)
     for gap, words in (
@@ -207,14 +189,9 @@ def _cover_findings(
     ):
         if gap > allowed:
             message = f"link {link.name!r}: {words} by up to {1000 * gap:.1f} mm"
-            findings.append(_apart(False, "collision_gap", message, link, gap, allowed))
+            told = in_mm(gap, allowed, 3)
+            findings.append(warning("collision_gap", message, **subject, **told))
     return findings, numbers
-
-
-def _apart(grave: bool, code: str, message: str, link: Link, gap: float, most: float) -> Finding:
-    """Return the finding that surfaces of a link are too far apart [m]."""
-    value, limit = (round(1000 * length, 3) for length in (gap, most))
-    return graded(grave, code, message, parts=(link.name,), value=value, unit="mm", limit=limit)
 
 
 def _shift(low: FloatArray, high: FloatArray, hulls: list[CollisionHull]) -> float:
@@ -234,9 +211,8 @@ def _sampled(
 ) -> FloatArray:
     """Return points spread over the surfaces by area [m], shape [count, 3]; none without area."""
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
-    areas = 0.5 * np.linalg.norm(
-        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
-    )
+    a, b, c = (corners[:, k] for k in range(3))
+    areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
     total = areas.sum()
     if not total > 0.0:
         return np.zeros((0, 3))
@@ -245,8 +221,6 @@ def _sampled(
     fold = u + v > 1.0
     u[fold] = 1.0 - u[fold]
     v[fold] = 1.0 - v[fold]
-    a = corners[chosen, 0]
-    b = corners[chosen, 1]
-    c = corners[chosen, 2]
+    a, b, c = (corners[chosen, k] for k in range(3))
     points: FloatArray = a + u[:, None] * (b - a) + v[:, None] * (c - a)
     return points

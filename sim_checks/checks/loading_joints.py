@@ -6,8 +6,8 @@ Compared are kind, limits, axis, mimic, damping and friction.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -17,7 +17,20 @@ from ..geometry.coupling import leaders, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, sound_mimics, unit_axis
 from ..report import Finding
 from ..simulators.simulator import LoadedJoint
-from .result import about, error, finite, listed, note, significant, three, warning
+from .result import (
+    Concerned,
+    Findings,
+    about,
+    error,
+    finite,
+    listed,
+    measured,
+    note,
+    rounded,
+    significant,
+    three,
+    warning,
+)
 
 #: An axis shorter than this is no direction; what an engine makes of it is the lint's business.
 NO_AXIS = 1e-9
@@ -30,7 +43,7 @@ def joint_findings(
     joints: Mapping[str, LoadedJoint],
     simulator: str,
     config: LoadingConfig,
-) -> Iterator[Finding]:
+) -> Findings:
     """Yield errors where a joint moves otherwise than the file says, warnings for omissions."""
     for line in description.joints:
         if line.kind != "fixed":
@@ -38,16 +51,19 @@ def joint_findings(
     yield from _coupling(description, joints, simulator, config)
     yield from _ignored(description, joints, simulator)
     written = {line.name for line in description.joints}
-    added = [name for name in joints if name not in written]
-    if added:
-        message = (
-            f"{simulator} holds {len(added)} joints that the file does not have, "
-            f"want none: {listed(added)}"
-        )
-        count = float(len(added))
-        yield warning(
-            "joint_added", message, simulator=simulator, value=count, unit="joints", limit=0.0
-        )
+    more = [name for name in joints if name not in written]
+    if more:
+        yield added("joints", more, simulator=simulator)
+
+
+def added(what: str, names: Sequence[str], **concerned: Unpack[Concerned]) -> Finding:
+    """Return the warning that an engine holds ``links`` or ``joints`` that no file gave it."""
+    message = (
+        f"{concerned['simulator']} holds {len(names)} {what} that the file does not have, "
+        f"want none: {listed(names)}"
+    )
+    code = {"links": "link_added", "joints": "joint_added"}[what]
+    return warning(code, message, **concerned, **rounded(len(names), what, 0.0))
 
 
 def joint_numbers(joint: LoadedJoint) -> dict[str, Any]:
@@ -69,7 +85,7 @@ def joint_numbers(joint: LoadedJoint) -> dict[str, Any]:
 
 def _joint(
     line: JointLine, held: LoadedJoint | None, simulator: str, config: LoadingConfig
-) -> Iterator[Finding]:
+) -> Findings:
     subject = about(line, simulator)
     if held is None:
         message = f"{simulator}: joint {line.name!r} of the file is not in the loaded model"
@@ -77,24 +93,16 @@ def _joint(
         return
     lower = -math.inf if line.lower is None else line.lower
     upper = math.inf if line.upper is None else line.upper
-    unlimited = {"revolute", "continuous"}
-    same_kind = held.kind == line.kind or (
-        math.isinf(lower) and {held.kind, line.kind} <= unlimited
-    )
-    if line.kind in MOVING_KINDS and not same_kind:
+    endless = math.isinf(lower) and {held.kind, line.kind} <= {"revolute", "continuous"}
+    if line.kind in MOVING_KINDS and held.kind != line.kind and not endless:
         message = f"{simulator}: joint {line.name!r} is {held.kind}, the file says {line.kind}"
         yield error("joint_kind", message, **subject)
     unit = line.unit
     for side, said, has in (("lower", lower, held.lower), ("upper", upper, held.upper)):
         if _differ(said, has, config.limit):
-            message = (
-                f"{simulator}: {side} limit of joint {line.name!r} is {has:.6g} {unit}, "
-                f"the file says {said:.6g} {unit}"
-            )
-            numbers = finite(has), finite(said)
-            yield error(
-                "limit_mismatch", message, **subject, value=numbers[0], unit=unit, limit=numbers[1]
-            )
+            holds = f"{side} limit of joint {line.name!r} is {has:.6g} {unit}"
+            message = f"{simulator}: {holds}, the file says {said:.6g} {unit}"
+            yield error("limit_mismatch", message, **subject, **measured(has, unit, said))
     turned = math.degrees(_turned(line, held))
     most = math.degrees(config.angle_rad)
     if turned > most:
@@ -102,18 +110,13 @@ def _joint(
             f"{simulator}: the axis of joint {line.name!r} is {three(held.axis)}, "
             f"{turned:.4g} deg from {three(unit_axis(line))} of the file"
         )
-        value = round(turned, 6)
-        limit = round(most, 6)
-        yield error("axis_mismatch", message, **subject, value=value, unit="deg", limit=limit)
+        yield error("axis_mismatch", message, **subject, **rounded(turned, "deg", most))
 
 
 def _turned(line: JointLine, held: LoadedJoint) -> float:
     """Return the angle between the file's axis and the engine's [rad]; 0 where one tells none."""
-    if (
-        held.axis is None
-        or line.kind not in MOVING_KINDS
-        or not float(np.linalg.norm(line.axis)) > NO_AXIS
-    ):
+    told = line.kind in MOVING_KINDS and float(np.linalg.norm(line.axis)) > NO_AXIS
+    if held.axis is None or not told:
         return 0.0
     axis = np.asarray(held.axis, dtype=np.float64)
     length = float(np.linalg.norm(axis))
@@ -127,7 +130,7 @@ def _coupling(
     joints: Mapping[str, LoadedJoint],
     simulator: str,
     config: LoadingConfig,
-) -> Iterator[Finding]:
+) -> Findings:
     mimics = sound_mimics(description)
     dropped = []
     for line in description.joints:
@@ -165,15 +168,13 @@ def _coupling(
             f"{simulator} does not couple {listed(dropped)} to another joint as the file does: "
             "whoever simulates it must"
         )
-        count = float(len(dropped))
-        yield warning(
-            "mimic_ignored", message, simulator=simulator, value=count, unit="joints", limit=0.0
-        )
+        count = rounded(len(dropped), "joints", 0.0)
+        yield warning("mimic_ignored", message, simulator=simulator, **count)
 
 
 def _ignored(
     description: Description, joints: Mapping[str, LoadedJoint], simulator: str
-) -> Iterator[Finding]:
+) -> Findings:
     for quantity in ("friction", "damping"):
         names = []
         for line in description.joints:
@@ -187,9 +188,8 @@ def _ignored(
         if names:
             code = f"{quantity}_ignored"
             message = f"{simulator} drops the {quantity} that the file gives to {listed(names)}"
-            count = float(len(names))
-            which = tuple(names)
-            yield note(code, message, simulator=simulator, value=count, unit="joints", joints=which)
+            count = measured(float(len(names)), "joints")
+            yield note(code, message, simulator=simulator, joints=tuple(names), **count)
 
 
 def _differ(said: float, has: float, tolerance: float) -> bool:

@@ -5,7 +5,7 @@ Energy from nowhere is a finding, too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -13,45 +13,46 @@ from ..config import CheckConfig, MotionConfig
 from ..description import Description, JointLine
 from ..report import Finding
 from ..simulators.simulator import Fall, FallMotion, JointMotion, Observation, RestMotion
-from .result import DECIMALS, CheckResult, Concerned, about, error, graded, note, warning
+from .result import (
+    DECIMALS,
+    CheckResult,
+    Concerned,
+    Findings,
+    Measured,
+    about,
+    graded,
+    measured,
+    not_finite,
+    note,
+    rounded,
+    warning,
+)
 
 
 def check_motion(
     description: Description, simulator: str, observation: Observation, config: CheckConfig
 ) -> CheckResult:
-    """Check the drive of every joint, the rest at lower without weight, and the fall with it.
-
-    Args:
-        description: what the file says; names the parts.
-        simulator: whose word ``observation`` is.
-        observation: from :func:`~asset_factory.sim_checks.simulators.observe.observe`.
-        config: thresholds in ``config.motion``.
-    """
+    """Check the drive of every joint, the rest at lower without weight, and the fall with it."""
     lines = {line.name: line for line in description.joints}
     checks = _MotionChecks(simulator, lines, config.motion)
     findings = [finding for rest in observation.rest for finding in checks.rest(rest)]
     pushed = {rest.joint for rest in observation.rest if rest.share > config.motion.drift_soft}
     # With weight, the same contacts make up the same energy again.
     known = any(finding.code == "energy_grows" for finding in findings)
-    findings.extend(checks.fall(observation.fall, known=known))
+    findings += checks.fall(observation.fall, known=known)
     for fallen in observation.fall.joints:
         if fallen.joint not in pushed:
-            findings.extend(checks.opened(fallen))
+            findings += checks.opened(fallen)
     for motion in observation.motions:
-        findings.extend(checks.driven(motion))
+        findings += checks.driven(motion)
     if observation.warnings:
         message = f"{simulator} complained while moving: {', '.join(observation.warnings)}"
         findings.append(warning("engine_warning", message, simulator=simulator))
     spoken_for = {motion.joint for motion in observation.motions}
-    coupled = {
-        name
-        for joint in observation.model.joints
-        if joint.follows
-        for name in (joint.name, joint.follows)
-    }
-    idle = [
-        joint.name for joint in observation.model.joints if joint.name not in spoken_for | coupled
-    ]
+    joints = observation.model.joints
+    pairs_coupled = ((joint.name, joint.follows) for joint in joints if joint.follows)
+    coupled = {name for pair in pairs_coupled for name in pair}
+    idle = [joint.name for joint in joints if joint.name not in spoken_for | coupled]
     for name in idle:
         message = f"{simulator}: joint {name!r} was not driven: it has no range from lower to upper"
         findings.append(note("not_driven", message, **checks.subject(name)))
@@ -92,37 +93,21 @@ class _MotionChecks:
     def _unit(self, joint: str) -> str:
         return self.lines[joint].unit if joint in self.lines else ""
 
-    def driven(self, motion: JointMotion) -> Iterator[Finding]:
+    def driven(self, motion: JointMotion) -> Findings:
         """Check a joint that was driven to upper and back, and let go of there."""
         config = self.config
         unit = self._unit(motion.joint)
         subject = self.subject(motion.joint)
-        parts = subject.get("parts", ())
-        subject["parts"] = (
-            *parts,
-            *(link for link in motion.blocked_by or () if link not in parts),
-        )
+        parts = (*subject.get("parts", ()), *(motion.blocked_by or ()))
+        subject["parts"] = tuple(dict.fromkeys(parts))
 
         def found(grave: bool, code: str, message: str, value: float, limit: float) -> Finding:
             sentence = f"{self.simulator}: joint {motion.joint!r} {message}"
-            share = round(value, DECIMALS)
-            others = _leant_on(motion)
-            return graded(
-                grave,
-                code,
-                sentence,
-                **subject,
-                value=share,
-                unit="of range",
-                limit=limit,
-                joints=others,
-            )
+            told = _of_range(value, limit)
+            return graded(grave, code, sentence, **subject, **told, joints=_leant_on(motion))
 
         if not motion.finite:
-            message = (
-                f"{self.simulator}: joint {motion.joint!r} went to infinity or NaN while driven"
-            )
-            yield error("not_finite", message, **subject)
+            yield not_finite(f"joint {motion.joint!r}", "driven", **subject)
             return
         if motion.reached < config.reach_fraction:
             message = (
@@ -139,9 +124,8 @@ class _MotionChecks:
         beyond = motion.overshoot / motion.range if motion.range > 0.0 else 0.0
         if beyond > config.overshoot_soft:
             grave = beyond > config.overshoot_hard
-            message = (
-                f"passed its limit by {motion.overshoot:.4g} {unit} ({beyond:.1%} of its range)"
-            )
+            passed = f"{motion.overshoot:.4g} {unit} ({beyond:.1%} of its range)"
+            message = f"passed its limit by {passed}"
             yield found(grave, "limit_overshoot", message, beyond, config.overshoot_soft)
         if motion.others_moved > config.others_soft:
             grave = motion.others_moved > config.others_hard
@@ -151,15 +135,11 @@ class _MotionChecks:
         where = f"joint {motion.joint!r} was let go of"
         yield from self._energy(motion.energy, motion.energy_height, where, subject)
 
-    def rest(self, rest: RestMotion) -> Iterator[Finding]:
+    def rest(self, rest: RestMotion) -> Findings:
         """Check a joint that was left alone at lower without gravity and springs."""
         subject = self.subject(rest.joint)
         if not rest.finite:
-            message = (
-                f"{self.simulator}: joint {rest.joint!r} went to infinity or NaN while left "
-                "alone at its lower limit"
-            )
-            yield error("not_finite", message, **subject)
+            yield not_finite(f"joint {rest.joint!r}", "left alone at its lower limit", **subject)
             return
         if rest.share > self.config.drift_soft:
             grave = rest.share > self.config.drift_hard
@@ -168,39 +148,21 @@ class _MotionChecks:
                 f"{self.simulator}: joint {rest.joint!r} moved {rest.share:.1%} of its range by "
                 f"itself, without gravity and springs: {who} overlap and push each other"
             )
-            share = round(rest.share, DECIMALS)
-            limit = self.config.drift_soft
-            yield graded(
-                grave,
-                "pushed_at_rest",
-                message,
-                **subject,
-                value=share,
-                unit="of range",
-                limit=limit,
-            )
+            told = _of_range(rest.share, self.config.drift_soft)
+            yield graded(grave, "pushed_at_rest", message, **subject, **told)
         where = f"joint {rest.joint!r} was left alone at its lower limit"
         yield from self._energy(rest.energy, rest.energy_height, where, subject)
 
-    def fall(self, fall: Fall, *, known: bool) -> Iterator[Finding]:
-        """Check the object that was left alone under its own weight.
-
-        Args:
-            fall: what it did.
-            known: whether energy from nowhere was told before.
-        """
+    def fall(self, fall: Fall, *, known: bool) -> Findings:
+        """Check the object left alone under its own weight; ``known`` energy is not told again."""
+        subject: Concerned = {"simulator": self.simulator}
         if not fall.finite:
-            message = (
-                f"{self.simulator}: the object went to infinity or NaN "
-                "while left alone under its own weight"
-            )
-            yield error("not_finite", message, simulator=self.simulator)
+            yield not_finite("the object", "left alone under its own weight", **subject)
         elif not known:
             where = "the object was left alone under its own weight"
-            subject: Concerned = {"simulator": self.simulator}
             yield from self._energy(fall.energy, fall.energy_height, where, subject)
 
-    def opened(self, fallen: FallMotion) -> Iterator[Finding]:
+    def opened(self, fallen: FallMotion) -> Findings:
         """Check how far a joint opened by its own weight."""
         if fallen.share > self.config.fall_soft:
             message = (
@@ -208,16 +170,10 @@ class _MotionChecks:
                 f"{fallen.moved:.4g} {self._unit(fallen.joint)} or {fallen.share:.1%} of its range "
                 f"in {self.config.rest_s:g} s: nothing holds it closed"
             )
-            share = round(fallen.share, DECIMALS)
-            limit = self.config.fall_soft
-            subject = self.subject(fallen.joint)
-            yield warning(
-                "opens_by_itself", message, **subject, value=share, unit="of range", limit=limit
-            )
+            told = _of_range(fallen.share, self.config.fall_soft)
+            yield warning("opens_by_itself", message, **self.subject(fallen.joint), **told)
 
-    def _energy(
-        self, energy: float, height: float, where: str, subject: Concerned
-    ) -> Iterator[Finding]:
+    def _energy(self, energy: float, height: float, where: str, subject: Concerned) -> Findings:
         """Check energy from nowhere [J], and how high it would lift the moving parts [m]."""
         config = self.config
         if not (energy > config.energy_floor_j and height > config.energy_soft_m):
@@ -229,9 +185,11 @@ class _MotionChecks:
             f"({config.energy_soft_m:g} m) may: contacts push parts apart like springs"
         )
         grave = height > config.energy_hard_m
-        number = round(energy, DECIMALS)
-        limit = round(allowed, DECIMALS)
-        yield graded(grave, "energy_grows", message, **subject, value=number, unit="J", limit=limit)
+        yield graded(grave, "energy_grows", message, **subject, **rounded(energy, "J", allowed))
+
+
+def _of_range(share: float, limit: float) -> Measured:
+    return measured(round(share, DECIMALS), "of range", limit)
 
 
 def _stuck(motion: JointMotion, unit: str) -> str:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 import numpy.typing as npt
@@ -38,24 +39,16 @@ def open_neighbours(
     """Sweep joints together whose ways meet; return the worst depth by pair of joints and parts.
 
     Only joints that do not move the same part are asked, and only what the one moves against what
-    the other does; what follows a joint moves with it.
-
-    Args:
-        pairs: the solids.
-        rest: contacts at rest, with which every depth is compared.
-        config: limits, and how much may be looked at.
-        told: pairs of parts that meet while all joints but one are closed: no news here.
+    the other does; what follows a joint moves with it. Pairs of parts that meet while all joints
+    but one are closed (``told``) are no news here.
     """
     looks = LookBudget(config.pair_looks)
     met: list[BothOpen] = []
     unswept = []
     asked = 0
     for first, second in _near(pairs.solids, rest):
-        only = frozenset(
-            (min(a, b), max(a, b))
-            for a in _parts(pairs.solids, first)
-            for b in _parts(pairs.solids, second)
-        )
+        moved = product(_parts(pairs.solids, first), _parts(pairs.solids, second))
+        only = frozenset((min(pair), max(pair)) for pair in moved)
         asked += 1
         try:
             met += _Together(pairs, rest, config, looks).met(first, second, only - told)
@@ -83,10 +76,8 @@ class _Together:
         """
         found = (*self._moving(first, second, only), *self._moving(second, first, only))
         for parts in sorted({item.pair.parts for item in found}):
-            worst = max(
-                (item for item in found if item.pair.parts == parts),
-                key=lambda item: (item.obstructed, item.pair.excess),
-            )
+            alike = (item for item in found if item.pair.parts == parts)
+            worst = max(alike, key=lambda item: (item.obstructed, item.pair.excess))
             if worst.pair.excess > self.config.excess_m:
                 course = self._course(worst.joint, worst.other, worst.other_at, frozenset({parts}))
                 worst = replace(worst, free_until=clear_until(course, worst.pair))
@@ -137,9 +128,8 @@ class _Together:
         self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
     ) -> JointCourse:
         values = {**self.rest.lower, other.name: at}
-        return JointCourse(
-            joint, self.pairs, self.rest, self.config, values, only, looks=self.looks
-        )
+        shared = (self.pairs, self.rest, self.config)
+        return JointCourse(joint, *shared, values, only, looks=self.looks)
 
 
 def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:

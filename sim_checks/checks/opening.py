@@ -29,15 +29,10 @@ def judge_joints(
 ) -> tuple[JointSweep, ...]:
     """Sweep every joint with the others at lower; if it fails, again with obstacles opened.
 
-    Args:
-        joints: those with a range that follow no other, in file order.
-        pairs: the solids.
-        rest: contacts at rest, with which every joint's are compared.
-        config: of the limits.
+    Asked are joints with a range that follow no other, in file order.
     """
-    order = _OpeningOrder(
-        {joint.name: JointCourse(joint, pairs, rest, config, rest.lower) for joint in joints}
-    )
+    courses = (JointCourse(joint, pairs, rest, config, rest.lower) for joint in joints)
+    order = _OpeningOrder({course.joint.name: course for course in courses})
     order.settle()
     return tuple(order.judged(joint.name) for joint in joints)
 
@@ -104,10 +99,8 @@ class _OpeningOrder:
         """Yield sets of joints that may make way, with all that each needs; likely ones first."""
         opened = CLOSED
         for widened in range(WIDENED):
-            makers = [
-                self._between([pair]) & frozenset(self.needs)
-                for pair in self._failing(self._swept(name, opened))
-            ]
+            failing = self._failing(self._swept(name, opened))
+            makers = [self._between([pair]) & frozenset(self.needs) for pair in failing]
             if not all(makers):
                 # What nothing but this joint moves, or nothing that opens, stays where it is.
                 if not widened:
@@ -121,11 +114,8 @@ class _OpeningOrder:
 
     def _failing(self, sweep: JointSweep) -> list[PairSweep]:
         allowed = self.courses[sweep.joint.name].config.excess_m
-        return [
-            pair
-            for pair in sweep.pairs
-            if pair.contact.kind is PairKind.PLAIN and pair.excess > allowed
-        ]
+        plain = (pair for pair in sweep.pairs if pair.contact.kind is PairKind.PLAIN)
+        return [pair for pair in plain if pair.excess > allowed]
 
     def _between(self, failing: Sequence[PairSweep]) -> Names:
         solids = next(iter(self.courses.values())).pairs.solids
@@ -138,10 +128,8 @@ class _OpeningOrder:
         """Return whether all of them open one after the other."""
         done = CLOSED
         while done != opened:
-            ready = next(
-                (name for name in self.needs if name in opened - done and self._clean(name, done)),
-                None,
-            )
+            left = (name for name in self.needs if name in opened - done)
+            ready = next((name for name in left if self._clean(name, done)), None)
             if ready is None:
                 return False
             done |= {ready}

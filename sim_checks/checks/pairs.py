@@ -48,15 +48,10 @@ class Pairs:
         *,
         located: bool = True,
     ) -> Contact:
-        """Return what there is to say of two solids as they are posed.
+        """Return what there is to say of two solids that are posed for some joint values.
 
-        Args:
-            first: index of a solid.
-            second: index of another.
-            depth: how deep they penetrate each other [m].
-            kind: how an overlap of them counts.
-            pose: joint values that they are posed for.
-            located: look for the point too, which takes long between round hulls.
+        They penetrate each other by ``depth`` [m]. Where they do is looked for only if the contact
+        is to be located, which takes long between round hulls.
         """
         a = self.solids.items[first]
         b = self.solids.items[second]
@@ -64,10 +59,8 @@ class Pairs:
         if located and depth >= 0.0:
             region = contact_region(a.collider.hull, b.collider.hull)
             point = tuple(float(x) for x in region.mean(axis=0)) if len(region) else None
-        parts = a.part, b.part
-        links = a.link, b.link
-        shapes = a.shape, b.shape
-        return Contact(parts, links, shapes, depth, point, kind, (first, second), pose)
+        names = ((a.part, b.part), (a.link, b.link), (a.shape, b.shape))
+        return Contact(*names, depth, point, kind, (first, second), pose)
 
     def worst(
         self, standings: Iterable[SolidPair], pose: Mapping[str, float]
@@ -78,7 +71,6 @@ class Pairs:
             key = self.parts(pair.first, pair.second), self.kind(pair.first, pair.second)
             if key not in deepest or pair.overlap.depth > deepest[key].overlap.depth:
                 deepest[key] = pair
-        return tuple(
-            self.contact(pair.first, pair.second, pair.overlap.depth, kind, pose)
-            for (_, kind), pair in sorted(deepest.items(), key=lambda entry: entry[0])
-        )
+        found = ((deepest[key], key[1]) for key in sorted(deepest))
+        told = ((each.first, each.second, each.overlap.depth, kind) for each, kind in found)
+        return tuple(self.contact(*each, pose) for each in told)

@@ -18,7 +18,6 @@ from ..geometry.kinematics import build_tree, free_ranges
 from ..geometry.looks import LookBudget, TooManyLooks
 from ..geometry.path import joint_path
 from ..geometry.solids import SolidPair, Solids
-from .combinations import combination_values
 from .diagnosis import Diagnosis
 from .extent import beyond
 from .hinge import knuckles
@@ -33,6 +32,8 @@ from .visible import Visible
 
 #: Depth that counts as touching [m].
 TOUCH = 1e-6
+#: Bases of the Halton sequence, one for each joint.
+PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53)
 
 Ranges = Mapping[str, tuple[float, float]]
 
@@ -78,9 +79,8 @@ def _measured(
     # Contacts are located as the solids are placed, which sweeps change.
     at_rest = pairs.worst(rest.standings, lower)
     at_zero = _at_zero(pairs, ranges, config)
-    sweeps = judge_joints(
-        [joint for joint in tree.free if joint.name in ranges], pairs, rest, config
-    )
+    asked = [joint for joint in tree.free if joint.name in ranges]
+    sweeps = judge_joints(asked, pairs, rest, config)
     study = PenetrationStudy(
         diagonal=rest.diagonal,
         parts=tree.parts,
@@ -141,3 +141,33 @@ def _combinations(
                 contact = pairs.contact(pair.first, pair.second, pair.overlap.depth, kind, values)
                 worst[key] = Combination(values, contact, excess)
     return tuple(worst[key] for key in sorted(worst))
+
+
+def combination_values(ranges: Ranges, count: int) -> list[dict[str, float]]:
+    """Return all joints at upper, then ``count`` points of the Halton sequence over their ranges.
+
+    With fewer than two joints there is nothing to combine.
+    """
+    if len(ranges) < 2:
+        return []
+    poses = [{name: upper for name, (_, upper) in ranges.items()}]
+    for index in range(1, count + 1):
+        pose = {}
+        for column, (name, (lower, upper)) in enumerate(ranges.items()):
+            prime = PRIMES[column % len(PRIMES)]
+            # Joints that share a prime start at different places of its sequence.
+            share = _radical_inverse(index + column // len(PRIMES), prime)
+            pose[name] = lower + share * (upper - lower)
+        poses.append(pose)
+    return poses
+
+
+def _radical_inverse(index: int, base: int) -> float:
+    """Return the digits of ``index`` mirrored at the point, in [0, 1)."""
+    value = 0.0
+    scale = 1.0
+    while index > 0:
+        index, digit = divmod(index, base)
+        scale /= base
+        value += digit * scale
+    return value

@@ -2,31 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterable, Sequence, Set
 from dataclasses import replace
+from typing import Any
 
 from ..config import PenetrationConfig
+from ..measurements import (
+    MeasuredCombination,
+    MeasuredContact,
+    MeasuredJoint,
+    MeasuredNeighbour,
+    MeasuredPair,
+    MeasuredPenetration,
+)
 from ..report import Finding
 from .cause import CLAUSES
-from .penetration_figures import measured, mm
 from .penetration_study import (
     BothOpen,
     Contact,
     JointSweep,
     Neighbours,
     PairKind,
+    PairSweep,
     PartPair,
     PenetrationStudy,
 )
-from .result import CheckResult, graded, note
+from .result import CheckResult, Findings, graded, in_mm, note
 
+_EXCLUDED = ", but the file excludes this pair from contact"
 #: Of pairs that may overlap: how that is told, and why it may.
 EXEMPT = {
     PairKind.HINGE: ("hinge_overlap", ", but this is the knuckle of their hinge"),
-    PairKind.EXCLUDED: (
-        "excluded_penetration",
-        ", but the file excludes this pair from contact",
-    ),
+    PairKind.EXCLUDED: ("excluded_penetration", _EXCLUDED),
 }
 
 
@@ -43,47 +50,42 @@ def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
     """
     findings = [*_rest_findings(study, config)]
     for sweep in study.sweeps:
-        findings.extend(_sweep_findings(sweep, config))
+        findings += _sweep_findings(sweep, config)
     colliding = [item for item in study.neighbours.met if item.pair.excess > config.excess_m]
-    findings.extend(_both_open(item, config) for item in colliding)
-    findings.extend(_left_out(study.neighbours, config))
+    findings += (_both_open(item, config) for item in colliding)
+    findings += _left_out(study.neighbours, config)
     told = told_parts(study.sweeps, config) | {item.pair.parts for item in colliding}
-    findings.extend(_combination_findings(study, config, told))
+    findings += _combination_findings(study, config, told)
     return CheckResult(tuple(findings), measured(study).to_dict())
 
 
 def told_parts(sweeps: Sequence[JointSweep], config: PenetrationConfig) -> frozenset[PartPair]:
     """Return the pairs of parts that meet too deeply while all joints but one are closed."""
-    return frozenset(
-        pair.parts for sweep in sweeps for pair in sweep.pairs if pair.excess > config.excess_m
-    )
+    swept = (pair for sweep in sweeps for pair in sweep.pairs)
+    return frozenset(pair.parts for pair in swept if pair.excess > config.excess_m)
 
 
-def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> Iterator[Finding]:
+def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> Findings:
     at_rest = {contact.parts: contact.depth for contact in study.rest}
-    poses = [
-        ("with every joint at its lower limit", study.rest),
-        ("with every joint at 0", study.zero or ()),
-    ]
-    for pose, contacts in poses:
-        for contact in contacts:
-            repeated = (
-                contacts is study.zero
-                and contact.depth <= at_rest.get(contact.parts, 0.0) + config.excess_m
-            )
-            if contact.depth <= config.rest_m or repeated:
-                continue
-            code, why = EXEMPT.get(contact.kind, ("rest_penetration", ""))
-            a, b = contact.links
-            message = (
-                f"{a} and {b} overlap by {mm(contact.depth):.2f} mm "
-                f"{pose}{_near(contact)}; at most {mm(config.rest_m):g} mm is allowed{why}"
-            )
-            grave = contact.kind is PairKind.PLAIN
-            yield _finding(grave, code, message, contact, contact.depth, config.rest_m)
+    again = {parts: depth + config.excess_m for parts, depth in at_rest.items()}
+    found = [("with every joint at its lower limit", each) for each in study.rest]
+    for contact in study.zero or ():
+        if contact.depth > again.get(contact.parts, config.excess_m):
+            found.append(("with every joint at 0", contact))
+    for pose, contact in found:
+        if contact.depth <= config.rest_m:
+            continue
+        code, why = EXEMPT.get(contact.kind, ("rest_penetration", ""))
+        a, b = contact.links
+        message = (
+            f"{a} and {b} overlap by {mm(contact.depth):.2f} mm "
+            f"{pose}{_near(contact)}; at most {mm(config.rest_m):g} mm is allowed{why}"
+        )
+        grave = contact.kind is PairKind.PLAIN
+        yield _finding(grave, code, message, contact, contact.depth, config.rest_m)
 
 
-def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> Iterator[Finding]:
+def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> Findings:
     joint = sweep.joint.name
     unit = sweep.joint.unit
     for pair in sweep.pairs:
@@ -116,14 +118,11 @@ def _finding(
     grave: bool, code: str, message: str, contact: Contact, depth: float, most: float
 ) -> Finding:
     """Return what there is to say of a contact that is deeper than the most allowed [m]."""
-    clause = "" if contact.cause is None else f"; {CLAUSES[contact.cause]}"
     cause = None if contact.cause is None else str(contact.cause)
-    parts = contact.links
-    value = mm(depth)
-    limit = mm(most)
-    return graded(
-        grave, code, message + clause, parts=parts, value=value, unit="mm", limit=limit, cause=cause
-    )
+    if contact.cause is not None:
+        message += f"; {CLAUSES[contact.cause]}"
+    told = in_mm(depth, most)
+    return graded(grave, code, message, parts=contact.links, **told, cause=cause)
 
 
 def _both_open(item: BothOpen, config: PenetrationConfig) -> Finding:
@@ -153,7 +152,7 @@ def _both_open(item: BothOpen, config: PenetrationConfig) -> Finding:
     return replace(found, joint=joint, joints=(joint, other))
 
 
-def _left_out(neighbours: Neighbours, config: PenetrationConfig) -> Iterator[Finding]:
+def _left_out(neighbours: Neighbours, config: PenetrationConfig) -> Findings:
     """Yield a note on the pairs of joints that were not swept together."""
     if neighbours.unswept:
         first, second = neighbours.unswept[0]
@@ -167,7 +166,7 @@ def _left_out(neighbours: Neighbours, config: PenetrationConfig) -> Iterator[Fin
 
 def _combination_findings(
     study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]
-) -> Iterator[Finding]:
+) -> Findings:
     for combination in study.combinations:
         contact = combination.contact
         excess = combination.excess
@@ -182,6 +181,87 @@ def _combination_findings(
 
 
 def _near(contact: Contact) -> str:
-    return (
-        "" if contact.point is None else " near ({:.3f}, {:.3f}, {:.3f}) m".format(*contact.point)
+    words = " near ({:.3f}, {:.3f}, {:.3f}) m"
+    return "" if contact.point is None else words.format(*contact.point)
+
+
+def mm(metres: float) -> float:
+    """Round to a tenth of a micrometre [mm], so that a last bit does not change a report."""
+    return round(metres * 1000.0, 4) + 0.0
+
+
+def _contact(contact: Contact) -> dict[str, Any]:
+    """Return the fields of a :class:`MeasuredContact`."""
+    point = contact.point
+    return {
+        "links": contact.links,
+        "shapes": contact.shapes,
+        "depth_mm": mm(contact.depth),
+        "point_m": None if point is None else tuple(round(x, 6) + 0.0 for x in point),
+        "kind": str(contact.kind),
+        "visual_mm": None if contact.visual is None else mm(contact.visual),
+        "cause": None if contact.cause is None else str(contact.cause),
+    }
+
+
+def _pair(pair: PairSweep) -> dict[str, Any]:
+    """Return the fields of a :class:`MeasuredPair`."""
+    depths = {"excess_mm": mm(pair.excess), "bound_mm": mm(pair.bound)}
+    return {**_contact(pair.contact), **depths, "at": round(pair.at, 6)}
+
+
+def _measured_joint(sweep: JointSweep) -> MeasuredJoint:
+    gaps = [-pair.excess for pair in sweep.pairs if pair.contact.depth < 0.0]
+    touching = any(pair.contact.depth >= 0.0 for pair in sweep.pairs)
+    seen = (pair.contact.visual for pair in sweep.pairs if pair.contact.visual is not None)
+    visual = min(seen, default=None)
+    alternative = sweep.alternative
+    return MeasuredJoint(
+        joint=sweep.joint.name,
+        lower=round(sweep.lower, 6),
+        upper=round(sweep.upper, 6),
+        unit=sweep.joint.unit,
+        excess_mm=mm(max(0.0, sweep.excess)),
+        clearance_mm=0.0 if touching else mm(min(gaps)) if gaps else None,
+        visual_clearance_mm=None if visual is None else mm(max(0.0, visual)),
+        clear_until=None if sweep.clear_until is None else round(sweep.clear_until, 6),
+        looks=sweep.looks,
+        pairs=tuple(MeasuredPair(**_pair(pair)) for pair in sweep.pairs),
+        needs_open=sweep.needs_open,
+        waits_for=sweep.waits_for,
+        with_those_open=None if alternative is None else _measured_joint(alternative),
+    )
+
+
+def measured(study: PenetrationStudy) -> MeasuredPenetration:
+    """Return a study's figures as the report states them."""
+
+    def contacts(found: Iterable[Contact]) -> tuple[MeasuredContact, ...]:
+        return tuple(MeasuredContact(**_contact(each)) for each in found)
+
+    return MeasuredPenetration(
+        diagonal_m=round(study.diagonal, 6),
+        hulls=study.hulls,
+        parts=study.parts,
+        rest=contacts(study.rest),
+        zero=None if study.zero is None else contacts(study.zero),
+        joints=tuple(_measured_joint(sweep) for sweep in study.sweeps),
+        neighbours=tuple(
+            MeasuredNeighbour(
+                **_pair(item.pair),
+                joint=item.joint.name,
+                open=item.other.name,
+                unit=item.joint.unit,
+                open_at=round(item.other_at, 6),
+            )
+            for item in study.neighbours.met
+        ),
+        combinations=tuple(
+            MeasuredCombination(
+                **_contact(item.contact),
+                excess_mm=mm(item.excess),
+                values={name: round(value, 6) for name, value in item.values.items()},
+            )
+            for item in study.combinations
+        ),
     )

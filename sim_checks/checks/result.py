@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypedDict, Unpack
 
 from ..description import JointLine
 from ..report import Finding, Severity
 
+Findings = Iterator[Finding]
 #: Numbers of engines keep this many decimals: they differ in the last bits from machine to machine.
 DECIMALS = 6
 
@@ -33,14 +34,34 @@ class Concerned(TypedDict, total=False):
     parts: tuple[str, ...]
 
 
-class Details(Concerned, total=False):
-    """What a :class:`Finding` may say besides its code, severity and message."""
+class Measured(TypedDict, total=False):
+    """The number in a :class:`Finding`, and what it was held against."""
 
     value: float | None
     unit: str | None
     limit: float | None
+
+
+class Details(Concerned, Measured, total=False):
+    """What a :class:`Finding` may say besides its code, severity and message."""
+
     cause: str | None
     joints: tuple[str, ...]
+
+
+def measured(value: float | None, unit: str | None = None, limit: float | None = None) -> Measured:
+    """Return a number and its limit, ``None`` where they are none that JSON can hold."""
+    return {"value": finite(value), "unit": unit, "limit": finite(limit)}
+
+
+def rounded(value: float, unit: str, limit: float) -> Measured:
+    """Return a number and its limit to so many decimals that a last bit changes no report."""
+    return measured(float(round(value, DECIMALS)), unit, float(round(limit, DECIMALS)))
+
+
+def in_mm(value: float, limit: float, digits: int = 4) -> Measured:
+    """Return a length and its limit [m] as a report states them [mm]."""
+    return measured(round(1000 * value, digits), "mm", round(1000 * limit, digits))
 
 
 def about(joint: JointLine, simulator: str | None = None) -> Concerned:
@@ -68,14 +89,20 @@ def note(code: str, message: str, **details: Unpack[Details]) -> Finding:
     return Finding(code, Severity.NOTE, message, **details)
 
 
-def finite(value: float) -> float | None:
+def not_finite(what: str, doing: str, **concerned: Unpack[Concerned]) -> Finding:
+    """Return the error that an engine gave no number for where something is."""
+    words = f"{concerned['simulator']}: {what} went to infinity or NaN while {doing}"
+    return error("not_finite", words, **concerned)
+
+
+def finite(value: float | None) -> float | None:
     """Return the number, or ``None`` where it is none that JSON can hold."""
-    return value if math.isfinite(value) else None
+    return value if value is not None and math.isfinite(value) else None
 
 
 def significant(value: float | None, digits: int = 6) -> float | None:
     """Round to so many significant digits; ``None`` where there is no number to write."""
-    return None if value is None or not math.isfinite(value) else float(f"{value:.{digits}g}")
+    return None if finite(value) is None else float(f"{value:.{digits}g}")
 
 
 def listed(names: Sequence[str], most: int = 4) -> str:

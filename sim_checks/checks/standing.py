@@ -9,7 +9,7 @@ joint closed.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,7 +22,7 @@ from ..description import DescribedShape, Description, FloatArray, JointLine, Li
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import Poser, Tree, find_tree, free_ranges, unit_axis
 from ..report import Finding
-from .result import CheckResult, warning
+from .result import CheckResult, Findings, measured, warning
 
 GRAVITY = 9.81
 #: Values of a joint's range that are tried before the worst is refined.
@@ -52,15 +52,11 @@ class _RestingBody:
     def __init__(self, description: Description, tree: Tree, config: StandingConfig) -> None:
         self.tree = tree
         self._config = config
-        self.points = {
-            link.name: corners
-            for link in description.links
-            if len(corners := _corners(link.collisions))
-        }
-        inertias = {
-            link.name: link.inertia for link in description.links if link.inertia is not None
-        }
-        self._centers = {name: (item.mass, item.center) for name, item in inertias.items()}
+        corners = {link.name: _corners(link.collisions) for link in description.links}
+        self.points = {name: points for name, points in corners.items() if len(points)}
+        inertias = ((link.name, link.inertia) for link in description.links)
+        weighed = {name: inertia for name, inertia in inertias if inertia is not None}
+        self._centers = {name: (item.mass, item.center) for name, item in weighed.items()}
         self.mass = sum(mass for mass, _ in self._centers.values())
         self._poser = Poser(tree)
         self._posed: dict[str, FloatArray] = {}
@@ -69,10 +65,9 @@ class _RestingBody:
         self._cloud = np.zeros((ends[-1], 3))
         self._moments = {name: np.zeros(3) for name in self._centers}
         self._footing: tuple[FloatArray, FloatArray | None] | None = None
-        ranges = free_ranges(tree)
-        self.ranges = ranges
-        self.closed = {name: limits[0] for name, limits in ranges.items()}
-        self.opened = {name: limits[1] for name, limits in ranges.items()}
+        self.ranges = free_ranges(tree)
+        self.closed = {name: limits[0] for name, limits in self.ranges.items()}
+        self.opened = {name: limits[1] for name, limits in self.ranges.items()}
         points = self._placed(self.closed)
         self.floor = float(points[:, 2].min())
         spread = float(np.linalg.norm(np.ptp(points[:, :2], axis=0)))
@@ -163,11 +158,8 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
     """Check the object closed, with each joint anywhere in its range, and with all joints at upper.
 
     Joints closed means at lower. A moving part that touches the floor carries its share; one that
-    goes below it is taken to rest on it.
-
-    Args:
-        description: as read; there is no verdict while a link with collision shapes has no mass.
-        config: how much margin is wanted.
+    goes below it is taken to rest on it. There is no verdict while a link with collision shapes has
+    no mass.
 
     Returns:
         ``no_stable_footing``, or ``topples``, or else ``topples_when_pulled``, all warnings: a
@@ -184,22 +176,16 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
         return CheckResult((), {"unweighed": unweighed})
     body = _RestingBody(description, tree, config)
     closed = body.stance(body.closed)
-    measurements: dict[str, Any] = {
-        "mass_kg": round(body.mass, 6),
-        "closed": _numbers(closed),
-        "joints": [],
-    }
+    measurements: dict[str, Any] = {"mass_kg": round(body.mass, 6), "closed": _numbers(closed)}
     if closed.margin is None:
-        message = (
-            "fewer than three points apart touch the floor with every joint closed: "
-            "it does not stand by itself"
-        )
-        return CheckResult((warning("no_stable_footing", message),), measurements)
+        touch = "fewer than three points apart touch the floor with every joint closed"
+        found = (warning("no_stable_footing", f"{touch}: it does not stand by itself"),)
+        return CheckResult(found, {**measurements, "joints": []})
     rows = [_joint_row(body, joint) for joint in tree.free if joint.name in body.ranges]
-    together = body.stance(body.opened)
-    measurements.update(joints=rows, all_upper=_numbers(together))
-    found = tuple(_topples(closed, rows, together, config))
-    return CheckResult(found or tuple(_pulled(rows, config)), measurements)
+    together = _numbers(body.stance(body.opened))
+    measurements |= {"joints": rows, "all_upper": together}
+    told = tuple(_topples(measurements["closed"], rows, together, config.margin_m))
+    return CheckResult(told or tuple(_pulled(rows, config)), measurements)
 
 
 def _weighed(link: Link) -> bool:
@@ -207,11 +193,7 @@ def _weighed(link: Link) -> bool:
     inertia = link.inertia
     if inertia is None:
         return not link.collisions
-    return (
-        math.isfinite(inertia.mass)
-        and inertia.mass > 0.0
-        and bool(np.isfinite(inertia.center).all())
-    )
+    return 0.0 < inertia.mass < math.inf and bool(np.isfinite(inertia.center).all())
 
 
 def _joint_row(body: _RestingBody, joint: JointLine) -> dict[str, Any]:
@@ -244,87 +226,60 @@ def _worst(body: _RestingBody, joint: JointLine) -> tuple[float, Stance]:
     at = float(values[least])
     if 0 < least < SAMPLES - 1 and math.isfinite(margins[least]):
         around = (float(values[least - 1]), float(values[least + 1]))
-        found = minimize_scalar(
-            margin, bounds=around, method="bounded", options={"xatol": 1e-6 * (upper - lower)}
-        )
+        near = 1e-6 * (upper - lower)
+        found = minimize_scalar(margin, bounds=around, method="bounded", options={"xatol": near})
         at = float(found.x) if found.fun < margins[least] else at
     return at, body.stance({**body.closed, joint.name: at})
 
 
 def _topples(
-    closed: Stance, rows: list[dict[str, Any]], together: Stance, config: StandingConfig
-) -> Iterator[Finding]:
-    least = 1000 * config.margin_m
+    closed: dict[str, Any], rows: list[dict[str, Any]], together: dict[str, Any], margin_m: float
+) -> Findings:
+    least = 1000 * margin_m
 
     def found(subject: str, numbers: Mapping[str, Any], joint: str | None = None) -> Finding:
         margin = numbers["margin_mm"]
-        tilt = numbers["tilt_deg"]
-        if margin is None:
-            told = "too little touches the floor to stand on"
-        elif margin < 0.0:
-            told = (
-                f"its centre of mass lies {-margin:.1f} mm outside what it stands on, "
-                f"want {least:g} mm inside"
-            )
-        else:
-            told = (
-                f"its centre of mass lies only {margin:.1f} mm inside what it stands on, "
-                f"want {least:g} mm: a floor that leans by {tilt:.2f} deg topples it"
-            )
-        return warning(
-            "topples", f"{subject}: {told}", joint=joint, value=margin, unit="mm", limit=least
-        )
+        told = "too little touches the floor to stand on"
+        if margin is not None:
+            lies = f"{-margin:.1f} mm outside" if margin < 0.0 else f"only {margin:.1f} mm inside"
+            leans = f": a floor that leans by {numbers['tilt_deg']:.2f} deg topples it"
+            want = f"want {least:g} mm{' inside' if margin < 0.0 else leans}"
+            told = f"its centre of mass lies {lies} what it stands on, {want}"
+        short = measured(margin, "mm", least)
+        return warning("topples", f"{subject}: {told}", joint=joint, **short)
 
-    if _short(_numbers(closed), least):
-        yield found("closed, and not fastened, it topples", _numbers(closed))
-        return
-    loose = [row for row in rows if _short(row, least)]
-    if loose:
-        worst = min(
-            loose, key=lambda row: -math.inf if row["margin_mm"] is None else row["margin_mm"]
-        )
+    def margin_of(numbers: Mapping[str, Any]) -> float:
+        return -math.inf if numbers["margin_mm"] is None else numbers["margin_mm"]
+
+    loose = [row for row in rows if margin_of(row) < least]
+    if margin_of(closed) < least:
+        yield found("closed, and not fastened, it topples", closed)
+    elif loose:
+        worst = min(loose, key=margin_of)
         others = f" (so do {len(loose) - 1} more joints)" if len(loose) > 1 else ""
-        subject = (
-            f"joint {worst['joint']!r} at {worst['worst_at']:g} topples "
-            f"it{others} unless it is fastened"
-        )
-        yield found(subject, worst, worst["joint"])
-    elif _short(_numbers(together), least):
-        yield found("with all joints open, and not fastened, it topples", _numbers(together))
+        at = f"joint {worst['joint']!r} at {worst['worst_at']:g}"
+        yield found(f"{at} topples it{others} unless it is fastened", worst, worst["joint"])
+    elif margin_of(together) < least:
+        yield found("with all joints open, and not fastened, it topples", together)
 
 
-def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Iterator[Finding]:
-    weak = [
-        row
-        for row in rows
-        if row["tipping_force_n"] is not None and row["tipping_force_n"] < config.hand_force_n
-    ]
+def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Findings:
+    most = config.hand_force_n
+    tipping = [(row["tipping_force_n"], row["joint"]) for row in rows]
+    weak = [each for each in tipping if each[0] is not None and each[0] < most]
     if weak:
-        worst = min(weak, key=lambda row: row["tipping_force_n"])
+        force, joint = min(weak, key=lambda each: each[0])
         others = f"; the same of {len(weak) - 1} more" if len(weak) > 1 else ""
-        message = (
-            f"pulling joint {worst['joint']!r} open tips the whole object at "
-            f"{worst['tipping_force_n']:.1f} N, "
-            f"want it to withstand {config.hand_force_n:g} N or be fastened{others}"
-        )
-        force = worst["tipping_force_n"]
-        most = config.hand_force_n
-        yield warning(
-            "topples_when_pulled", message, joint=worst["joint"], value=force, unit="N", limit=most
-        )
-
-
-def _short(numbers: Mapping[str, Any], least: float) -> bool:
-    return numbers["margin_mm"] is None or numbers["margin_mm"] < least
+        tips = f"pulling joint {joint!r} open tips the whole object at {force:.1f} N"
+        message = f"{tips}, want it to withstand {most:g} N or be fastened{others}"
+        yield warning("topples_when_pulled", message, joint=joint, **measured(force, "N", most))
 
 
 def _numbers(stance: Stance) -> dict[str, Any]:
     if stance.margin is None or stance.tilt is None:
         return {"margin_mm": None, "tilt_deg": None}
-    return {
-        "margin_mm": round(1000 * stance.margin, 3),
-        "tilt_deg": round(math.degrees(stance.tilt), 3),
-    }
+    tilt = round(math.degrees(stance.tilt), 3)
+    return {"margin_mm": round(1000 * stance.margin, 3), "tilt_deg": tilt}
 
 
 def _corners(shapes: tuple[DescribedShape, ...]) -> FloatArray:

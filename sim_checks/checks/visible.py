@@ -84,9 +84,8 @@ class Visible:
         low = region.min(axis=0) if len(region) else np.maximum(a.bounds[0], b.bounds[0]) - margin
         high = region.max(axis=0) if len(region) else np.minimum(a.bounds[1], b.bounds[1]) + margin
         low, high = np.minimum(low, high), np.maximum(low, high)
-        return SurfaceMeeting(low, high, overlap.depth, overlap.direction, margin), self._frames(
-            contact, poses
-        )
+        meeting = SurfaceMeeting(low, high, overlap.depth, overlap.direction, margin)
+        return meeting, self._frames(contact, poses)
 
     def _frames(self, contact: Contact, poses: dict[str, FloatArray]) -> FloatArray:
         parts = self.pairs.solids.tree.parts

@@ -30,10 +30,8 @@ def joints_apart(description: Description) -> tuple[tuple[str, ...], ...]:
         return ()
     ranges = free_ranges(tree)
     poses = tree.link_poses({name: start for name, (start, _) in ranges.items()})
-    corners = {
-        link.name: placed(shape_corners(link.collisions), poses[link.name])
-        for link in description.links
-    }
+    shapes = ((link.name, shape_corners(link.collisions)) for link in description.links)
+    corners = {name: placed(points, poses[name]) for name, points in shapes}
     groups: list[dict[str, FloatArray]] = []
     for joint in tree.free:
         links = tree.below(joint)

@@ -23,11 +23,7 @@ TRUSTED_SHARE = 1e-5
 
 
 class Collider:
-    """One hull held ready: built once, moved in place.
-
-    Args:
-        hull: in its own frame.
-    """
+    """One hull held ready: built once, in its own frame, and moved in place."""
 
     def __init__(self, hull: CollisionHull) -> None:
         import fcl
@@ -114,9 +110,8 @@ class Skin:
     def meets(self, other: Skin) -> bool:
         """Tell whether triangles of the two cut or touch; one that swallows the other does not."""
         request = self._fcl.CollisionRequest(num_max_contacts=1, enable_contact=False)
-        return bool(
-            self._fcl.collide(self._object, other._object, request, self._fcl.CollisionResult())
-        )
+        result = self._fcl.CollisionResult()
+        return bool(self._fcl.collide(self._object, other._object, request, result))
 
     def distance(self, other: Skin) -> float:
         """Return the distance of the two surfaces [m]; 0 where they meet."""

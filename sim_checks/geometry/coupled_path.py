@@ -97,29 +97,14 @@ class CoupledOrbit:
         return self.path.limits(self.start)[1]
 
     def highest(self, direction: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
-        """Return the upper bound of the points' height along a direction within each interval.
-
-        Exact where nothing turns.
-
-        Args:
-            direction: unit vector, shape [3].
-            starts: where the intervals begin, shape [interval_count].
-            ends: where they end, likewise.
-
-        Returns:
-            heights [m], shape [interval_count].
-        """
+        """Return what :meth:`.path.Orbit.highest` does, exact where nothing turns."""
         first, last = (self._heights(direction, at) for at in (starts, ends))
         rise = np.outer((ends - starts) ** 2 / 8.0, self.acceleration)
         higher: FloatArray = (np.maximum(first, last) + rise).max(axis=1)
         return higher
 
     def swept_bounds(self, at: FloatArray) -> FloatArray:
-        """Return the boxes that hold the points all the way between neighbouring places.
-
-        Returns:
-            lowest and highest corners [m], shape [place_count - 1, 2, 3].
-        """
+        """Return what :meth:`.path.Orbit.swept_bounds` does."""
         poses = self.path.poses(at)
         points = self.start @ poses[:, :3, :3].transpose(0, 2, 1) + poses[:, None, :3, 3]
         margin = np.diff(at)[:, None] ** 2 / 8.0 * self.acceleration.max()
@@ -127,9 +112,8 @@ class CoupledOrbit:
 
     def _heights(self, direction: FloatArray, at: FloatArray) -> FloatArray:
         poses = self.path.poses(at)
-        return (direction @ poses[:, :3, :3]) @ self.start.T + (poses[:, :3, 3] @ direction)[
-            :, None
-        ]
+        lifted = (poses[:, :3, 3] @ direction)[:, None]
+        return (direction @ poses[:, :3, :3]) @ self.start.T + lifted
 
 
 AnyPath = Path | CoupledPath

@@ -13,10 +13,8 @@ Limits = tuple[float, float]
 def sound_chains(mimics: Mapping[str, Mimic | None]) -> dict[str, Mimic]:
     """Return follower -> mimic, where the chain of leaders ends at a joint that follows nothing.
 
-    One by a number that is none, or absurdly large, leads nowhere.
-
-    Args:
-        mimics: of every joint that moves; ``None`` for a free one.
+    One by a number that is none, or absurdly large, leads nowhere. Asked are all joints that move;
+    a free one has ``None``.
     """
     sound: dict[str, Mimic] = {}
     for name, mimic in mimics.items():
@@ -61,9 +59,7 @@ def whole_chain(name: str, sound: Mapping[str, Mimic], leader: str | None = None
 def common_range(limits: Limits, followers: Iterable[tuple[Mimic, Limits]]) -> Limits | None:
     """Return a leader's limits, cut so that all followers keep theirs; ``None`` if nothing is left.
 
-    Args:
-        limits: the leader's.
-        followers: how each follows the leader, and its own limits.
+    Followers are given by how they follow the leader, with their own limits.
     """
     for mimic, own in followers:
         if mimic.multiplier != 0.0:

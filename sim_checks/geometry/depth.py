@@ -12,6 +12,7 @@ the origin might be nearest, until nothing is left to grow (G. van den Bergen's 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from scipy.optimize import nnls
@@ -53,16 +54,12 @@ class HullOverlap:
 
 
 def overlap_along(a: CollisionHull, b: CollisionHull, directions: FloatArray) -> FloatArray:
-    """Return how far ``a`` reaches into ``b`` along unit directions [m]; negative separates.
+    """Return how far ``a`` reaches into ``b``, in the same frame [m]; negative separates.
 
-    Args:
-        a: first hull.
-        b: second hull, same frame.
-        directions: unit vectors from ``a`` towards ``b``, shape [direction_count, 3].
+    Reached are unit directions from ``a`` towards ``b``, shape [direction_count, 3].
     """
-    reach: FloatArray = (a.vertices @ directions.T).max(axis=0) - (b.vertices @ directions.T).min(
-        axis=0
-    )
+    near = (b.vertices @ directions.T).min(axis=0)
+    reach: FloatArray = (a.vertices @ directions.T).max(axis=0) - near
     return reach
 
 
@@ -82,12 +79,7 @@ def widest_gap(a: CollisionHull, b: CollisionHull, direction: FloatArray) -> Hul
     The corners of the Minkowski difference nearest to the origin are collected one by one, and the
     point of their hull that is nearest is found anew (P. Wolfe's nearest point in a polytope,
     1976). Every direction tried separates by what the hulls' own corners say, so that no gap is
-    overstated.
-
-    Args:
-        a: first hull.
-        b: second hull, same frame.
-        direction: unit vector from ``a`` towards ``b`` that separates them, shape [3].
+    overstated. The first is a unit vector from ``a`` towards ``b`` that separates them, shape [3].
     """
     found = HullOverlap(float(overlap_along(a, b, direction[None])[0]), direction)
     points = _differences(a, b, direction[None])
@@ -115,12 +107,9 @@ def _nearest_to_origin(points: FloatArray) -> FloatArray:
 
 def _faces(a: CollisionHull, b: CollisionHull) -> HullOverlap:
     faces = np.vstack([a.normals, -b.normals])
-    reaches = np.concatenate(
-        [
-            a.offsets - (b.vertices @ a.normals.T).min(axis=0),
-            b.offsets - (a.vertices @ b.normals.T).min(axis=0),
-        ]
-    )
+    first = a.offsets - (b.vertices @ a.normals.T).min(axis=0)
+    second = b.offsets - (a.vertices @ b.normals.T).min(axis=0)
+    reaches = np.concatenate([first, second])
     best = int(np.argmin(reaches))
     return HullOverlap(float(reaches[best]), faces[best])
 
@@ -128,10 +117,7 @@ def _faces(a: CollisionHull, b: CollisionHull) -> HullOverlap:
 def _grown(a: CollisionHull, b: CollisionHull) -> HullOverlap | None:
     """Return the depth by growing the Minkowski difference; ``None`` if qhull gives up."""
     size = float(np.ptp(a.vertices, axis=0).max() + np.ptp(b.vertices, axis=0).max())
-    grid = np.array(
-        [[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z],
-        dtype=float,
-    )
+    grid = np.array([step for step in product((-1, 0, 1), repeat=3) if any(step)], dtype=float)
     grid /= np.linalg.norm(grid, axis=1)[:, None]
     reaches = overlap_along(a, b, grid)
     found = HullOverlap(float(reaches.min()), grid[int(np.argmin(reaches))])
@@ -197,17 +183,16 @@ def _edge_block(a: CollisionHull, b: CollisionHull, rows: slice, found: HullOver
 
 def _arcs_cross(first: FloatArray, second: FloatArray) -> np.ndarray:
     """Return which arcs between face normals cross; shapes [n, 2, 3] and [m, 2, 3] -> [n, m]."""
-    a = first[:, 0]
-    b = first[:, 1]
-    c = second[:, 0]
-    d = second[:, 1]
+    a, b = first.transpose(1, 0, 2)
+    c, d = second.transpose(1, 0, 2)
     across_first = np.cross(b, a)
     across_second = np.cross(d, c)
     c_side = across_first @ c.T
     d_side = across_first @ d.T
     a_side = a @ across_second.T
     b_side = b @ across_second.T
-    return (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
+    cross: np.ndarray = (c_side * d_side < 0.0) & (a_side * b_side < 0.0) & (c_side * b_side > 0.0)
+    return cross
 
 
 def _verified(

@@ -26,6 +26,8 @@ from ..description import FloatArray, IntArray
 from .collision import Skin
 from .surfaces import WELD, Patch, SurfaceMeeting, VisibleSurface, patch, patches
 
+BoolArray = npt.NDArray[np.bool_]
+
 #: First and finest pull [m].
 FINEST = 1e-5
 #: A way out is found to this share of itself, by so many halvings.
@@ -48,21 +50,14 @@ def visible_gap(
 ) -> float:
     """Return how two surfaces stand around a meeting [m]: a gap, or a negative depth.
 
-    The gap is at most the meeting's margin.
-
-    Args:
-        first: of the part whose hull is first in the meeting.
-        second: of the other.
-        poses: of both, shape [2, 4, 4].
-        meeting: where to look.
+    The gap is at most the meeting's margin. The first surface is of the part whose hull is first in
+    the meeting; poses have shape [2, 4, 4].
     """
     one, other = patches(first, second, poses, meeting)
     if one is None or other is None:
         held = ((one, second, poses[1]), (other, first, poses[0]))
-        swallowed = any(
-            inner is not None and _inside(outer, pose, _corners(inner, meeting)).any()
-            for inner, outer, pose in held
-        )
+        corners = ((_corners(i, meeting), outer, pose) for i, outer, pose in held if i is not None)
+        swallowed = any(_inside(outer, pose, points).any() for points, outer, pose in corners)
         return -meeting.depth if swallowed and meeting.depth > 0.0 else meeting.margin
     pairs = one.skin.touching(other.skin, MET_FACES)
     if len(pairs):
@@ -116,10 +111,8 @@ def _way_out(one: Patch, other: Patch, meeting: SurfaceMeeting) -> float:
     longest = best = max(meeting.depth, meeting.margin)
     for index, direction in enumerate(_directions(one, other, meeting)):
         # Off the hulls' own way out, faces that were not looked at come into play after the margin.
-        sideways = (
-            meeting.margin if float(direction @ -meeting.direction) > -SAME_DIRECTION else GRAZE
-        )
-        most = best if index == 0 else sideways
+        deeper = float(direction @ -meeting.direction) <= -SAME_DIRECTION
+        most = best if index == 0 else GRAZE if deeper else meeting.margin
         best = _least_pull(one, other, direction, min(most, best), best)
     one.skin.shift(np.zeros(3))
     return best if best < longest else max(meeting.depth, FINEST)
@@ -154,9 +147,8 @@ def _directions(one: Patch, other: Patch, meeting: SurfaceMeeting) -> FloatArray
     """Return where to pull the first: the hulls' way out, then across the faces that meet."""
     back = -meeting.direction
     pairs = one.skin.touching(other.skin, MET_FACES)
-    corners = [
-        side.vertices[side.faces[np.unique(pairs[:, k])]] for k, side in enumerate((one, other))
-    ]
+    met = ((one, np.unique(pairs[:, 0])), (other, np.unique(pairs[:, 1])))
+    corners = [side.vertices[side.faces[rows]] for side, rows in met]
     a, b, c = np.vstack(corners).transpose(1, 0, 2)
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
@@ -212,9 +204,7 @@ def _corners(inner: Patch, meeting: SurfaceMeeting) -> FloatArray:
     return corners[:: max(1, len(corners) // ASKED)][:ASKED]
 
 
-def _inside(
-    surface: VisibleSurface, pose: FloatArray, corners: FloatArray
-) -> npt.NDArray[np.bool_]:
+def _inside(surface: VisibleSurface, pose: FloatArray, corners: FloatArray) -> BoolArray:
     """Tell which points of the world are inside closed pieces of a surface, shape [point_count]."""
     points = (corners - pose[:3, 3]) @ pose[:3, :3]
     order = np.argsort(surface.pieces, kind="stable")

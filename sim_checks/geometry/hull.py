@@ -124,9 +124,8 @@ def _thinned(points: FloatArray) -> FloatArray:
     rows = np.arange(len(points))
     on_cube = around / np.abs(around[rows, longest])[:, None]
     # Equal angles, not equal lengths, make cells of about one size.
-    cells = np.clip(
-        ((np.arctan(on_cube) / (np.pi / 4.0) + 1.0) / 2.0 * CELLS).astype(np.int64), 0, CELLS - 1
-    )
+    angles = (np.arctan(on_cube) / (np.pi / 4.0) + 1.0) / 2.0
+    cells = np.clip((angles * CELLS).astype(np.int64), 0, CELLS - 1)
     # Along the longest axis, a point is in the first or the last cell: the side of the cube.
     keys = ((longest * CELLS + cells[:, 0]) * CELLS + cells[:, 1]) * CELLS + cells[:, 2]
     order = np.lexsort((-np.linalg.norm(around, axis=1), keys))
@@ -151,23 +150,13 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Coll
     facet, slot = np.nonzero(np.arange(len(triangles))[:, None] < hull.neighbors)
     other = hull.neighbors[facet, slot]
     sharp = np.linalg.norm(equations[facet, :3] - equations[other, :3], axis=1) > SAME_NORMAL
-    facet = facet[sharp]
-    slot = slot[sharp]
-    other = other[sharp]
+    facet, slot, other = (rows[sharp] for rows in (facet, slot, other))
     edges = renumber[hull.simplices[facet[:, None], (slot[:, None] + [1, 2]) % 3]]
     sides = np.stack([equations[facet, :3], equations[other, :3]], axis=1)
     normals = _merged(equations[:, :3])
     offsets = farthest_along(vertices, normals) + normals @ center
-    return CollisionHull(
-        vertices + center,
-        triangles,
-        normals,
-        offsets,
-        edges,
-        sides,
-        float(hull.volume),
-        corners_before,
-    )
+    faces = (triangles, normals, offsets, edges, sides)
+    return CollisionHull(vertices + center, *faces, float(hull.volume), corners_before)
 
 
 def farthest_along(points: FloatArray, directions: FloatArray) -> FloatArray:

@@ -144,11 +144,8 @@ def build_tree(description: Description) -> Tree:
     if len(roots) != 1:
         raise NotATree(f"{len(roots)} root links ({', '.join(roots[:5])}), want 1")
     order = _parents_first(roots[0], description.joints)
-    if len(order) != len(description.joints):
-        raise NotATree(
-            f"{len(description.joints) - len(order)} joints form a loop "
-            f"apart from root {roots[0]!r}"
-        )
+    if loop := len(description.joints) - len(order):
+        raise NotATree(f"{loop} joints form a loop apart from root {roots[0]!r}")
     moving = tuple(joint for joint in description.joints if joint.kind in MOVING_KINDS)
     return Tree(roots[0], order, moving, _parts(names, roots[0], order), sound_mimics(description))
 
@@ -226,20 +223,16 @@ def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
     limits = sweep_range(joint)
     if limits is None:
         return None
-    followers = [
-        (whole_chain(other.name, tree.mimics, joint.name), own_limits(other))
-        for other in tree.followers(joint)
-    ]
-    return common_range(limits, [(mimic, own) for mimic, own in followers if own is not None])
+    limited = ((other.name, own_limits(other)) for other in tree.followers(joint))
+    followers = ((name, own) for name, own in limited if own is not None)
+    wholes = ((whole_chain(name, tree.mimics, joint.name), own) for name, own in followers)
+    return common_range(limits, wholes)
 
 
 def free_ranges(tree: Tree) -> dict[str, tuple[float, float]]:
     """Return :func:`coupled_range` of every independent joint that has one, by name; tree order."""
-    return {
-        joint.name: limits
-        for joint in tree.free
-        if (limits := coupled_range(tree, joint)) is not None
-    }
+    ranges = ((joint.name, coupled_range(tree, joint)) for joint in tree.free)
+    return {name: limits for name, limits in ranges if limits is not None}
 
 
 def own_limits(joint: JointLine) -> tuple[float, float] | None:

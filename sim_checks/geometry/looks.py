@@ -10,11 +10,7 @@ class TooManyLooks(Exception):
 
 
 class LookBudget:
-    """How many exact looks a file may take, and how many it took.
-
-    Args:
-        most: after so many the next one raises.
-    """
+    """How many exact looks a file may take, and how many it took."""
 
     def __init__(self, most: float = math.inf) -> None:
         self._most = most

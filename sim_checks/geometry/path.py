@@ -102,18 +102,13 @@ class Orbit:
         """
         if not self.path.turning:
             slope = self.path.axis @ direction
-            slid: FloatArray = (self.start @ direction).max() + np.maximum(
-                starts * slope, ends * slope
-            )
-            return slid
+            slid: FloatArray = (self.start @ direction).max()
+            return slid + np.maximum(starts * slope, ends * slope)
         cosine = self.radial @ direction
         sine = self.tangent @ direction
         at = np.concatenate([starts, ends])
-        heights = (
-            (self.center @ direction)[:, None]
-            + np.outer(cosine, np.cos(at))
-            + np.outer(sine, np.sin(at))
-        )
+        heights = (self.center @ direction)[:, None] + np.outer(cosine, np.cos(at))
+        heights = heights + np.outer(sine, np.sin(at))
         reach = heights.max(axis=0)
         higher: FloatArray = np.maximum(reach[: len(starts)], reach[len(starts) :])
         return higher + bulge(float(np.hypot(cosine, sine).max()), ends - starts)
@@ -129,9 +124,8 @@ class Orbit:
             sin = np.sin(at)[:, None, None]
             points = self.center + self.radial * cos + self.tangent * sin
             # Rounding of the circle itself is far below a nanometre.
-            margin = bulge(1.0, np.diff(at))[:, None] * np.hypot(self.radial, self.tangent).max(
-                axis=0
-            )
+            radius = np.hypot(self.radial, self.tangent).max(axis=0)
+            margin = bulge(1.0, np.diff(at))[:, None] * radius
         else:
             points = self.start + at[:, None, None] * self.path.axis
             margin = np.zeros((len(at) - 1, 3))
@@ -162,9 +156,8 @@ def boxed(points: FloatArray, margin: FloatArray) -> FloatArray:
     """
     low = points.min(axis=1)
     high = points.max(axis=1)
-    return np.stack(
-        [np.minimum(low[:-1], low[1:]) - margin, np.maximum(high[:-1], high[1:]) + margin], axis=1
-    )
+    lowest = np.minimum(low[:-1], low[1:]) - margin
+    return np.stack([lowest, np.maximum(high[:-1], high[1:]) + margin], axis=1)
 
 
 def bulge(radius: float, step: FloatArray) -> FloatArray:

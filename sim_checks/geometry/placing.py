@@ -38,9 +38,8 @@ def box_corners(boxes: FloatArray) -> FloatArray:
 
 def box_gap(first: FloatArray, second: FloatArray) -> float:
     """Return the distance between the boxes around two sets of points [m]; 0 if they meet."""
-    apart = np.maximum(
-        first.min(axis=0) - second.max(axis=0), second.min(axis=0) - first.max(axis=0)
-    )
+    below = first.min(axis=0) - second.max(axis=0)
+    apart = np.maximum(below, second.min(axis=0) - first.max(axis=0))
     return float(np.linalg.norm(np.maximum(0.0, apart)))
 
 
@@ -61,8 +60,7 @@ def joined(
 ) -> tuple[FloatArray, IntArray] | None:
     """Return corners [m] and faces of shapes as one mesh; ``None`` where none has a face.
 
-    Args:
-        shapes: each with the pose that it is put at, shape [4, 4].
+    Each is given with the pose that it is put at, shape [4, 4].
     """
     vertices = []
     faces = []

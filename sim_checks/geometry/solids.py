@@ -137,11 +137,8 @@ class Solids:
         return self._groups[joint.name]
 
     def _grouped(self, joint: JointLine) -> tuple[SolidGroup, ...]:
-        names = {
-            other.name
-            for other in (joint, *self.tree.followers(joint))
-            if self._rate(joint, other) != 0.0
-        }
+        led = (joint, *self.tree.followers(joint))
+        names = {other.name for other in led if self._rate(joint, other) != 0.0}
         ways: list[tuple[JointLine, ...]] = [() for _ in self.tree.parts]
         for part, parent, above in self._steps:
             ways[part] = (*ways[parent], above) if above.name in names else ways[parent]
@@ -217,9 +214,6 @@ class Solids:
 
 def _steps(tree: Tree, part_of: Mapping[str, int]) -> tuple[tuple[int, int, JointLine], ...]:
     """Yield every part but the root's, its parent part and the joint between; parents first."""
-    moving = {joint.name for joint in tree.moving}
-    return tuple(
-        (part_of[joint.child], part_of[joint.parent], joint)
-        for joint in tree.order
-        if joint.name in moving
-    )
+    names = {joint.name for joint in tree.moving}
+    moving = (joint for joint in tree.order if joint.name in names)
+    return tuple((part_of[joint.child], part_of[joint.parent], joint) for joint in moving)

@@ -18,12 +18,7 @@ def gravity_load(
 ) -> float | None:
     """Return the force that gravity moves a joint with, root fixed [N m] or [N].
 
-    Args:
-        description: masses and centres of mass.
-        tree: of that description.
-        joint: one that moves.
-        values: of all joints [rad] or [m]; those left out are at 0, or where their leaders take
-            them.
+    Joints whose ``values`` [rad] or [m] are left out are at 0, or where their leaders take them.
 
     Returns:
         Positive where it pulls towards upper; ``None`` where a visible or solid link that moves

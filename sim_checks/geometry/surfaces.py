@@ -136,9 +136,8 @@ def patch(
     corners = corners[inside]
     if len(rows) == 0:
         return None
-    return Patch(
-        surface, pose, rows, corners.reshape(-1, 3), np.arange(3 * len(rows)).reshape(-1, 3)
-    )
+    faces = np.arange(3 * len(rows)).reshape(-1, 3)
+    return Patch(surface, pose, rows, corners.reshape(-1, 3), faces)
 
 
 def patches(
@@ -146,11 +145,7 @@ def patches(
 ) -> tuple[Patch | None, Patch | None]:
     """Return what the two surfaces show around a meeting; ``None`` where one shows nothing.
 
-    Args:
-        first: of the part whose hull is first in the meeting.
-        second: of the other.
-        poses: of both, shape [2, 4, 4].
-        meeting: where to look.
+    The first is of the part whose hull is first in the meeting; poses have shape [2, 4, 4].
     """
     low = meeting.low - meeting.margin
     high = meeting.high + meeting.margin
@@ -159,9 +154,8 @@ def patches(
     if one is None or other is None:
         return one, other
     # Neither matters where the other is not.
-    lows, highs = (
-        np.array([f(p.vertices, axis=0) for p in (one, other)]) for f in (np.min, np.max)
-    )
+    lows = np.array([each.vertices.min(axis=0) for each in (one, other)])
+    highs = np.array([each.vertices.max(axis=0) for each in (one, other)])
     low = np.maximum(low, lows.max(axis=0) - meeting.margin)
     high = np.minimum(high, highs.min(axis=0) + meeting.margin)
     return patch(first, poses[0], low, high), patch(second, poses[1], low, high)

@@ -165,9 +165,8 @@ class Sweep:
         steps = at[1] ** 2 + self.places[1] ** 2
         _, acceleration = self.path.limits(corners)
         margin = steps / 8.0 * acceleration.reshape(len(boxes), 8, 1).max(axis=1)
-        return np.stack(
-            [points.min(axis=(0, 2)) - margin, points.max(axis=(0, 2)) + margin], axis=1
-        )
+        lowest = points.min(axis=(0, 2)) - margin
+        return np.stack([lowest, points.max(axis=(0, 2)) + margin], axis=1)
 
     def worst(self, candidates: Sequence[Candidate], tolerance: Tolerance) -> Worst | None:
         """Find the worst excess over rest of the candidates; ``None`` if all stay beyond the floor.
@@ -175,11 +174,8 @@ class Sweep:
         Raises:
             TooManyLooks: the file has taken more than it may.
         """
-        tracks = [
-            track
-            for item in candidates
-            if (track := self._track(item, tolerance.floor)) is not None
-        ]
+        followed = (self._track(item, tolerance.floor) for item in candidates)
+        tracks = [track for track in followed if track is not None]
         queue = [(-float(track.bounds.max()), index) for index, track in enumerate(tracks)]
         heapq.heapify(queue)
         best: Worst | None = None

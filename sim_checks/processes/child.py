@@ -92,9 +92,8 @@ def _limit(cpu_s: float | None, memory_bytes: int | None) -> None:
 def _soft_limit(kind: int, value: int | None) -> None:
     _, hard = resource.getrlimit(kind)
     wanted = hard if value is None else value
-    resource.setrlimit(
-        kind, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard)
-    )
+    soft = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
+    resource.setrlimit(kind, (soft, hard))
 
 
 def _write_to(log: Path) -> None:

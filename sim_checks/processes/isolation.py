@@ -252,11 +252,9 @@ class WarmChild:
         )
 
     def _is_spent(self, process: _Process) -> bool:
-        if self._calls is not None and process.answered >= self._calls:
-            return True
-        return (
-            self._resident_bytes is not None and _resident_bytes(process.pid) > self._resident_bytes
-        )
+        most = self._resident_bytes
+        asked_enough = self._calls is not None and process.answered >= self._calls
+        return asked_enough or (most is not None and _resident_bytes(process.pid) > most)
 
 
 def _born() -> _Process:
@@ -275,9 +273,8 @@ class _Process:
         self.folder = Path(tempfile.mkdtemp(prefix="isolated-", dir=scratch()))
         self._log = self.folder / LOG_NAME
         self._connection, theirs = context.Pipe()
-        self._process: ForkServerProcess = context.Process(
-            target=serve, args=(theirs, str(self.folder))
-        )
+        ends = (theirs, str(self.folder))
+        self._process: ForkServerProcess = context.Process(target=serve, args=ends)
         try:
             # The fork server, which starts with the first child, is where libraries are loaded.
             with one_thread():
@@ -377,9 +374,8 @@ def _failure_sentence(failure: Failure, exit_code: int | None, limits: Limits) -
 
 def _exception_sentence(error: Exception, limits: Limits) -> str:
     if isinstance(error, MemoryError) and limits.memory_bytes is not None:
-        return (
-            f"ran out of memory, with {limits.memory_bytes / 2**30:.3g} GiB of address space to use"
-        )
+        space = f"{limits.memory_bytes / 2**30:.3g} GiB of address space"
+        return f"ran out of memory, with {space} to use"
     return f"{type(error).__name__}: {error}"
 
 

@@ -56,11 +56,7 @@ def abandoned(path: Path) -> int | None:
 
 
 def sweep(parent: Path | None = None) -> int:
-    """Remove the scratch folders of processes that were killed; how many there were.
-
-    Args:
-        parent: where they lie; by default, where temporary files do.
-    """
+    """Remove killed processes' scratch folders, by default beside temporary files; how many."""
     count = 0
     for folder in Path(parent or tempfile.gettempdir()).glob(f"{PREFIX}*"):
         descriptor = abandoned(folder)
@@ -78,9 +74,8 @@ _short: dict[int, Path] = {}
 def scratch() -> Path:
     """Return this process's folder for temporary files, removed when it ends.
 
-    If it is killed, the next process to ask for its own folder removes it.
-
-    Only its owner can look into it.
+    If it is killed, the next process to ask for its own folder removes it. Only its owner can look
+    into it.
     """
     folder = _own.get(os.getpid())
     if folder is not None and folder.is_dir():

@@ -58,7 +58,7 @@ def read_document(path: Path, most: int = MAX_DOCUMENT_BYTES) -> bytes:
 
 
 def parse_xml(data: bytes, name: str) -> ET.Element:
-    """Return the root element of an XML text; ``name`` opens the sentence of what is refused."""
+    """Return the root element of an XML text; ``name`` opens the sentence of a refusal."""
     items = data.count(b"<") + data.count(b"=")
     if items > MAX_ITEMS:
         message = f"{name}: {items} elements and attributes, at most {MAX_ITEMS} are read"
@@ -92,11 +92,9 @@ def _refusing(name: str) -> Iterator[None]:
     try:
         yield
     except DTDForbidden as error:
-        raise DescriptionError(
-            "forbidden_doctype",
-            f"{name}: declares a document type or entities; "
-            "remove the <!DOCTYPE ...> to have it read",
-        ) from error
+        remedy = "remove the <!DOCTYPE ...> to have it read"
+        message = f"{name}: declares a document type or entities; {remedy}"
+        raise DescriptionError("forbidden_doctype", message) from error
     except (ET.ParseError, ValueError, LookupError) as error:
         raise DescriptionError("invalid_xml", f"{name}: is no XML: {error}") from error
 
@@ -128,10 +126,8 @@ def locate(reference: str, folder: Path) -> list[Path]:
     scheme, _, rest = reference.rpartition("://")
     if scheme.lower() in PACKAGED:
         parts = PurePosixPath(rest).parts
-        places = [
-            folder.joinpath(*parts[start:])
-            for start in range(max(0, len(parts) - MAX_DEPTH), len(parts))
-        ]
+        starts = range(max(0, len(parts) - MAX_DEPTH), len(parts))
+        places = [folder.joinpath(*parts[start:]) for start in starts]
     else:
         places = [folder / rest.replace("\\", "/")]
     within = [place for place in places if inside(place, folder)]

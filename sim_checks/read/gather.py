@@ -5,19 +5,37 @@ What reads and simulates it needs to know one folder only, and is never told of 
 
 from __future__ import annotations
 
+import errno
+import os
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import unquote
 
 from ..description import DescriptionError
 from ..report import Finding, Severity
-from .copies import Copies
 from .document import find_file, is_file, parse_document
-from .gather_mjcf import copy_mjcf
-from .references import named_files, urdf_references
+from .meshes import MAX_MESH_BYTES
+from .references import (
+    DOCUMENTS,
+    ModelWalk,
+    MujocoModel,
+    found,
+    named_files,
+    named_in_mesh,
+    nested,
+    urdf_references,
+)
+from .regular import read_regular
 from .roots import ReadOptions, Roots
 from .srdf import SUFFIX as SRDF
 from .xacro import expand_xacro, is_xacro
+
+#: Of all files of one description together [bytes], and how many.
+MOST_BYTES = 2 * 2**30
+MOST_FILES = 20_000
+#: Where a compiler element of an MJCF sends readers, which copies name in full.
+FOLDERS = ("meshdir", "texturedir", "assetdir", "strippath")
 
 
 @dataclass(frozen=True)
@@ -26,7 +44,7 @@ class Gathered:
 
     Attributes:
         path: the description to read: the original where that is so, else the copy.
-        files: the originals of what was copied, in the order of first use.
+        files: the originals of copies, in the order of first use.
         findings: what a reader of the report is told.
     """
 
@@ -36,15 +54,11 @@ class Gathered:
 
 
 def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
-    """Return a description with all that it refers to in one folder.
-
-    Args:
-        path: of any file.
-        folder: an empty one, for the copy.
-        options: what may be read beyond the description's own folder.
+    """Return a description with all that it refers to in one folder; an empty one is for copies.
 
     Raises:
-        DescriptionError: ``outside_folder``, ``missing_file``, ``too_large``, ``unreadable``.
+        DescriptionError: ``outside_folder``, ``missing_file``, ``too_large``, ``unreadable``,
+            ``nested_too_deep``, and whatever is wrong with an inner document.
     """
     try:
         document = parse_document(path)
@@ -64,7 +78,7 @@ def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
     stem = path.name.removesuffix(path.suffix).removesuffix(".urdf")
     target = copies.folder / (f"{stem}.urdf" if made else path.name)
     if document.tag == "mujoco":
-        copy_mjcf(path, document, copies, target)
+        _copy_mjcf(path, document, copies, target)
     else:
         _copy_urdf(path, document, copies, target)
         _copy_srdf(options.srdf or path.with_name(target.name).with_suffix(SRDF), copies, target)
@@ -122,3 +136,110 @@ def _copy_srdf(srdf: Path, copies: Copies, target: Path) -> None:
     """Copy an SRDF beside the copy of its URDF; one that somebody names may lie anywhere."""
     if is_file(srdf):
         target.with_suffix(SRDF).write_bytes(copies.read(srdf))
+
+
+def _copy_mjcf(path: Path, document: ET.Element, copies: Copies, target: Path) -> None:
+    """Write a model to ``target``, what it includes and attaches, and every file these name."""
+    here = path.parent.resolve() / path.name
+    ModelWalk(copies.roots.allows).follow(here, document)
+    walk = ModelWalk(copies.roots.allows)
+    _copy_model(here, document, target, walk, copies)
+
+
+def _copy_model(
+    path: Path,
+    document: ET.Element,
+    target: Path,
+    walk: ModelWalk,
+    copies: Copies,
+    above: tuple[Path, ...] = (),
+) -> None:
+    model = walk.model(path, document, above)
+    elements = [(at, element) for at, root in model.documents for element in root.iter()]
+    attaching = ((at, element) for at, element in elements if element.tag == "model")
+    attached = [inner for at, element in attaching for inner in model.inner(element, at)]
+    keys = ((at, element, key) for at, element in elements for key in element.attrib)
+    named = (each for each in keys if each[2].startswith("file") and each[1].get(each[2]))
+    written = [(e, key, _copied(e, key, model, at, copies)) for at, e, key in named]
+    for element, key, place in written:
+        element.set(key, Path(os.path.relpath(place, target.parent)).as_posix())
+    for at, root in model.documents:
+        for compiler in root.iter("compiler"):
+            for key in FOLDERS:
+                compiler.attrib.pop(key, None)
+        copies.write(root, at, target if at == path else copies.place(at.resolve()))
+    for inner in dict.fromkeys(attached):
+        chain = nested(inner, (*above, path))
+        _copy_model(inner, walk.parse(inner), copies.place(inner), walk, copies, chain)
+
+
+def _copied(
+    element: ET.Element, key: str, model: MujocoModel, document: Path, copies: Copies
+) -> Path:
+    """Return where the copy of a file that an element names lies, or will."""
+    files = found([p for p in model.places(element, key, document) if copies.roots.allows(p)])
+    if not files:
+        message = f"<{element.tag}> {element.get(key, '')[:160]!r}: no such file"
+        raise DescriptionError("missing_file", message)
+    return copies.place(files[0]) if element.tag in DOCUMENTS else copies.take(files[0])
+
+
+class Copies:
+    """Copies of files in one folder, each once, in its place, with what they name themselves."""
+
+    def __init__(self, folder: Path, roots: Roots) -> None:
+        folder.mkdir(parents=True)
+        self.folder = folder
+        self.roots = roots
+        self._read: dict[Path, None] = {}
+        self._copied: dict[Path, Path] = {}
+        self._left = MOST_BYTES
+
+    @property
+    def originals(self) -> tuple[Path, ...]:
+        """Return the files that were read, in the order of first use."""
+        return tuple(self._read)
+
+    def place(self, file: Path) -> Path:
+        """Return where the copy of a file, by its resolved path, lies."""
+        return self.folder / self.roots.copied_to(file)
+
+    def take(self, file: Path) -> Path:
+        """Copy a file and, of a mesh, its materials and pictures; returns the copy's place."""
+        waiting = [file]
+        while waiting:
+            original = waiting.pop()
+            if original in self._copied:
+                continue
+            data = self.read(original)
+            place = self._copied[original] = self.place(original)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(data)
+            for name in named_in_mesh(original, data):
+                beside = [original.parent / name, original.parent / unquote(name)]
+                waiting += [p.resolve() for p in beside if self.roots.allows(p) and is_file(p)]
+        return self._copied[file]
+
+    def read(self, file: Path) -> bytes:
+        """Return the content of a file, within what all may hold together.
+
+        Raises:
+            DescriptionError: ``too_large``, or ``unreadable_mesh``.
+        """
+        self._read[file] = None
+        try:
+            if len(self._read) > MOST_FILES:
+                raise OSError(errno.EFBIG, f"is one of over {MOST_FILES} files")
+            data = read_regular(file, min(MAX_MESH_BYTES, self._left))
+        except OSError as error:
+            code = "too_large" if error.errno == errno.EFBIG else "unreadable_mesh"
+            raise DescriptionError(code, f"{file.name}: {error.strerror}") from error
+        self._left -= len(data)
+        return data
+
+    def write(self, document: ET.Element, original: Path, place: Path) -> None:
+        """Write a document, changed, in its place."""
+        self._read[original] = None
+        text: bytes = ET.tostring(document, encoding="utf-8")
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(text)

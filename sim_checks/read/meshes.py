@@ -25,13 +25,11 @@ def read_mesh(path: Path) -> tuple[FloatArray, IntArray]:
             ``not_finite``, ``forbidden_doctype`` or ``invalid_xml``.
     """
     if path.suffix.lower() not in MESH_SUFFIXES:
-        raise DescriptionError(
-            "unsupported_mesh", f"{path.name}: want one of {', '.join(MESH_SUFFIXES)}"
-        )
-    if path.stat().st_size > MAX_MESH_BYTES:
-        raise DescriptionError(
-            "too_large", f"{path.name}: {path.stat().st_size} bytes, at most {MAX_MESH_BYTES}"
-        )
+        message = f"{path.name}: want one of {', '.join(MESH_SUFFIXES)}"
+        raise DescriptionError("unsupported_mesh", message)
+    if (size := path.stat().st_size) > MAX_MESH_BYTES:
+        message = f"{path.name}: {size} bytes, at most {MAX_MESH_BYTES}"
+        raise DescriptionError("too_large", message)
     if path.suffix.lower() == ".dae":
         refuse_doctype(path.read_bytes(), path.name)
     vertices, faces = _load(path)
@@ -51,12 +49,10 @@ def _load(path: Path) -> tuple[FloatArray, IntArray]:
             suffix = path.suffix.lower().removeprefix(".")
             scene = trimesh.load_scene(stream, file_type=suffix, process=False, skip_materials=True)
         meshes = [item for item in scene.dump() if isinstance(item, trimesh.Trimesh)]
-    except (
-        Exception
-    ) as error:  # a mesh library meets strangers' files: whatever it raises, the file is at fault
-        raise DescriptionError(
-            "unreadable_mesh", f"{path.name}: {type(error).__name__}: {error}"
-        ) from error
+    except Exception as error:
+        # A mesh library meets strangers' files: whatever it raises, the file is at fault.
+        message = f"{path.name}: {type(error).__name__}: {error}"
+        raise DescriptionError("unreadable_mesh", message) from error
     if not meshes:
         return np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes[:-1])])
@@ -64,7 +60,6 @@ def _load(path: Path) -> tuple[FloatArray, IntArray]:
     pairs = zip(meshes, starts, strict=True)
     faces = np.vstack([np.asarray(mesh.faces, dtype=np.int64) + start for mesh, start in pairs])
     if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
-        raise DescriptionError(
-            "unreadable_mesh", f"{path.name}: a face names a vertex that the file does not have"
-        )
+        message = f"{path.name}: a face names a vertex that the file does not have"
+        raise DescriptionError("unreadable_mesh", message)
     return vertices, faces

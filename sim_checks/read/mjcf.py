@@ -60,14 +60,12 @@ class _Describer:
         for index, body in enumerate(self._model.bodies):
             if index > 0:
                 self._place(index)
-            shapes = [
-                (geom.collides, shape)
-                for geom in self._model.geoms[body.geoms.start : body.geoms.stop]
-                if (shape := self._shape(geom)) is not None
-            ]
-            collisions = tuple(shape for collides, shape in shapes if collides)
-            visuals = tuple(shape for collides, shape in shapes if not collides)
-            self._links.append(Link(self._names[index], body.inertia, collisions, visuals))
+            shapes: dict[bool, list[DescribedShape]] = {True: [], False: []}
+            for geom in self._model.geoms[body.geoms.start : body.geoms.stop]:
+                if (shape := self._shape(geom)) is not None:
+                    shapes[geom.collides].append(shape)
+            both = (tuple(shapes[True]), tuple(shapes[False]))
+            self._links.append(Link(self._names[index], body.inertia, *both))
         mimics = self._mimics()
         joints = tuple(replace(line, mimic=mimics.get(line.name)) for line in self._lines)
         return Description(path, "mjcf", tuple(self._links), joints, self._excluded())
@@ -103,9 +101,8 @@ class _Describer:
             affinities[geom.body] |= geom.contact_affinity
         meet = (types[:, None] & affinities[None, :]) | (affinities[:, None] & types[None, :])
         solid = (types | affinities) != 0
-        pairs |= {
-            (int(a), int(b)) for a, b in np.argwhere((meet == 0) & solid[:, None] & solid[None, :])
-        }
+        apart = np.argwhere((meet == 0) & solid[:, None] & solid[None, :])
+        pairs |= {(a, b) for a, b in apart.tolist()}
         return frozenset(frozenset((self._names[a], self._names[b])) for a, b in pairs if a != b)
 
     def _place(self, body: int) -> None:
@@ -164,18 +161,10 @@ def _moving(
     joint: CompiledJoint, name: str, ends: tuple[str, str], origin: FloatArray
 ) -> JointLine:
     turning = "continuous" if joint.lower is None else "revolute"
-    return JointLine(
-        name=name,
-        kind="prismatic" if joint.kind == "slide" else turning,
-        parent=ends[0],
-        child=ends[1],
-        origin=origin,
-        axis=joint.axis,
-        lower=joint.lower,
-        upper=joint.upper,
-        damping=joint.damping,
-        friction=joint.friction,
-    )
+    kind = "prismatic" if joint.kind == "slide" else turning
+    limits = (joint.lower, joint.upper)
+    resists = (joint.damping, joint.friction)
+    return JointLine(name, kind, *ends, origin, joint.axis, *limits, *resists)
 
 
 def _undo_reference(joint: CompiledJoint) -> FloatArray:

@@ -34,11 +34,8 @@ def _undiscarding(path: str) -> tuple[MjSpec, tuple[str, ...]]:
     spec.compiler.fusestatic = False
     scalar = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
     off = int(mujoco.mjtLimited.mjLIMITED_FALSE)
-    meant = [
-        joint
-        for joint in spec.joints
-        if joint.type in scalar and int(joint.limited) == off and joint.range[0] < joint.range[1]
-    ]
+    switched = (j for j in spec.joints if j.type in scalar and int(j.limited) == off)
+    meant = [joint for joint in switched if joint.range[0] < joint.range[1]]
     for joint in meant:
         joint.limited = mujoco.mjtLimited.mjLIMITED_TRUE
     return spec, tuple(joint.name for joint in meant)

@@ -306,11 +306,9 @@ def _geom(model: MjModel, index: int) -> CompiledGeom:
 def _texture_of(model: MjModel, material: int) -> int:
     import mujoco
 
-    roles = model.mat_texid[material]
-    for role in (mujoco.mjtTextureRole.mjTEXROLE_RGB, mujoco.mjtTextureRole.mjTEXROLE_RGBA):
-        if roles[int(role)] >= 0:
-            return int(roles[int(role)])
-    return -1
+    roles = (mujoco.mjtTextureRole.mjTEXROLE_RGB, mujoco.mjtTextureRole.mjTEXROLE_RGBA)
+    textures = (int(model.mat_texid[material][int(role)]) for role in roles)
+    return next((texture for texture in textures if texture >= 0), -1)
 
 
 def _mesh(model: MjModel, index: int) -> CompiledMesh:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..description import DescriptionError
 from .document import inside, parse_document
-from .references import MujocoModel, read_model
+from .references import ModelWalk, MujocoModel
 
 #: A line of text can make a million. Copies are elements that stand in a ``replicate``, or in a
 #: model that is attached; the compiler takes time by their square, 16 s for so many.
@@ -25,30 +25,24 @@ _LARGEST = 10**12
 def refuse_multiplied(path: Path, document: ET.Element) -> None:
     """Refuse an MJCF that becomes too much: by ``replicate``, grids, includes, attached models.
 
-    Args:
-        path: the outermost file.
-        document: its root element.
+    The outermost file is given with its root element.
 
     Raises:
-        DescriptionError: ``too_large``, or what is wrong with an inner document.
+        DescriptionError: ``too_large``, or the fault of an inner document.
     """
     folder = path.parent.resolve()
-    model = read_model(folder / path.name, document, lambda place: inside(place, folder))
+    walk = ModelWalk(lambda place: inside(place, folder))
+    model = walk.model(folder / path.name, document)
     counts = _ElementCount(model, {}).all
     for what, most in MOST.items():
         if counts[what] > most:
-            raise DescriptionError(
-                "too_large",
-                f"{path.name}: {counts[what]:,} {what} once compiled, at most {most:,} are read",
-            )
+            becomes = f"{counts[what]:,} {what} once compiled"
+            message = f"{path.name}: {becomes}, at most {most:,} are read"
+            raise DescriptionError("too_large", message)
 
 
 class _ElementCount:
     """Counts what a model becomes, each document once however often it is named.
-
-    Args:
-        model: with what it includes.
-        attached: models counted so far, by their main file.
 
     Attributes:
         all: as in :data:`MOST`, and ``elements``.
@@ -110,7 +104,7 @@ class _ElementCount:
     def _of_model(self, file: Path) -> Counter[str]:
         if file not in self._attached:
             self._attached[file] = Counter()
-            model = read_model(file, parse_document(file), self._model.allows)
+            model = ModelWalk(self._model.allows).model(file, parse_document(file))
             self._attached[file] = _ElementCount(model, self._attached).all
         return self._attached[file]
 
@@ -123,6 +117,6 @@ def _most(counts: Iterable[Counter[str]]) -> Counter[str]:
 
 
 def _whole(text: str) -> int:
-    """Return a whole number as written; what is none counts once, and the compiler refuses it."""
+    """Return a whole number as written; any other counts once, and the compiler refuses it."""
     word = text.strip()
     return min(int(word[:13]), _LARGEST) if word.isdecimal() else 1

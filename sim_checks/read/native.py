@@ -25,7 +25,7 @@ _WORDS = ("Could not allocate memory", "Caught an unknown exception")
 
 
 def read_apart(function: Callable[[Path], T], path: Path) -> T:
-    """Call what has MuJoCo compile a file, in a child that may crash; errors of :func:`ask_of`."""
+    """Have MuJoCo compile a file in a child that may crash; errors of :func:`ask_of`."""
     with WarmChild() as child:
         return ask_of(child, path.name, function, path, limits=COMPILE_LIMITS)
 
@@ -35,12 +35,7 @@ def ask_of(
 ) -> T:
     """Call a native reader in a child; a file that it dies of twice cannot be read.
 
-    Args:
-        child: to be asked.
-        name: of the file, which opens the sentence.
-        function: as for :meth:`WarmChild.call`.
-        *args: its arguments.
-        limits: of each call.
+    The call is that of :meth:`WarmChild.call`; ``name``, the file's, opens the sentence.
 
     Raises:
         DescriptionError: what the function raises, ``unreadable`` or ``too_large``.
@@ -83,11 +78,8 @@ def memory_bounded(most: int) -> Iterator[None]:
 def require_word(outcome: Outcome[Any], name: str) -> None:
     """Tell an outcome that says something of a file from one that does not.
 
-    What a reader answers or raises is its word, and so is a fault that it dies of.
-
-    Args:
-        outcome: of a reader's process.
-        name: of the file, which opens the sentence.
+    What a reader answers or raises is its word, and so is a fault that it dies of. The file's name
+    opens the sentence.
 
     Raises:
         TimeoutError: it hung.

@@ -26,9 +26,8 @@ def box(size: FloatArray) -> tuple[FloatArray, IntArray]:
 
 def cylinder(radius: float, length: float) -> tuple[FloatArray, IntArray]:
     """Return a cylinder along z, centred at the origin [m]."""
-    return _lathe(
-        [(0.0, -length / 2), (radius, -length / 2), (radius, length / 2), (0.0, length / 2)]
-    )
+    half = length / 2
+    return _lathe([(0.0, -half), (radius, -half), (radius, half), (0.0, half)])
 
 
 def capsule(radius: float, length: float) -> tuple[FloatArray, IntArray]:
@@ -52,11 +51,8 @@ def _ball() -> tuple[FloatArray, IntArray]:
     corners = np.array([np.roll([0.0, a, b], shift) for a, b in signs for shift in range(3)])
     near = np.linalg.norm(corners[:, None] - corners[None], axis=2) < 2.1
     steps = [(i, j, PARTS - i - j) for i in range(PARTS + 1) for j in range(PARTS + 1 - i)]
-    faces = [
-        face
-        for face in combinations(range(12), 3)
-        if all(near[a, b] for a, b in combinations(face, 2))
-    ]
+    threes = combinations(range(12), 3)
+    faces = [three for three in threes if all(near[pair] for pair in combinations(three, 2))]
     points = np.vstack([np.array(steps) @ corners[list(face)] for face in faces])
     points /= np.linalg.norm(points, axis=1)[:, None]
     # Neighbouring faces share the points of an edge.
@@ -88,20 +84,16 @@ def _hull(points: FloatArray) -> tuple[FloatArray, IntArray]:
 def _lathe(profile: list[tuple[float, float]]) -> tuple[FloatArray, IntArray]:
     """Turn (radius, height) pairs, from pole to pole, around z; the first and last radius are 0."""
     turn = 2.0 * np.pi * np.arange(SEGMENTS) / SEGMENTS
-    rings = [
-        np.column_stack([r * np.cos(turn), r * np.sin(turn), np.full(SEGMENTS, z)])
-        for r, z in profile[1:-1]
-    ]
+    ring = np.column_stack([np.cos(turn), np.sin(turn), np.ones(SEGMENTS)])
+    rings = [ring * [r, r, z] for r, z in profile[1:-1]]
     poles = np.array([[0.0, 0.0, profile[0][1]], [0.0, 0.0, profile[-1][1]]])
-    vertices = np.vstack([poles, *rings])
     here = np.arange(SEGMENTS)
     following = (here + 1) % SEGMENTS
     faces = [np.column_stack([np.zeros(SEGMENTS, int), 2 + following, 2 + here])]
-    for ring in range(len(rings) - 1):
-        a = 2 + ring * SEGMENTS
-        b = 2 + (ring + 1) * SEGMENTS
+    for a in range(2, 2 + (len(rings) - 1) * SEGMENTS, SEGMENTS):
+        b = a + SEGMENTS
         faces.append(np.column_stack([a + here, a + following, b + following]))
         faces.append(np.column_stack([a + here, b + following, b + here]))
     last = 2 + (len(rings) - 1) * SEGMENTS
     faces.append(np.column_stack([np.ones(SEGMENTS, int), last + here, last + following]))
-    return vertices, np.vstack(faces).astype(np.int64)
+    return np.vstack([poles, *rings]), np.vstack(faces).astype(np.int64)

@@ -55,10 +55,9 @@ def _refuse_senseless(description: Description) -> None:
     for link in description.links:
         for shape in (*link.collisions, *link.visuals):
             if not sensible(shape.vertices):
-                message = (
-                    f"shape {shape.name!r} of link {link.name!r} has a corner that is not finite"
-                )
-                raise DescriptionError("not_finite", f"{message}, or more than {ABSURD:g} m away")
+                where = f"a corner that is not finite, or more than {ABSURD:g} m away"
+                message = f"shape {shape.name!r} of link {link.name!r} has {where}"
+                raise DescriptionError("not_finite", message)
 
 
 def format_of(path: Path) -> str:

@@ -93,10 +93,7 @@ def named_files(
 ) -> tuple[NamedFile, ...]:
     """Return every file that an MJCF model names, in every document that it includes or attaches.
 
-    Args:
-        path: the outermost file.
-        document: its root element.
-        parse: reads an inner document.
+    The outermost file is given with its root element; ``parse`` reads inner documents.
 
     Raises:
         DescriptionError: ``outside_folder``; ``nested_too_deep`` for documents that hold each
@@ -106,20 +103,6 @@ def named_files(
     walk = ModelWalk(lambda place: inside(place, folder), parse)
     walk.follow(folder / path.name, document)
     return tuple(walk.named)
-
-
-def read_model(path: Path, document: ET.Element, allows: Allows) -> MujocoModel:
-    """Read what a model's main file includes.
-
-    Args:
-        path: of the main file.
-        document: its root element.
-        allows: tells whether a path may be opened.
-
-    Raises:
-        DescriptionError: as :func:`named_files`.
-    """
-    return ModelWalk(allows).model(path, document)
 
 
 class ModelWalk:
@@ -163,11 +146,8 @@ class ModelWalk:
         """Yield a document and those that it includes."""
         self._left -= 1
         if self._left < 0:
-            message = (
-                f"{path.name}: the model holds over {MOST_DOCUMENTS} documents, "
-                "at most so many are read"
-            )
-            raise DescriptionError("nested_too_deep", message)
+            holds = f"{path.name}: the model holds over {MOST_DOCUMENTS} documents"
+            raise DescriptionError("nested_too_deep", f"{holds}, at most so many are read")
         yield path, document
         model = MujocoModel(self._allows, base, ())
         for element in document.iter("include"):
@@ -206,14 +186,11 @@ def _exists(place: Path) -> bool:
 
 def nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
     """Return the documents that hold an inner one. Raises DescriptionError ``nested_too_deep``."""
+    nested_in = f"{inner.name} is nested in"
     if inner in chain:
-        raise DescriptionError(
-            "nested_too_deep", f"{inner.name} is nested in itself; want documents that end"
-        )
+        raise DescriptionError("nested_too_deep", f"{nested_in} itself; want documents that end")
     if len(chain) > MOST_NESTED:
-        message = (
-            f"{inner.name} is nested in {len(chain)} documents, at most {MOST_NESTED} are read"
-        )
+        message = f"{nested_in} {len(chain)} documents, at most {MOST_NESTED} are read"
         raise DescriptionError("nested_too_deep", message)
     return chain
 
@@ -266,9 +243,8 @@ def refuse_outside_mesh(path: Path, folder: Path) -> None:
     for name in named_in_mesh(path, data):
         place = path.parent / name
         if not inside(place, folder):
-            raise DescriptionError(
-                "outside_folder", f"{path.name} names {name!r} outside the description's folder"
-            )
+            message = f"{path.name} names {name!r} outside the description's folder"
+            raise DescriptionError("outside_folder", message)
         if path.suffix.lower() == ".obj" and place.suffix.lower() == ".mtl" and place.is_file():
             refuse_outside_mesh(place.resolve(), folder)
 

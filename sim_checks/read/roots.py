@@ -61,10 +61,6 @@ def ros_package_path() -> tuple[Path, ...]:
 class Roots:
     """The folders that one description may read from: its package, its own, and those given.
 
-    Args:
-        path: the description.
-        options: what else may be read.
-
     Attributes:
         own: the description's folder, links followed.
         package: the nearest folder from there on up with a ``package.xml``, at most
@@ -120,10 +116,7 @@ class Roots:
     def copied_to(self, file: Path) -> PurePosixPath:
         """Return where a copy of a file lies among copies of all; no name of this machine in it.
 
-        Files of one root keep their places relative to each other.
-
-        Args:
-            file: a resolved path.
+        Files of one root, given by resolved paths, keep their places relative to each other.
         """
         root = next((each for each in self._folders if file.is_relative_to(each)), file.parent)
         if root not in self._names:

@@ -55,10 +55,8 @@ class _Shapes:
     def count(self, triangles: int, where: str) -> None:
         self.triangles += triangles
         if self.triangles > MAX_TRIANGLES:
-            message = (
-                f"{where}: brings the shapes to {self.triangles} triangles, "
-                f"at most {MAX_TRIANGLES} are read"
-            )
+            brings = f"{where}: brings the shapes to {self.triangles} triangles"
+            message = f"{brings}, at most {MAX_TRIANGLES} are read"
             raise DescriptionError("too_large", message)
 
 
@@ -86,11 +84,8 @@ def read_mimics(path: Path) -> dict[str, Mimic | None]:
         DescriptionError: for a follower that names no joint, or no number.
     """
     joints = parse_document(path).findall("joint")
-    return {
-        STRICT.name(item): read_mimic(item.find("mimic"), f"joint {item.get('name')!r}")
-        for item in joints
-        if item.get("type") in MOVING_KINDS
-    }
+    moving = ((STRICT.name(item), item) for item in joints if item.get("type") in MOVING_KINDS)
+    return {name: read_mimic(item.find("mimic"), f"joint {name!r}") for name, item in moving}
 
 
 def _link(element: ET.Element, shapes: _Shapes) -> Link:

@@ -60,17 +60,11 @@ class UrdfElements:
         name = self.name(element)
         where = f"joint {name!r}"
         kind = element.get("type", "")
-        lower, upper = self._limits(element.find("limit"), kind, where)
-        line = JointLine(
-            name=name,
-            kind=kind,
-            parent=self._end(element, "parent", where),
-            child=self._end(element, "child", where),
-            origin=self.origin(element, where),
-            axis=self._axis(element.find("axis"), where),
-            lower=lower,
-            upper=upper,
-        )
+        limits = self._limits(element.find("limit"), kind, where)
+        ends = (self._end(element, "parent", where), self._end(element, "child", where))
+        origin = self.origin(element, where)
+        axis = self._axis(element.find("axis"), where)
+        line = JointLine(name, kind, *ends, origin, axis, *limits)
         return line if self.lenient else _driven(line, element, where)
 
     def name(self, element: ET.Element) -> str:
@@ -95,8 +89,7 @@ class UrdfElements:
     def _limits(
         self, limit: ET.Element | None, kind: str, where: str
     ) -> tuple[float | None, float | None]:
-        unbounded = ("continuous", "fixed", "floating")
-        if limit is None or kind in unbounded:
+        if limit is None or kind in ("continuous", "fixed", "floating"):
             return None, None
         if self.lenient and limit.get("lower") is None and limit.get("upper") is None:
             return None, None
@@ -136,12 +129,7 @@ class UrdfElements:
         return UrdfGeometry(item.tag, tuple(size))
 
     def vector(
-        self,
-        element: ET.Element,
-        key: str,
-        where: str,
-        default: str | None = None,
-        count: int = 3,
+        self, element: ET.Element, key: str, where: str, default: str | None = None, count: int = 3
     ) -> FloatArray:
         """Return the numbers of an attribute, or of ``default`` where it is absent; shape [count].
 
@@ -161,8 +149,7 @@ class UrdfElements:
         if len(values) != count:
             raise DescriptionError("invalid_number", f"{said}, want {count} numbers")
         if not sensible(values):
-            message = f"{said}, want finite numbers up to {ABSURD:g}"
-            raise DescriptionError("not_finite", message)
+            raise DescriptionError("not_finite", f"{said}, want finite numbers up to {ABSURD:g}")
         return np.array(values)
 
 
@@ -196,9 +183,8 @@ def read_mimic(element: ET.Element | None, where: str) -> Mimic | None:
     leader = element.get("joint")
     if not leader:
         raise DescriptionError("missing_element", f"{where}: its <mimic> names no joint")
-    return Mimic(
-        leader, number(element, "multiplier", where, 1.0), number(element, "offset", where, 0.0)
-    )
+    multiplier = number(element, "multiplier", where, 1.0)
+    return Mimic(leader, multiplier, number(element, "offset", where, 0.0))
 
 
 def _optional(element: ET.Element | None, key: str, where: str) -> float | None:

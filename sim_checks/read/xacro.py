@@ -32,28 +32,21 @@ _RUN = "import sys; sys.path.insert(0, sys.argv[1]); from {} import main; main()
 
 def is_xacro(path: Path, document: ET.Element) -> bool:
     """Return whether a file has to be expanded before it is read."""
-    return path.suffix.lower() == SUFFIX or any(
-        str(item.tag).startswith(NAMESPACES) for item in document.iter()
-    )
+    made = any(str(item.tag).startswith(NAMESPACES) for item in document.iter())
+    return made or path.suffix.lower() == SUFFIX
 
 
 def parse_arguments(given: tuple[str, ...]) -> dict[str, str]:
     """Return arguments written as ``name:=value``. Raises ValueError: one is written otherwise."""
     pairs = [item.partition(":=") for item in given]
-    wrong = [
-        item for item, (name, sign, _) in zip(given, pairs, strict=True) if not (name and sign)
-    ]
-    if wrong:
-        raise ValueError(f"{wrong[0]!r}, want name:=value")
+    for name, sign, value in pairs:
+        if not (name and sign):
+            raise ValueError(f"{name + sign + value!r}, want name:=value")
     return {name: value for name, _, value in pairs}
 
 
 def expand_xacro(path: Path, options: ReadOptions) -> tuple[ET.Element, tuple[Path, ...]]:
     """Return the document that a xacro file makes, and the files that it includes.
-
-    Args:
-        path: of the file.
-        options: what it may include, and its arguments.
 
     Raises:
         DescriptionError: ``unknown_format``: the library is missing; ``invalid_xacro``.
@@ -62,15 +55,13 @@ def expand_xacro(path: Path, options: ReadOptions) -> tuple[ET.Element, tuple[Pa
     if find_spec("xacro") is None:
         message = f"{path.name}: xacro is read with the library of that name: {INSTALL}"
         raise DescriptionError("unknown_format", message)
-    answer = _asked(
-        {
-            "path": str(path.absolute()),
-            "roots": [str(root) for root in options.roots],
-            "outside": options.allow_outside,
-            "given": parse_arguments(options.arguments),
-        },
-        path.name,
-    )
+    question = {
+        "path": str(path.absolute()),
+        "roots": [str(root) for root in options.roots],
+        "outside": options.allow_outside,
+        "given": parse_arguments(options.arguments),
+    }
+    answer = _asked(question, path.name)
     text = answer.get("text")
     if not isinstance(text, str):
         words = answer.get("error", "it ends without an answer")

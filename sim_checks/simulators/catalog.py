@@ -13,12 +13,8 @@ from .pybullet_backend import PybulletSimulator
 from .sapien_backend import SapienSimulator
 from .simulator import Simulator
 
-SIMULATORS: Mapping[str, Simulator] = MappingProxyType(
-    {
-        engine.name: engine()
-        for engine in (SapienSimulator, MujocoSimulator, PybulletSimulator, NewtonSimulator)
-    }
-)
+_ENGINES = (SapienSimulator, MujocoSimulator, PybulletSimulator, NewtonSimulator)
+SIMULATORS: Mapping[str, Simulator] = MappingProxyType({each.name: each() for each in _ENGINES})
 """Every engine, in the order in which they are asked."""
 USUAL = ("sapien", "mujoco", "pybullet")
 """Those that ``all`` means; others are asked by name."""

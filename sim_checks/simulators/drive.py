@@ -33,12 +33,9 @@ def sweep(world: World, config: MotionConfig, apart: Groups = ()) -> tuple[Joint
     """
     order = _Order(world, ranges(world), config, apart)
     order.settle()
-    opened = {index for index, motion in order.motions.items() if arrived(motion, config)}
-    return tuple(
-        motion
-        for i, motion in order.motions.items()
-        if i in opened or not opened & companions(world, i)
-    )
+    motions = order.motions.items()
+    opened = {index for index, motion in motions if arrived(motion, config)}
+    return tuple(m for i, m in motions if i in opened or not opened & companions(world, i))
 
 
 class _Order:
@@ -53,9 +50,8 @@ class _Order:
         for names in apart:
             self._drive_together([i for i in driven if world.joints[i].name in names])
         self.motions = {index: self._drive(index, CLOSED) for index in driven}
-        self.needs = {
-            index: CLOSED for index, motion in self.motions.items() if opens(motion, config)
-        }
+        opening = (index for index, motion in self.motions.items() if opens(motion, config))
+        self.needs = dict.fromkeys(opening, CLOSED)
 
     def settle(self) -> None:
         """Let joints open until no further one does."""
@@ -182,9 +178,8 @@ def drive(
     turned = False
     for step in range(1, round(2.0 * turning_point / world.time_step) + 1):
         time = step * world.time_step
-        goal[indices], speed[indices], acceleration[indices] = _ramp(
-            time, span.lower[indices], span.travel[indices], config
-        )
+        ramp = _ramp(time, span.lower[indices], span.travel[indices], config)
+        goal[indices], speed[indices], acceleration[indices] = ramp
         pull = law.pull(mass, goal - position, speed, speed - velocity, acceleration)
         world.step(pull + balance)
         position = world.positions()
@@ -200,16 +195,12 @@ def drive(
             opened_up = [track.turn(balance) for track in tracks]
             if not any(opened_up):
                 break
-    stopped = {
-        i: pressing(world, i)
-        for i, track in zip(indices, tracks, strict=True)
-        if track.finite and not track.arrived
-    }
+    by_index = dict(zip(indices, tracks, strict=True))
+    stuck = (i for i, track in by_index.items() if track.finite and not track.arrived)
+    stopped = {i: pressing(world, i) for i in stuck}
     gain = let_go(world, config) if all(track.finite for track in tracks) else Gain()
-    return tuple(
-        track.motion(opened, float(law.bound[i]), stopped.get(i), gain)
-        for i, track in zip(indices, tracks, strict=True)
-    )
+    ends = ((track, float(law.bound[i]), stopped.get(i)) for i, track in by_index.items())
+    return tuple(track.motion(opened, bound, held, gain) for track, bound, held in ends)
 
 
 def _ramp(

@@ -25,13 +25,9 @@ def hold(
 ) -> tuple[HoldMotion, ...]:
     """Leave every joint that opened alone at three values of its range, the others balanced.
 
-    Args:
-        world: a loaded asset.
-        motions: of its joints, from :func:`~.drive.sweep`; those that others must be open for
-            are left alone with these at upper, the rest at lower.
-        config: how long, and how strong friction must be beside the load.
-        apart: names of joints that cannot reach one another, by group; they are left alone at the
-            same time.
+    Of the ``motions`` that :func:`~.drive.sweep` saw, those that others must be open for are left
+    alone with these at upper, the rest at lower. Joints of a group of ``apart``, by name, cannot
+    reach one another; they are left alone at the same time.
 
     Returns:
         One for each value at which the engine has friction that should hold the joint. Joints that
@@ -47,10 +43,8 @@ def hold(
         and len(companions(world, numbers[motion.joint])) == 1
         and world.joints[numbers[motion.joint]].friction
     }
-    together = [
-        [i for i, motion in asked.items() if motion.joint in names and not motion.needs_open]
-        for names in apart
-    ]
+    free = {i: motion.joint for i, motion in asked.items() if not motion.needs_open}
+    together = [[i for i, joint in free.items() if joint in names] for names in apart]
     alone = [[i] for i in asked.keys() - {i for group in together for i in group}]
     found = {
         (numbers[held.joint], share): held

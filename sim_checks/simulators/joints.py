@@ -85,22 +85,14 @@ def companions(world: World, index: int) -> frozenset[int]:
 
 
 def pressing(world: World, index: int) -> tuple[str, str] | None:
-    """Return the hardest pressed pair of links across a joint.
+    """Return the links that pressed hardest in the last step, one of them moved by a joint.
 
-    Args:
-        world: after a step in which what presses pressed.
-        index: the joint; one link of the pair is moved by it, the other is not.
-
-    Returns:
-        Names in the order of the model's links; ``None`` if nothing presses.
+    Names come in the order of the model's links; ``None`` if nothing presses across the joint.
     """
     moved = world.carried[index]
-    across = [
-        (touch.force, touch.depth, pair)
-        for pair, touch in world.contacts().items()
-        if touch.presses and (pair[0] in moved) != (pair[1] in moved)
-    ]
-    return max(across)[2] if across else None
+    presses = ((pair, touch) for pair, touch in world.contacts().items() if touch.presses)
+    across = ((p, touch) for p, touch in presses if (p[0] in moved) != (p[1] in moved))
+    return max(((t.force, t.depth, p) for p, t in across), default=(0.0, 0.0, None))[2]
 
 
 def any_carried(world: World) -> bool:

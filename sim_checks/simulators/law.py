@@ -79,12 +79,7 @@ def drive_law(
 ) -> Law:
     """Return how to drive some joints and to hold all others softly.
 
-    Args:
-        world: a loaded asset.
-        mass: its mass matrix at the start, shape [joint_count, joint_count].
-        indices: the joints that are driven.
-        span: from where to where.
-        config: how stiff, how strong and in which time.
+    The mass matrix is that at the start, shape [joint_count, joint_count].
     """
     frequency = np.full(len(mass), config.hold_frequency)
     damping = np.array([joint.damping or 0.0 for joint in world.joints])
@@ -133,11 +128,8 @@ def _bound(
 
 def _riders(world: World, index: int, span: Ranges) -> list[int]:
     """Return the joints with a range that this one carries."""
-    return [
-        other
-        for other, carried in enumerate(world.carried)
-        if carried < world.carried[index] and span.size[other] > 0.0
-    ]
+    inner = (i for i, carried in enumerate(world.carried) if carried < world.carried[index])
+    return [other for other in inner if span.size[other] > 0.0]
 
 
 def _hangs_loose(world: World, index: int, other: int) -> bool:

@@ -17,7 +17,7 @@ from ..geometry.placing import rigid
 from ..read.mjcf_model import begin_compiling
 from ..read.read import format_of
 from ..read.srdf import exempt_pairs
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, triple
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
 from .twin import write_twin
 
 WORLD = 0
@@ -57,9 +57,8 @@ class MujocoSimulator:
             except (ValueError, RuntimeError) as error:
                 raise ValueError(str(error)) from error
         # A hand-written file may need the smaller step that it asks for.
-        model.opt.timestep = (
-            config.time_step_s if is_urdf else min(config.time_step_s, model.opt.timestep)
-        )
+        own_step = config.time_step_s if is_urdf else model.opt.timestep
+        model.opt.timestep = min(config.time_step_s, own_step)
         flags = mujoco.mjtDisableBit
         model.opt.disableflags |= int(flags.mjDSBL_ACTUATION) | int(flags.mjDSBL_AUTORESET)
         # What sleeps does not show that it would still creep.
@@ -93,10 +92,9 @@ class MujocoWorld:
         self._model = model
         self._data = mujoco.MjData(model)
         flags = mujoco.mjtDisableBit
+        self._forces = int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING)
         # What the file itself turns off stays off.
-        self._own = int(model.opt.disableflags) & (
-            int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING)
-        )
+        self._own = int(model.opt.disableflags) & self._forces
         scalar = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
         self._ids = [i for i in range(model.njnt) if int(model.jnt_type[i]) in scalar]
         self._positions = model.jnt_qposadr[self._ids]
@@ -114,11 +112,8 @@ class MujocoWorld:
 
     def weigh(self, on: bool) -> None:
         """Turn gravity and springs on or off."""
-        flags = self._mujoco.mjtDisableBit
-        both = int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING)
-        self._model.opt.disableflags = (self._model.opt.disableflags & ~both) | (
-            self._own if on else both
-        )
+        others = self._model.opt.disableflags & ~self._forces
+        self._model.opt.disableflags = others | (self._own if on else self._forces)
         self._mujoco.mj_step1(self._model, self._data)
 
     def place(self, positions: FloatArray) -> None:
@@ -160,39 +155,30 @@ class MujocoWorld:
         self._mujoco.mj_step2(self._model, self._data)
         self._mujoco.mj_step1(self._model, self._data)
 
-    def contacts(self) -> dict[tuple[str, str], Touch]:
+    def contacts(self) -> Touches:
         """Return which links touch here, under the forces of the last step."""
         # After a step only the places of the new contacts are known, not yet their forces.
         self._mujoco.mj_forward(self._model, self._data)
-        found: dict[tuple[str, str], Touch] = {}
+        found = Touches()
         wrench = np.zeros(6)
         for i in range(self._data.ncon):
             self._mujoco.mj_contactForce(self._model, self._data, i, wrench)
             a, b = sorted(int(body) for body in self._model.geom_bodyid[self._data.contact.geom[i]])
             pair = (self.model.links[a].name, self.model.links[b].name)
-            touch = Touch(float(wrench[0]), -float(self._data.contact.dist[i]))
-            found[pair] = found[pair] + touch if pair in found else touch
+            found.add(pair, Touch(float(wrench[0]), -float(self._data.contact.dist[i])))
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:
         """Link frames in world."""
-        poses = {}
-        for i, link in enumerate(self.model.links):
-            poses[link.name] = rigid(self._data.xmat[i].reshape(3, 3), self._data.xpos[i])
-        return poses
+        frames = zip(self._data.xmat.reshape(-1, 3, 3), self._data.xpos, strict=True)
+        named = zip(self.model.links, frames, strict=True)
+        return {link.name: rigid(turn, place) for link, (turn, place) in named}
 
     def warnings(self) -> tuple[str, ...]:
         """Return MuJoCo's own warning counters."""
-        kinds = self._mujoco.mjtWarning
-        names = {
-            int(value): name for name, value in kinds.__members__.items() if name != "mjNWARNING"
-        }
         counts = (self._complaints + self._counted()).tolist()
-        return tuple(
-            f"{names[i].removeprefix('mjWARN_').lower()} x{counts[i]}"
-            for i in sorted(names)
-            if counts[i]
-        )
+        told = [(self._mujoco.mjtWarning(i).name, count) for i, count in enumerate(counts) if count]
+        return tuple(f"{name.removeprefix('mjWARN_').lower()} x{count}" for name, count in told)
 
     def close(self) -> None:
         """Drop the model and its state; MuJoCo keeps nothing else."""
@@ -206,9 +192,8 @@ def _link(model: Any, mujoco: Any, i: int) -> LoadedLink:
     geoms = np.flatnonzero(model.geom_bodyid == i)
     solid = (model.geom_contype[geoms] != 0) | (model.geom_conaffinity[geoms] != 0)
     # Floors belong to the scene, not to the link.
-    solid &= ~np.isin(
-        model.geom_type[geoms], (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
-    )
+    floors = (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
+    solid &= ~np.isin(model.geom_type[geoms], floors)
     static = int(model.body_weldid[i]) == WORLD
     moments = triple(sorted(model.body_inertia[i]))
     center = triple(model.body_ipos[i])
@@ -229,33 +214,26 @@ def _below(model: Any, links: tuple[LoadedLink, ...], body: int) -> frozenset[st
 
 def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str], ...]:
     solid = [i for i, link in enumerate(links) if link.shapes]
-    named = {
-        (int(signature) >> 16, int(signature) & 0xFFFF) for signature in model.exclude_signature
-    }
+    named = {frozenset(divmod(int(pair), 1 << 16)) for pair in model.exclude_signature}
     # The masks of a body are those of its geoms together: some two of them match exactly if these
     # do.
     types = model.body_contype
     affinities = model.body_conaffinity
-    return tuple(
-        (links[a].name, links[b].name)
-        for a, b in combinations(solid, 2)
-        if model.body_weldid[a] != model.body_weldid[b]
-        and (
-            (a, b) in named
-            or (b, a) in named
-            or not (types[a] & affinities[b] or types[b] & affinities[a])
-        )
-    )
+
+    def pass_through(a: int, b: int) -> bool:
+        matched = types[a] & affinities[b] or types[b] & affinities[a]
+        apart = model.body_weldid[a] != model.body_weldid[b]
+        return apart and (frozenset((a, b)) in named or not matched)
+
+    pairs = (pair for pair in combinations(solid, 2) if pass_through(*pair))
+    return tuple((links[a].name, links[b].name) for a, b in pairs)
 
 
 def _mimic(model: Any, mujoco: Any, joint: int) -> Mimic | None:
     """Return what the joint is forced to follow, by the equality's constant and linear part."""
     for i in range(model.neq):
-        if (
-            model.eq_type[i] == mujoco.mjtEq.mjEQ_JOINT
-            and model.eq_active0[i]
-            and int(model.eq_obj1id[i]) == joint
-        ):
+        couples = model.eq_type[i] == mujoco.mjtEq.mjEQ_JOINT and model.eq_active0[i]
+        if couples and int(model.eq_obj1id[i]) == joint:
             leader = int(model.eq_obj2id[i])
             if leader < 0:
                 return None

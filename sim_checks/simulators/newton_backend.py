@@ -108,23 +108,16 @@ class NewtonWorld(MujocoWorld):
             )
             for link in self.model.links
         )
-        short = {
-            label.replace(SEPARATOR, "_"): label.rpartition(SEPARATOR)[2]
-            for label in loaded.joint_label
-        }
+        labels = {label.replace(SEPARATOR, "_"): label for label in loaded.joint_label}
+        short = {name: label.rpartition(SEPARATOR)[2] for name, label in labels.items()}
         joints = tuple(_named(joint, short) for joint in self.model.joints)
         by_name = {joint.name: joint for joint in joints}
         self.joints = tuple(by_name[short.get(each.name, each.name)] for each in self.joints)
-        self.carried = tuple(
-            frozenset(names.get(each, each) for each in below) for below in self.carried
-        )
+        self.carried = tuple(frozenset(names.get(n, n) for n in below) for below in self.carried)
         excluded = self.model.pairs.excluded if self.model.pairs is not None else ()
         apart = tuple((names.get(a, a), names.get(b, b)) for a, b in excluded)
-        rules = PairRules(
-            moving_parent=False,
-            static_parent=False,
-            excluded=tuple(pair for pair in apart if not _jointed(pair, links, model)),
-        )
+        excluded = tuple(pair for pair in apart if not _jointed(pair, links, model))
+        rules = PairRules(moving_parent=False, static_parent=False, excluded=excluded)
         self.model = replace(self.model, links=links, joints=joints, pairs=rules)
 
 
@@ -150,8 +143,6 @@ def _named(joint: LoadedJoint, short: dict[str, str]) -> LoadedJoint:
 
 def _jointed(pair: tuple[str, str], links: tuple[LoadedLink, ...], model: Any) -> bool:
     numbers = {link.name: i for i, link in enumerate(links)}
-    first = numbers[pair[0]]
-    second = numbers[pair[1]]
-    return first in (second, int(model.body_parentid[second])) or second == int(
-        model.body_parentid[first]
-    )
+    first, second = (numbers[name] for name in pair)
+    one, other = (int(model.body_parentid[number]) for number in (first, second))
+    return first in (second, other) or second == one

@@ -37,14 +37,10 @@ def observe(
     samples: tuple[JointValues, ...],
     apart: Groups = (),
 ) -> Observation:
-    """Take all that the simulator checks need from a single load.
+    """Take all that the simulator checks need from a single load in an engine, by its name.
 
-    Args:
-        name: the engine.
-        path: a description in one of its formats.
-        config: how to drive.
-        samples: joint values at which to report link poses.
-        apart: names of joints that may be driven at the same time, by group.
+    Link poses are reported at the ``samples``; joints of a group of ``apart``, by name, may be
+    driven at the same time.
 
     Raises:
         ValueError: if it does not load; with the loader's own words.

@@ -17,8 +17,8 @@ from ..geometry.coupling import sound_chains
 from ..geometry.placing import rigid
 from ..read.srdf import exempt_pairs
 from ..read.urdf import read_mimics
-from .pybullet_dynamics import Dynamics
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, triple
+from .pybullet_dynamics import BulletClient, Dynamics
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
 from .twin import write_twin
 
 BASE = -1
@@ -61,33 +61,27 @@ class PybulletSimulator:
         import pybullet
 
         # To Bullet, a gear of ratio 0 is one whose ratio was not told.
-        mimics = {
-            name: mimic
-            for name, mimic in sound_chains(read_mimics(path)).items()
-            if mimic.multiplier != 0.0
-        }
-        client = pybullet.connect(pybullet.DIRECT)
-        pybullet.setPhysicsEngineParameter(
+        sound = sound_chains(read_mimics(path))
+        mimics = {name: mimic for name, mimic in sound.items() if mimic.multiplier != 0.0}
+        client = BulletClient(pybullet)
+        client.setPhysicsEngineParameter(
             contactBreakingThreshold=CONTACT_BREAKING_M,
             deterministicOverlappingPairs=1,
             enableFileCaching=0,
-            physicsClientId=client,
         )
-        pybullet.setTimeStep(config.time_step_s, physicsClientId=client)
-        pybullet.setGravity(0.0, 0.0, GRAVITY, physicsClientId=client)
+        client.setTimeStep(config.time_step_s)
+        client.setGravity(0.0, 0.0, GRAVITY)
         flags = pybullet.URDF_USE_INERTIA_FROM_FILE | pybullet.URDF_USE_SELF_COLLISION
         if config.parents_touch:
             flags |= pybullet.URDF_USE_SELF_COLLISION_INCLUDE_PARENT
         with tempfile.TemporaryDirectory(prefix="twin-") as folder:
             twin = str(write_twin(path, Path(folder)))
             try:
-                body = pybullet.loadURDF(
-                    twin, useFixedBase=True, flags=flags, physicsClientId=client
-                )
+                body = client.loadURDF(twin, useFixedBase=True, flags=flags)
             except pybullet.error as error:
-                pybullet.disconnect(client)
+                client.disconnect()
                 raise ValueError(str(error).replace(str(folder), "").strip()) from error
-        return PybulletWorld(pybullet, client, body, config, mimics, exempt_pairs(path))
+        return PybulletWorld(client, body, config, mimics, exempt_pairs(path))
 
 
 class PybulletWorld:
@@ -95,62 +89,50 @@ class PybulletWorld:
 
     def __init__(
         self,
-        pybullet: Any,
-        client: int,
+        bullet: BulletClient,
         body: int,
         config: MotionConfig,
         mimics: Mapping[str, Mimic],
         exempt: frozenset[frozenset[str]],
     ) -> None:
-        self._bullet = pybullet
-        self._client = {"physicsClientId": client}
+        self._bullet = bullet
         self._body = body
         self.time_step = config.time_step_s
         # One process opens many worlds, and a client keeps some 25 MB until it is told to go.
-        self._end = weakref.finalize(self, _disconnect, pybullet, client)
-        count = pybullet.getNumJoints(body, **self._client)
-        infos = [pybullet.getJointInfo(body, i, **self._client) for i in range(count)]
-        moving = [info for info in infos if info[2] != pybullet.JOINT_FIXED]
+        self._end = weakref.finalize(self, _disconnect, bullet)
+        infos = [bullet.getJointInfo(body, i) for i in range(bullet.getNumJoints(body))]
+        moving = [info for info in infos if info[2] != bullet.JOINT_FIXED]
         self._ids = [info[0] for info in moving]
-        self._names = {BASE: pybullet.getBodyInfo(body, **self._client)[0].decode()}
+        self._names = {BASE: bullet.getBodyInfo(body)[0].decode()}
         self._names |= {info[0]: info[12].decode() for info in infos}
         self._parents = {info[0]: info[16] for info in infos}
         self.joints = tuple(self._joint(info, mimics) for info in moving)
         self._couple()
-        rules = PairRules(
-            config.parents_touch,
-            static_parent=config.parents_touch,
-            excluded=self._let_pass(exempt),
-        )
+        touch = config.parents_touch
+        rules = PairRules(touch, static_parent=touch, excluded=self._let_pass(exempt))
         self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
         beyond = [[k for k in self._names if self._is_beyond(k, i)] for i in self._ids]
         self.carried = tuple(frozenset(self._names[k] for k in group) for group in beyond)
-        slides = [info[2] == pybullet.JOINT_PRISMATIC for info in moving]
-        self._dynamics = Dynamics(pybullet, body, self._ids, slides, beyond, self._client)
+        slides = [info[2] == bullet.JOINT_PRISMATIC for info in moving]
+        self._dynamics = Dynamics(bullet, body, self._ids, slides, beyond)
         self._falls = True
         self._state: FloatArray | None = None
         for i, joint in zip(self._ids, self.joints, strict=True):
             # A motor at rest with the joint's friction as its strength: Bullet's own idiom for
             # friction.
-            pybullet.setJointMotorControl2(
-                body,
-                i,
-                pybullet.VELOCITY_CONTROL,
-                targetVelocity=0.0,
-                force=joint.friction or 0.0,
-                **self._client,
-            )
+            motor = {"targetVelocity": 0.0, "force": joint.friction or 0.0}
+            bullet.setJointMotorControl2(body, i, bullet.VELOCITY_CONTROL, **motor)
 
     def weigh(self, on: bool) -> None:
         """Turn gravity on or off; Bullet has no springs in joints."""
         self._falls = on
-        self._bullet.setGravity(0.0, 0.0, GRAVITY if on else 0.0, **self._client)
+        self._bullet.setGravity(0.0, 0.0, GRAVITY if on else 0.0)
 
     def place(self, positions: FloatArray) -> None:
         """Put the joints there, at rest."""
         self._state = None
         for i, value in zip(self._ids, positions, strict=True):
-            self._bullet.resetJointState(self._body, i, float(value), 0.0, **self._client)
+            self._bullet.resetJointState(self._body, i, float(value), 0.0)
 
     def positions(self) -> FloatArray:
         """Return joint values [rad] or [m], shape [joint_count]."""
@@ -172,16 +154,11 @@ class PybulletWorld:
         kinetic = self._dynamics.kinetic(position, velocity)
         if not self._falls:
             return kinetic
-        links = [i for i in self._names if i != BASE]
-        states = self._bullet.getLinkStates(
-            self._body, links, computeForwardKinematics=1, **self._client
-        )
-        masses = [
-            link.mass for i, link in zip(self._names, self.model.links, strict=True) if i != BASE
-        ]
-        return kinetic - GRAVITY * float(
-            sum(m * state[0][2] for m, state in zip(masses, states, strict=True))
-        )
+        # The base, which is the first, stands.
+        links = list(self._names)[1:]
+        states = self._bullet.getLinkStates(self._body, links, computeForwardKinematics=1)
+        moved = zip(self.model.links[1:], states, strict=True)
+        return kinetic - GRAVITY * float(sum(link.mass * state[0][2] for link, state in moved))
 
     def balance(self) -> FloatArray:
         """Return the forces against gravity and velocity effects, shape [joint_count]."""
@@ -193,24 +170,18 @@ class PybulletWorld:
     def step(self, forces: FloatArray) -> None:
         """Make one time step with these joint forces."""
         if self._ids:
-            self._bullet.setJointMotorControlArray(
-                self._body,
-                self._ids,
-                self._bullet.TORQUE_CONTROL,
-                forces=forces.tolist(),
-                **self._client,
-            )
-        self._bullet.stepSimulation(**self._client)
+            torques = (self._ids, self._bullet.TORQUE_CONTROL)
+            self._bullet.setJointMotorControlArray(self._body, *torques, forces=forces.tolist())
+        self._bullet.stepSimulation()
         self._state = None
 
-    def contacts(self) -> dict[tuple[str, str], Touch]:
+    def contacts(self) -> Touches:
         """Return which links touched in the last step."""
-        found: dict[tuple[str, str], Touch] = {}
-        for point in self._bullet.getContactPoints(self._body, self._body, **self._client):
+        found = Touches()
+        for point in self._bullet.getContactPoints(self._body, self._body):
             a, b = sorted((int(point[3]), int(point[4])))
-            pair = (self._names[a], self._names[b])
             touch = Touch(float(point[9]), -float(point[8]))
-            found[pair] = found[pair] + touch if pair in found else touch
+            found.add((self._names[a], self._names[b]), touch)
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:
@@ -218,9 +189,7 @@ class PybulletWorld:
         poses = {self._names[BASE]: np.eye(4)}
         for i, name in self._names.items():
             if i != BASE:
-                state = self._bullet.getLinkState(
-                    self._body, i, computeForwardKinematics=1, **self._client
-                )
+                state = self._bullet.getLinkState(self._body, i, computeForwardKinematics=1)
                 poses[name] = rigid(self._turn(state[5]), np.array(state[4]))
         return poses
 
@@ -237,9 +206,7 @@ class PybulletWorld:
         ids = {name: index for index, name in self._names.items()}
         pairs = tuple((a, b) for a, b in sorted(map(sorted, exempt)) if a in ids and b in ids)
         for a, b in pairs:
-            self._bullet.setCollisionFilterPair(
-                self._body, self._body, ids[a], ids[b], 0, **self._client
-            )
+            self._bullet.setCollisionFilterPair(self._body, self._body, ids[a], ids[b], 0)
         return pairs
 
     def _couple(self) -> None:
@@ -251,19 +218,15 @@ class PybulletWorld:
         for joint in self.joints:
             if joint.mimic is None or joint.mimic.leader not in numbers:
                 continue
-            ends = (numbers[joint.name], self._body, numbers[joint.mimic.leader])
-            nothing = [0.0, 0.0, 0.0]
-            kind = self._bullet.JOINT_GEAR
-            gear = self._bullet.createConstraint(
-                self._body, *ends, kind, [0.0, 0.0, 1.0], nothing, nothing, **self._client
-            )
+            ends = (self._body, numbers[joint.name], self._body, numbers[joint.mimic.leader])
+            frames = ([0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
+            gear = self._bullet.createConstraint(*ends, self._bullet.JOINT_GEAR, *frames)
             self._bullet.changeConstraint(
                 gear,
                 gearRatio=-joint.mimic.multiplier,
                 relativePositionTarget=joint.mimic.offset,
                 erp=GEAR_ERP,
                 maxForce=GEAR_FORCE,
-                **self._client,
             )
 
     def _is_beyond(self, link: int, joint: int) -> bool:
@@ -276,13 +239,13 @@ class PybulletWorld:
         if self._state is None:
             states: Any = ()
             if self._ids:
-                states = self._bullet.getJointStates(self._body, self._ids, **self._client)
+                states = self._bullet.getJointStates(self._body, self._ids)
             self._state = np.array([[state[k] for state in states] for k in (0, 1)], np.float64)
         return self._state
 
     def _link(self, i: int) -> LoadedLink:
-        dynamics = self._bullet.getDynamicsInfo(self._body, i, **self._client)
-        shapes = len(self._bullet.getCollisionShapeData(self._body, i, **self._client))
+        dynamics = self._bullet.getDynamicsInfo(self._body, i)
+        shapes = len(self._bullet.getCollisionShapeData(self._body, i))
         friction = float(dynamics[1]) if shapes else None
         if i == BASE:
             return LoadedLink(self._names[i], 0.0, shapes, None, static=True, friction=friction)
@@ -305,15 +268,13 @@ class PybulletWorld:
             upper = math.inf
             kind = "continuous" if kind == "revolute" else kind
         # Bullet holds the axis in the principal frame of the link, here given by its turn.
-        inertial = self._turn(bullet.getDynamicsInfo(self._body, info[0], **self._client)[4])
+        inertial = self._turn(bullet.getDynamicsInfo(self._body, info[0])[4])
         axis = triple(inertial @ np.array(info[13])) if info[2] in words else None
         mimic = mimics.get(name)
         forced = mimic is not None
         return LoadedJoint(name, kind, lower, upper, damping, friction, axis, mimic, forced)
 
 
-def _disconnect(pybullet: Any, client: int) -> None:
-    pybullet.setPhysicsEngineParameter(
-        contactBreakingThreshold=BULLETS_OWN_BREAKING_M, physicsClientId=client
-    )
-    pybullet.disconnect(client)
+def _disconnect(bullet: BulletClient) -> None:
+    bullet.setPhysicsEngineParameter(contactBreakingThreshold=BULLETS_OWN_BREAKING_M)
+    bullet.disconnect()

@@ -7,6 +7,8 @@ heavy, turned ones (a fridge's door) differ there, and it answers nothing at all
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
+from inspect import isbuiltin
 from typing import Any
 
 import numpy as np
@@ -14,36 +16,44 @@ import numpy as np
 from ..description import FloatArray
 
 
+class BulletClient:
+    """PyBullet's names, its functions asked of a physics client that was just connected."""
+
+    def __init__(self, pybullet: Any) -> None:
+        self._bullet = pybullet
+        self._client = pybullet.connect(pybullet.DIRECT)
+
+    def __getattr__(self, name: str) -> Any:
+        found = getattr(self._bullet, name)
+        if isbuiltin(found):
+            found = partial(found, physicsClientId=self._client)
+        setattr(self, name, found)
+        return found
+
+
 class Dynamics:
     """Inertias, balancing forces and kinetic energy of one multibody.
 
-    Args:
-        pybullet: the module.
-        body: its number.
-        joints: joint numbers, in the order of all vectors here.
-        slides: whether each joint slides.
-        beyond: link numbers that each joint moves.
-        client: keyword argument that names the physics client.
+    All vectors are in the order of its joints, each given with whether it slides, and with the
+    links beyond it, which it moves.
     """
 
     def __init__(
         self,
-        pybullet: Any,
+        bullet: BulletClient,
         body: int,
         joints: Sequence[int],
         slides: Sequence[bool],
         beyond: Sequence[Sequence[int]],
-        client: dict[str, int],
     ) -> None:
-        self._bullet = pybullet
+        self._bullet = bullet
         self._body = body
-        self._client = client
         self._joints = list(joints)
         self._slides = np.array(slides, bool)
         self._beyond = beyond
         self._refuses = False
         links = sorted({link for group in beyond for link in group})
-        infos = {link: pybullet.getDynamicsInfo(body, link, **client) for link in links}
+        infos = {link: bullet.getDynamicsInfo(body, link) for link in links}
         self._mass = {link: float(info[0]) for link, info in infos.items()}
         self._moments = {link: np.array(info[2], np.float64) for link, info in infos.items()}
 
@@ -59,11 +69,9 @@ class Dynamics:
         for them.
         """
         if not self._refuses:
-            still = [0.0] * len(self._joints)
+            motion = (position.tolist(), velocity.tolist(), [0.0] * len(self._joints))
             try:
-                forces = self._bullet.calculateInverseDynamics(
-                    self._body, position.tolist(), velocity.tolist(), still, **self._client
-                )
+                forces = self._bullet.calculateInverseDynamics(self._body, *motion)
                 return np.array(forces, np.float64)
             except (SystemError, self._bullet.error):
                 self._refuses = True
@@ -81,9 +89,7 @@ class Dynamics:
         if matrix is not None:
             return 0.5 * float(velocity @ matrix @ velocity)
         links = list(self._mass)
-        states = self._bullet.getLinkStates(
-            self._body, links, computeLinkVelocity=1, **self._client
-        )
+        states = self._bullet.getLinkStates(self._body, links, computeLinkVelocity=1)
         total = 0.0
         for link, state in zip(links, states, strict=True):
             spin = self._turn(state).T @ np.array(state[7])
@@ -95,9 +101,7 @@ class Dynamics:
         if self._refuses:
             return None
         try:
-            matrix = np.array(
-                self._bullet.calculateMassMatrix(self._body, position.tolist(), **self._client)
-            )
+            matrix = np.array(self._bullet.calculateMassMatrix(self._body, position.tolist()))
         except (SystemError, self._bullet.error):
             matrix = np.zeros(0)
         self._refuses = matrix.shape != (len(self._joints),) * 2
@@ -123,19 +127,13 @@ class Dynamics:
     ) -> tuple[list[FloatArray], list[FloatArray], dict[int, FloatArray], dict[int, FloatArray]]:
         """Return joints' world axes and points; links' world centres of mass and principal axes."""
         links = list(self._mass)
-        states = self._bullet.getLinkStates(
-            self._body, links, computeForwardKinematics=1, **self._client
-        )
+        states = self._bullet.getLinkStates(self._body, links, computeForwardKinematics=1)
         at = dict(zip(links, states, strict=True))
         turns = {link: self._turn(state) for link, state in at.items()}
         # Bullet states joint axes in the principal frame of the link that they move.
-        infos = [
-            self._bullet.getJointInfo(self._body, joint, **self._client) for joint in self._joints
-        ]
-        axes = [
-            turns[joint] @ np.array(info[13])
-            for joint, info in zip(self._joints, infos, strict=True)
-        ]
+        infos = [self._bullet.getJointInfo(self._body, joint) for joint in self._joints]
+        named = zip(self._joints, infos, strict=True)
+        axes = [turns[joint] @ np.array(info[13]) for joint, info in named]
         points = [np.array(at[joint][4]) for joint in self._joints]
         return axes, points, {link: np.array(state[0]) for link, state in at.items()}, turns
 

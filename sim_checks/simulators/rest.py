@@ -9,15 +9,7 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .joints import (
-    carried_masses,
-    height,
-    moving_mass,
-    pressing,
-    ranges,
-    share,
-    uncoupled,
-)
+from .joints import carried_masses, height, moving_mass, pressing, ranges, share, uncoupled
 from .simulator import Fall, FallMotion, RestMotion, World
 
 #: A joint without a range stands still below this [rad/s] or [m/s].
@@ -100,10 +92,8 @@ def fall(world: World, config: MotionConfig) -> Fall:
         moved = np.maximum(moved, np.where(limited, into, np.abs(into)))
         if (np.abs(velocity) > slow).any():
             most = max(most, world.energy())
-    joints = tuple(
-        FallMotion(world.joints[i].name, float(moved[i]), share(moved[i], span.size[i]))
-        for i in free
-    )
+    rows = ((world.joints[i].name, float(moved[i]), share(moved[i], span.size[i])) for i in free)
+    joints = tuple(FallMotion(*row) for row in rows)
     # What pulls coupled joints to where they belong together gives energy, too.
     gained = most - before if len(free) == len(world.joints) else 0.0
     return Fall(joints, finite, float(gained), height(gained, moving_mass(world)))
@@ -124,10 +114,8 @@ def let_go(world: World, config: MotionConfig) -> Gain:
             break
         kinetic.see(velocity)
     world.weigh(True)
-    gains = [
-        Gain(float(kinetic.gained[i]), height(kinetic.gained[i], mass[i]), finite) for i in free
-    ]
-    return max(gains, key=lambda gain: gain.height)
+    energies = ((float(kinetic.gained[i]), height(kinetic.gained[i], mass[i])) for i in free)
+    return max((Gain(*each, finite) for each in energies), key=lambda gain: gain.height)
 
 
 class _Kinetic:

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, triple
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
 from .twin import write_twin
 
 GRAVITY = 9.81
@@ -64,7 +64,9 @@ class SapienSimulator:
         with tempfile.TemporaryDirectory(prefix="twin-") as folder:
             try:
                 articulations, actors, _ = loader.parse(str(write_twin(path, Path(folder))))
-                _require_one(len(articulations), len(actors))
+                if (count := len(articulations) + len(actors)) != 1:
+                    made = f"{count} separate objects (floating joints)"
+                    raise ValueError(f"the file makes {made}, not one")
                 if actors:
                     actors[0].set_physx_body_type("kinematic")
                 records = articulations[0].mimic_joint_records if articulations else []
@@ -76,13 +78,6 @@ class SapienSimulator:
         if not articulations:
             return SapienWorld(scene, None, _actor_model(body))
         return SapienWorld(scene, body, _articulation_model(body, _mimics(body, said), forced))
-
-
-def _require_one(articulations: int, actors: int) -> None:
-    if articulations + actors != 1:
-        raise ValueError(
-            f"the file makes {articulations + actors} separate objects (floating joints), not one"
-        )
 
 
 class SapienWorld:
@@ -146,11 +141,10 @@ class SapienWorld:
         kinetic = 0.5 * float(velocity @ self.mass_matrix() @ velocity)
         if not self._falls:
             return kinetic
-        heights = (
-            (link.mass, (link.entity_pose * link.cmass_local_pose).p[2])
-            for link in self._articulation.links
-        )
-        return kinetic + GRAVITY * sum(float(mass) * float(height) for mass, height in heights)
+        links = self._articulation.links
+        heights = ((link.entity_pose * link.cmass_local_pose).p[2] for link in links)
+        weights = (float(link.mass) * float(z) for link, z in zip(links, heights, strict=True))
+        return kinetic + GRAVITY * sum(weights)
 
     def balance(self) -> FloatArray:
         """Return the forces against gravity and velocity effects, shape [joint_count]."""
@@ -169,16 +163,16 @@ class SapienWorld:
             wrapped = self._endless & (np.abs(jump) > JUMP)
             self._wound -= np.where(wrapped, np.sign(jump) * WINDING, 0.0)
 
-    def contacts(self) -> dict[tuple[str, str], Touch]:
+    def contacts(self) -> Touches:
         """Return which links touched in the last step."""
         order = {link.name: i for i, link in enumerate(self.model.links)}
-        found: dict[tuple[str, str], Touch] = {}
+        found = Touches()
         for contact in self._scene.get_contacts():
             a, b = sorted((body.entity.name for body in contact.bodies), key=order.__getitem__)
             impulse = sum(np.asarray(point.impulse, np.float64) for point in contact.points)
             depth = max(-float(point.separation) for point in contact.points)
-            touch = Touch(float(np.linalg.norm(impulse)) / self.time_step, depth)
-            found[a, b] = found[a, b] + touch if (a, b) in found else touch
+            force = float(np.linalg.norm(impulse)) / self.time_step
+            found.add((a, b), Touch(force, depth))
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:
@@ -204,9 +198,8 @@ def _actor_model(actor: Any) -> LoadedModel:
     import sapien
 
     body = next(c for c in actor.components if isinstance(c, sapien.physx.PhysxRigidBaseComponent))
-    link = LoadedLink(
-        actor.name, 0.0, len(body.collision_shapes), None, static=True, friction=_friction(body)
-    )
+    held = (actor.name, 0.0, len(body.collision_shapes), None)
+    link = LoadedLink(*held, static=True, friction=_friction(body))
     return LoadedModel((link,), (), ())
 
 
@@ -236,9 +229,8 @@ def _mimics(articulation: Any, records: Any) -> dict[str, Mimic]:
     """
     found: dict[str, Mimic] = {}
     for record in records:
-        follower, leader = (
-            articulation.find_joint_by_name(name) for name in (record.joint, record.mimic)
-        )
+        follower = articulation.find_joint_by_name(record.joint)
+        leader = articulation.find_joint_by_name(record.mimic)
         if follower.parent_link in (leader.child_link, leader.parent_link):
             numbers = float(record.multiplier), float(record.offset)
             found[record.joint] = Mimic(record.mimic, *numbers)
@@ -282,18 +274,13 @@ def _names(link: Any) -> Iterator[str]:
 
 
 def _friction(body: Any) -> float | None:
-    return max(
-        (float(s.physical_material.static_friction) for s in body.collision_shapes), default=None
-    )
+    materials = (shape.physical_material for shape in body.collision_shapes)
+    return max((float(each.static_friction) for each in materials), default=None)
 
 
 def _excluded(articulation: Any) -> tuple[tuple[str, str], ...]:
-    links = [
-        (link, link.collision_shapes[0].collision_groups)
-        for link in articulation.links
-        if link.collision_shapes
-    ]
-    pairs = combinations(links, 2)
+    solid = (link for link in articulation.links if link.collision_shapes)
+    pairs = combinations([(link, link.collision_shapes[0].collision_groups) for link in solid], 2)
     return tuple((a.name, b.name) for (a, one), (b, two) in pairs if not _groups_touch(one, two))
 
 

@@ -140,6 +140,14 @@ class Touch:
         return Touch(self.force + other.force, max(self.depth, other.depth))
 
 
+class Touches(dict[tuple[str, str], Touch]):
+    """How links touch, by pair in the model's order."""
+
+    def add(self, pair: tuple[str, str], touch: Touch) -> None:
+        """Note one more contact of a pair of links."""
+        self[pair] = self[pair] + touch if pair in self else touch
+
+
 @dataclass(frozen=True)
 class JointMotion:
     """What one joint did when driven from lower to upper and back.
@@ -348,7 +356,7 @@ class World(Protocol):
     def step(self, forces: FloatArray) -> None:
         """Make one time step with these joint forces [N m] or [N], shape [joint_count]."""
 
-    def contacts(self) -> dict[tuple[str, str], Touch]:
+    def contacts(self) -> Touches:
         """Return which links touched in the last step, by pair in the model's order."""
 
     def link_poses(self) -> dict[str, FloatArray]:

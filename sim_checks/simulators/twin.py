@@ -16,12 +16,7 @@ MUJOCO_COMPILER = {"fusestatic": "false", "strippath": "false", "discardvisual":
 def write_twin(urdf: Path, folder: Path, *, for_mujoco: bool = False) -> Path:
     """Write ``urdf`` into ``folder`` without visuals and materials; mesh paths absolute.
 
-    Its SRDF goes beside it.
-
-    Args:
-        urdf: the original, which is not touched.
-        folder: an existing, empty folder.
-        for_mujoco: also add MuJoCo's compiler settings.
+    Its SRDF goes beside it; for MuJoCo, its compiler's settings are added.
 
     Raises:
         ValueError: if the file is not XML with a ``robot`` at its root (:class:`DescriptionError`

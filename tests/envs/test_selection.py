@@ -7,8 +7,9 @@ import pytest
 from openable_samples import assemble, box, cabinet, oven, valve, write_registry
 
 from asset_factory.envs.assets import read_registry
-from asset_factory.envs.selection import TEST_SHARE, Wanted, select, split_of, verdicts_of
+from asset_factory.envs.selection import Wanted, select, verdicts_of
 from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.registry.entry import TEST_SHARE, split_of
 
 
 @pytest.fixture

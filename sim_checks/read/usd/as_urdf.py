@@ -27,17 +27,9 @@ UPRIGHT = 1e-9
 def write_as_urdf(path: Path, folder: Path) -> Path:
     """Write what a USD asset says as a URDF with meshes beside it.
 
-    A body becomes a link, with its frame where its joint is; what is fastened to nothing by a
-    joint is one more link, ``world``.
-
-    Args:
-        path: of the root layer; everything that it is composed of lies in or below its folder.
-        folder: an empty one.
-
-    Call it in a killable child, with :func:`.refusing.ask_of`.
-
-    Returns:
-        The URDF.
+    A body becomes a link, with its frame where its joint is; all that no joint fastens is one
+    more link, ``world``. All that the root layer at ``path`` is composed of lies in or
+    below its folder. Call it in a killable child, with :func:`..native.ask_of`.
 
     Raises:
         DescriptionError: with a stable code, whatever is wrong with the file.
@@ -116,9 +108,8 @@ class _Urdf:
         # Values count how body1 moves as body0 sees it.
         axis = joint.axis if child == 1 else -joint.axis
         ElementTree.SubElement(element, "axis", xyz=_text(axis))
-        ElementTree.SubElement(
-            element, "dynamics", damping=f"{joint.damping:.9g}", friction=f"{joint.friction:.9g}"
-        )
+        resists = {"damping": f"{joint.damping:.9g}", "friction": f"{joint.friction:.9g}"}
+        ElementTree.SubElement(element, "dynamics", resists)
         if joint.mimic is not None:
             rate, offset = (f"{n:.9g}" for n in (joint.mimic.multiplier, joint.mimic.offset))
             words = {"joint": joint.mimic.leader, "multiplier": rate, "offset": offset}

@@ -71,12 +71,10 @@ def joint_ends(prim: Any) -> tuple[Any, Any]:
 
 
 def read_joint(prim: Any, bodies: dict[str, PhysicsBody], pose_of: PoseOf) -> PhysicsJoint:
-    """Return one joint.
+    """Return one joint, a prim of a type derived from ``UsdPhysics.Joint``.
 
-    Args:
-        prim: of a type derived from ``UsdPhysics.Joint``.
-        bodies: by path.
-        pose_of: a prim's pose in the world, metres and scale included; of ``None`` the stage's.
+    Bodies are given by path, and ``pose_of`` returns a prim's pose in the world, metres and scale
+    included; of ``None`` the stage's.
     """
     from pxr import UsdPhysics
 
@@ -84,10 +82,8 @@ def read_joint(prim: Any, bodies: dict[str, PhysicsBody], pose_of: PoseOf) -> Ph
     (first, one), (second, other) = (_end(each, bodies, pose_of) for each in joint_ends(prim))
     place = joint.GetLocalPos1Attr()
     turn = joint.GetLocalRot1Attr()
-    frames = (
-        _frame(joint.GetLocalPos0Attr(), joint.GetLocalRot0Attr(), one, bodies[first]),
-        _frame(place, turn, other, bodies[second]),
-    )
+    frame = _frame(joint.GetLocalPos0Attr(), joint.GetLocalRot0Attr(), one, bodies[first])
+    frames = (frame, _frame(place, turn, other, bodies[second]))
     kind = joint_kind(prim)
     name = str(prim.GetName())
     if kind not in ("revolute", "prismatic"):

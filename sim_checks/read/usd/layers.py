@@ -27,11 +27,7 @@ def layer_files(main: Path, folder: Path) -> Iterator[Path]:
 
     It is followed through sublayers, references and payloads. Opening a layer opens no other; only
     composing does, and that comes later. Textures and materials named in attributes are never
-    opened.
-
-    Args:
-        main: the layer to begin with.
-        folder: everything lies in or below it, symbolic links followed.
+    opened. Everything lies in or below the folder, symbolic links followed.
 
     Raises:
         DescriptionError: ``outside_folder``, ``missing_file``, ``unreadable``, ``unknown_format``
@@ -65,13 +61,8 @@ def layer_files(main: Path, folder: Path) -> Iterator[Path]:
 def require_inside(path: Path, folder: Path, most_bytes: int = MOST_BYTES) -> tuple[Path, ...]:
     """Refuse an asset that leads out of a folder by composition arcs, or is too large.
 
-    Args:
-        path: the layer to begin with.
-        folder: everything lies in or below it, symbolic links followed.
-        most_bytes: largest size of all layers' files together.
-
     Returns:
-        The files that it is composed of, in order of their names.
+        The files that it is composed of, in order of their names; at most so many bytes together.
 
     Raises:
         DescriptionError: ``too_large``, and those of :func:`layer_files`.
@@ -81,10 +72,9 @@ def require_inside(path: Path, folder: Path, most_bytes: int = MOST_BYTES) -> tu
         files[file] = file.stat().st_size
         total = sum(files.values())
         if number > MOST_LAYERS or total > most_bytes:
-            message = (
-                f"{path.name}: {number:,} layers of {total:,} bytes together, the limit is "
-                f"{MOST_LAYERS:,} and {most_bytes:,}; simplify it or raise the limit"
-            )
+            limit = f"the limit is {MOST_LAYERS:,} and {most_bytes:,}"
+            message = f"{path.name}: {number:,} layers of {total:,} bytes together, {limit}; "
+            message += "simplify it or raise the limit"
             raise DescriptionError("too_large", message)
     return tuple(sorted(files))
 
@@ -95,9 +85,8 @@ def _identifier(reference: str, layer: Any) -> str:
 
     path, _ = Sdf.Layer.SplitIdentifier(reference)
     if "`" in path:
-        raise DescriptionError(
-            "unknown_format", f"reference {reference[:160]!r}: is computed; want a plain file name"
-        )
+        message = f"reference {reference[:160]!r}: is computed; want a plain file name"
+        raise DescriptionError("unknown_format", message)
     if _SCHEME.match(path) or "\0" in path:
         raise _outside(reference)
     found = str(Sdf.ComputeAssetPathRelativeToLayer(layer, path))
@@ -118,9 +107,8 @@ def _own_file(identifier: str, root: Path) -> Path:
     if not path.is_absolute() or not path.resolve().is_relative_to(root):
         raise _outside(outer)
     if not is_usd(path):
-        raise DescriptionError(
-            "unknown_format", f"{path.name}: want one of {', '.join(sorted(SUFFIXES))}"
-        )
+        message = f"{path.name}: want one of {', '.join(sorted(SUFFIXES))}"
+        raise DescriptionError("unknown_format", message)
     if not path.is_file():
         raise DescriptionError("missing_file", f"{path.name}: is named by a layer and not there")
     return path.resolve()
@@ -140,14 +128,10 @@ def _refuse_clips(layer: Any) -> None:
 
     layer.Traverse(Sdf.Path.absoluteRootPath, look)
     if found:
-        raise DescriptionError(
-            "unknown_format", f"prim {found[0]}: has value clips; want geometry that stands still"
-        )
+        message = f"prim {found[0]}: has value clips; want geometry that stands still"
+        raise DescriptionError("unknown_format", message)
 
 
 def _outside(reference: str) -> DescriptionError:
-    name = Path(reference).name[:160]
-    return DescriptionError(
-        "outside_folder",
-        f"reference to {name!r} leads outside the object's folder; put the file there",
-    )
+    leads = f"reference to {Path(reference).name[:160]!r} leads outside the object's folder"
+    return DescriptionError("outside_folder", f"{leads}; put the file there")

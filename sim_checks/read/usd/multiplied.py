@@ -28,9 +28,8 @@ def refuse_multiplied(
     """
     count = _PrimCount(layers, named).of_layer(main)
     if count > MOST_PRIMS:
-        raise DescriptionError(
-            "too_large", f"{name}: {count:,} prims once composed, at most {MOST_PRIMS:,} are read"
-        )
+        message = f"{name}: {count:,} prims once composed, at most {MOST_PRIMS:,} are read"
+        raise DescriptionError("too_large", message)
 
 
 class _PrimCount:

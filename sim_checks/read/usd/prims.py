@@ -17,12 +17,8 @@ AXES = dict(zip("XYZ", np.eye(3), strict=True))
 def list_prims(stage: Any, name: str) -> list[Any]:
     """Return all prims of a composed stage, those of instances among them.
 
-    Args:
-        stage: a ``Usd.Stage``.
-        name: of its file, which opens the sentence.
-
     Raises:
-        DescriptionError: ``too_large``.
+        DescriptionError: ``too_large``, with the file's name.
     """
     from pxr import Usd
 
@@ -42,9 +38,8 @@ def is_rigid_body(prim: Any) -> bool:
     """Return whether it is a body of its own that physics moves."""
     from pxr import UsdPhysics
 
-    return bool(prim.HasAPI(UsdPhysics.RigidBodyAPI)) and is_on(
-        UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr()
-    )
+    enabled = UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr()
+    return bool(prim.HasAPI(UsdPhysics.RigidBodyAPI)) and is_on(enabled)
 
 
 def is_joint_in_use(prim: Any) -> bool:
@@ -62,12 +57,8 @@ def joint_kind(prim: Any) -> str:
     """Return ``revolute``, ``prismatic``, ``fixed``, or the file's word for any other joint."""
     from pxr import UsdPhysics
 
-    for kind, schema in (
-        ("revolute", UsdPhysics.RevoluteJoint),
-        ("prismatic", UsdPhysics.PrismaticJoint),
-        ("fixed", UsdPhysics.FixedJoint),
-    ):
-        if prim.IsA(schema):
+    for kind in ("revolute", "prismatic", "fixed"):
+        if prim.IsA(getattr(UsdPhysics, f"{kind.capitalize()}Joint")):
             return kind
     return str(prim.GetTypeName())
 
@@ -77,7 +68,5 @@ def is_shown(prim: Any) -> bool:
     from pxr import UsdGeom
 
     image = UsdGeom.Imageable(prim)
-    purpose = image.ComputePurpose()
-    return purpose in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render) and (
-        image.ComputeVisibility() != UsdGeom.Tokens.invisible
-    )
+    looked_at = image.ComputePurpose() in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render)
+    return looked_at and image.ComputeVisibility() != UsdGeom.Tokens.invisible

@@ -20,9 +20,7 @@ _ITS_WORDS = re.compile(r" at line \d+ in file \S+ : '(.*?)'(?=, Error in |\)$|$
 def refusing(name: str, folder: Path) -> Iterator[None]:
     """Turn exceptions of USD's library, few of which pickle, into a refusal.
 
-    Args:
-        name: of the file, which opens the sentence.
-        folder: its own, which the sentence does not tell.
+    The sentence begins with the file's name, and does not tell its folder.
 
     Raises:
         DescriptionError: ``unreadable``, or ``too_large`` where memory did not do; its own kind

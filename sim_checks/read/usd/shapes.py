@@ -128,10 +128,8 @@ def _primitive(prim: Any) -> tuple[FloatArray, IntArray] | None:
         return primitives.box(np.full(3, number(UsdGeom.Cube(prim).GetSizeAttr())))
     if prim.IsA(UsdGeom.Sphere):
         return primitives.ellipsoid(np.full(3, number(UsdGeom.Sphere(prim).GetRadiusAttr())))
-    for schema, make in (
-        (UsdGeom.Cylinder, primitives.cylinder),
-        (UsdGeom.Capsule, primitives.capsule),
-    ):
+    round_ones = {UsdGeom.Cylinder: primitives.cylinder, UsdGeom.Capsule: primitives.capsule}
+    for schema, make in round_ones.items():
         if prim.IsA(schema):
             shape = schema(prim)
             vertices, faces = make(number(shape.GetRadiusAttr()), number(shape.GetHeightAttr()))

@@ -48,9 +48,8 @@ def require_library(name: str) -> None:
         DescriptionError: ``unknown_format``.
     """
     if importlib.util.find_spec("pxr") is None:
-        raise DescriptionError(
-            "unknown_format", f"{name}: reading USD needs usd-core: pip install usd-core"
-        )
+        message = f"{name}: reading USD needs usd-core: pip install usd-core"
+        raise DescriptionError("unknown_format", message)
 
 
 def read_stage(path: Path, *, lenient: bool = False) -> PhysicsStage:

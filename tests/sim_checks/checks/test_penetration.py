@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from box_world import body, cabinet, described, joint, with_joint
 
-from asset_factory.sim_checks.checks.combinations import combination_values
-from asset_factory.sim_checks.checks.penetration import check_penetration
+from asset_factory.sim_checks.checks.penetration import check_penetration, combination_values
 from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.report import Severity
 
