@@ -51,7 +51,7 @@ class Answers:
         for call in calls:
             if len(self.asked) == self.dies_after:
                 raise KeyboardInterrupt
-            registry, episode, settings, folder = call.arguments.values()
+            registry, settings, folder, episode = call.arguments.values()
             self.asked.append(episode)
             if episode.seed in self.slow:
                 yield call, Outcome(None, Failure.TIMEOUT, "no answer within 600 s", "", 600.0)

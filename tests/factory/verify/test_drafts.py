@@ -1,11 +1,12 @@
 """Of several readings the likeliest that passes whole becomes the asset; the others are told."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 from export_samples import cabinet
+from modelled_furniture import METAL, PAINT, board
 
 from asset_factory.factory.articulate import standing
 from asset_factory.factory.articulate.proposal import Hypothesis
@@ -13,6 +14,7 @@ from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig, ReadingsConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.manufacture.plan import Plan
+from asset_factory.factory.mesh import concatenate
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.verify import rounds
@@ -21,7 +23,6 @@ from asset_factory.factory.verify.validate import Verdict
 from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.report import OUT_OF_TIME
 
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
 DEEP = Finding("sweep_penetration", Severity.ERROR, "5 mm deep", value=5.0, unit="mm", limit=2.0)
 ASSET = cabinet()
 
@@ -84,9 +85,21 @@ def _reading_as(monkeypatch, *changes):
 CONFIG = BuildConfig(articulator="geometric", simulators=())
 
 
-def test_a_reading_that_is_blocked_loses_to_one_that_opens(output, monkeypatch):
+@pytest.fixture(scope="module")
+def one_door(tmp_path_factory):
+    """A block with a door and its bar: one joint, which rules of shape find."""
+    block = board((0.0, 0.0, 0.0), (0.6, 0.6, 1.0))
+    door = board((0.0, -0.06, 0.02), (0.6, -0.001, 0.98), PAINT)
+    bar = board((0.05, -0.1, 0.4), (0.08, -0.06, 0.7), METAL)
+    mesh = concatenate([block, door, bar])
+    file = tmp_path_factory.mktemp("one_door") / "cupboard.obj"
+    trimesh.Trimesh(mesh.vertices, mesh.faces, process=False).export(file)
+    return file
+
+
+def test_a_reading_that_is_blocked_loses_to_one_that_opens(one_door, output, monkeypatch):
     _reading_as(monkeypatch, _blocked, lambda right: right)
-    result = build_asset(EXAMPLES / "laptop.glb", output, CONFIG)
+    result = build_asset(one_door, output, CONFIG)
     assert result.entry.status == "passed"
     report = read_report(Registry(output).assets / result.entry.id).report
     (told,) = [f.message for f in report.findings if f.code == "other_reading"]
@@ -114,28 +127,30 @@ def impossible(monkeypatch):
     return _impossible
 
 
-def test_a_reading_that_cannot_be_made_is_passed_over_and_told(output, monkeypatch, impossible):
+def test_a_reading_that_cannot_be_made_is_passed_over_and_told(
+    one_door, output, monkeypatch, impossible
+):
     _reading_as(monkeypatch, impossible, lambda right: right)
-    result = build_asset(EXAMPLES / "laptop.glb", output, CONFIG)
+    result = build_asset(one_door, output, CONFIG)
     assert result.entry.status == "passed"
     report = read_report(Registry(output).assets / result.entry.id).report
     (told,) = [f.message for f in report.findings if f.code == "other_reading"]
     assert "turns, probability 0.31), it cannot be made, too_many_hulls: part 'lid': needs" in told
 
 
-def test_where_no_reading_can_be_made_the_reason_is_told(output, monkeypatch, impossible):
+def test_where_no_reading_can_be_made_the_reason_is_told(one_door, output, monkeypatch, impossible):
     _reading_as(monkeypatch, impossible)
-    refused = build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry
+    refused = build_asset(one_door, output, CONFIG).entry
     assert (refused.status, refused.reason) == ("rejected", "too_many_hulls")
 
 
-def test_beyond_the_most_work_only_the_likeliest_is_made(output, monkeypatch):
+def test_beyond_the_most_work_only_the_likeliest_is_made(one_door, output, monkeypatch):
     _reading_as(monkeypatch, _blocked, lambda right: right)
     hurried = replace(CONFIG, readings=ReadingsConfig(most_work=0))
-    assert build_asset(EXAMPLES / "laptop.glb", output, hurried).entry.status == "rejected"
+    assert build_asset(one_door, output, hurried).entry.status == "rejected"
 
 
-def test_a_reading_whose_check_hung_gives_its_place_to_no_other(output, monkeypatch):
+def test_a_reading_whose_check_hung_gives_its_place_to_no_other(one_door, output, monkeypatch):
     _reading_as(monkeypatch, lambda right: right, lambda right: right)
     honest = rounds.inspect
     late = Finding("check_timeout", Severity.ERROR, "no answer", cause=OUT_OF_TIME)
@@ -148,15 +163,15 @@ def test_a_reading_whose_check_hung_gives_its_place_to_no_other(output, monkeypa
         return Verdict(Report("asset.urdf", findings=(late,))) if first else verdict
 
     monkeypatch.setattr(rounds, "inspect", inspect)
-    result = build_asset(EXAMPLES / "laptop.glb", output, CONFIG)
+    result = build_asset(one_door, output, CONFIG)
     assert (result.entry.status, result.entry.reason) == ("unjudged", "check_timeout")
     assert result.entry.key == ""
     assert len(asked) == 1
     assert not Registry(output).known_keys([""])
-    assert build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry.status == "passed"
+    assert build_asset(one_door, output, CONFIG).entry.status == "passed"
 
 
-def test_a_simulator_that_hung_neither_rejects_nor_repairs(output, monkeypatch):
+def test_a_simulator_that_hung_neither_rejects_nor_repairs(one_door, output, monkeypatch):
     honest = rounds.validate
     late = Finding("simulator_timeout", Severity.ERROR, "no answer", "bullet", cause=OUT_OF_TIME)
     jammed = Finding("jammed", Severity.ERROR, "sapien: stuck", "sapien")
@@ -166,5 +181,5 @@ def test_a_simulator_that_hung_neither_rejects_nor_repairs(output, monkeypatch):
         return replace(verdict, report=replace(verdict.report, findings=(jammed, late)))
 
     monkeypatch.setattr(rounds, "validate", validate)
-    entry = build_asset(EXAMPLES / "laptop.glb", output, CONFIG).entry
+    entry = build_asset(one_door, output, CONFIG).entry
     assert (entry.status, entry.reason) == ("unjudged", "simulator_timeout")
