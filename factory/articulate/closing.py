@@ -69,9 +69,9 @@ def _closed(articulation: Articulation, partition: Partition, joint: Joint) -> J
     angle = None if smallest is None else _squared(body, joint, smallest)
     if angle is None or _near(body, joint, angle) < _near(body, joint, 0.0) + NEARER:
         return joint
-    if angle > 0.0:
-        joint = replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower)
-    return replace(joint, lower=-abs(angle), upper=max(joint.range - abs(angle), 0.0))
+    axis = -joint.axis if angle > 0.0 else joint.axis
+    opened = abs(angle)
+    return replace(joint, axis=axis, lower=-opened, upper=max(joint.range - opened, 0.0))
 
 
 def _smallest(articulation: Articulation, body: Body, joint: Joint) -> float | None:

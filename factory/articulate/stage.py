@@ -125,6 +125,10 @@ class _Surface:
 SURFACE = tuple(field.name for field in fields(_Surface))
 
 
+#: All of an articulation but its mesh.
+SAID = tuple(field.name for field in fields(Articulation) if field.name != "mesh")
+
+
 @dataclass(frozen=True)
 class _Tree:
     """An articulation without the mesh that it was given.
@@ -175,27 +179,11 @@ def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis,
 def _tree(made: Hypothesis, intake: Intake) -> _Tree:
     tree = made.articulation
     own = None if tree.mesh is intake.mesh else _Surface.of(tree.mesh)
-    return _Tree(
-        tree.parts,
-        tree.joints,
-        tree.articulator,
-        tree.notes,
-        tree.weights,
-        tree.looks_like,
-        own,
-        made.probability,
-    )
+    said = {name: getattr(tree, name) for name in SAID}
+    return _Tree(**said, own=own, probability=made.probability)
 
 
 def _grown(tree: _Tree, intake: Intake) -> Hypothesis:
     mesh = intake.mesh if tree.own is None else tree.own.on(intake.mesh)
-    articulation = Articulation(
-        mesh,
-        tree.parts,
-        tree.joints,
-        tree.articulator,
-        tree.notes,
-        tree.weights,
-        tree.looks_like,
-    )
-    return Hypothesis(articulation, tree.probability)
+    said = {name: getattr(tree, name) for name in SAID}
+    return Hypothesis(Articulation(mesh=mesh, **said), tree.probability)

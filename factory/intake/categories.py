@@ -101,8 +101,7 @@ def guess_category(stem: str, folder: str = "") -> str | None:
     """Return a category of the table named in a file stem, else at the end of its folder's name.
 
     The longest match in words wins, then an exact word over the tail of one (``kitchencabinet``),
-    then
-    the last: in English the head of a compound comes last.
+    then the last: in English the head of a compound comes last.
     """
     return _named_in(_words(stem), anywhere=True) or _named_in(_words(folder), anywhere=False)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..config import IntakeConfig
 from ..errors import ConfigError, InputRejected
 from ..mesh import FloatArray
-from .categories import UNKNOWN, Category, category_table
+from .categories import UNKNOWN, Category, usual_of
 from .orientation import parse_up
 from .sidecar import Sidecar
 
@@ -17,7 +17,7 @@ UNITS = ((0.001, "millimetres", 1.0), (0.01, "centimetres", 1.0), (0.0254, "inch
 _UNIT_WITHIN = 4.0
 """How far off the expected size, times that handicap, a unit is still believed."""
 
-UNIT_WITHIN = 0.005
+CUBE_WITHIN = 0.005
 """How far the largest extent of a mesh that image-to-3D tools leave in a unit cube is from 1."""
 
 _UNKNOWN_EXTENT_IN_UNITS = 0.5
@@ -49,8 +49,8 @@ def scale_of_unit_cube(extents: FloatArray, category: str | None) -> Scale | Non
         extents: of the mesh, z up, input units, shape [3].
         category: as for :func:`scale_by_size`.
     """
-    usual = category_table().get(category) if category else None
-    if usual is None or abs(float(extents.max()) - 1.0) > UNIT_WITHIN:
+    usual = usual_of(category)
+    if usual is UNKNOWN or abs(float(extents.max()) - 1.0) > CUBE_WITHIN:
         return None
     what, value = _measured(extents, usual)
     factor = usual.typical / value
@@ -69,9 +69,8 @@ def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
         extents: of the mesh, z up, input units, shape [3].
         category: as from :func:`normalised` or :func:`guess_category`.
     """
-    known = category_table().get(category) if category else None
-    size = known or UNKNOWN
-    source = "guess" if known is None else "category"
+    size = usual_of(category)
+    source = "guess" if size is UNKNOWN else "category"
     what, value = _measured(extents, size)
     plausible = f"{size.least:g} to {size.most:g} m is plausible for {_article(size.name)}"
     if size.least <= value <= size.most:

@@ -141,7 +141,7 @@ def _fitted(
     groups = [{"params": network.backbone.parameters()}, {"params": fresh}]
     optimizer = torch.optim.AdamW(groups, weight_decay=0.02)
     begun = said = time.monotonic()
-    step = told = 0
+    step = said_step = 0
     sums: dict[str, Any] = {}
     while (now := time.monotonic()) < end:
         done = (now - begun) / (end - begun)
@@ -159,13 +159,13 @@ def _fitted(
             each.collect(MOST_COLLECTED)
         step += 1
         if now - said > SAID_EVERY_S:
-            _say(step, step - told, sums, now - said, source.pools[-1].made)
-            if (step - told) / (now - said) < SLOW and done > 0.1:
+            _say(step, step - said_step, sums, now - said, source.pools[-1].made)
+            if (step - said_step) / (now - said) < SLOW and done > 0.1:
                 for each in makers:
                     each.stop()
             said = now
             sums = {}
-            told = step
+            said_step = step
             _keep(kept, options.out)
     return kept, step
 
