@@ -1,7 +1,7 @@
 """Real objects and textures in one small file, to be carried to where training runs.
 
-``python -m asset_factory.learn.detector.pack OUT --real train_static --described train_infinigen
---textures train_textures --one-piece 2``.
+``python -m asset_factory.learn.detector.pack OUT --real train_static sweethome3d --described
+train_infinigen --textures train_textures --one-piece 2``.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import zipfile
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -39,10 +40,10 @@ def main() -> None:
     """Run the command."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("out", type=Path)
-    parser.add_argument("--real", type=Path, required=True)
+    parser.add_argument("--real", type=Path, nargs="+", required=True)
     parser.add_argument("--described", type=Path)
     parser.add_argument("--textures", type=Path, required=True)
-    parser.add_argument("--one-piece", type=int, default=0, help="so many of each real object")
+    parser.add_argument("--one-piece", type=int, default=0, help="so many of each that opens")
     parser.add_argument("--workers", type=int, default=2)
     write_pack(parser.parse_args())
 
@@ -56,7 +57,8 @@ def write_pack(options: argparse.Namespace) -> None:
         get_context("spawn").Pool(options.workers) as workers,
     ):
         forming = partial(_with_forms, count=options.one_piece)
-        shown = workers.imap(forming, enumerate(real_objects(options.real)))
+        found_in = chain.from_iterable(map(real_objects, options.real))
+        shown = workers.imap(forming, enumerate(found_in))
         for number, (found, forms) in enumerate(shown):
             note = {"kind": kind_number(found.kind), "opens": found.opens, "front": found.front}
             note |= {"held_out": is_held_out(found.name), "real": True}
@@ -73,16 +75,20 @@ def write_pack(options: argparse.Namespace) -> None:
             _add(pack, f"made_{number:04d}_{name}", note, sides)
         for each in sorted(textures.glob("*.jpg")):
             picture = Image.open(each).convert("RGB").resize((TEXTURE, TEXTURE))
-            pack.writestr(f"texture/{each.stem}.jpg", _jpeg(picture, 85))
+            pack.writestr(f"texture/{each.stem}.jpg", _small(picture, "JPEG", 85))
     say(f"{options.out}: written")
 
 
 def _with_forms(
     numbered: tuple[int, RealObject], count: int
 ) -> tuple[RealObject, list[LabelledSides]]:
-    """Return an object, and its sides as made one piece so many times; one if it is held out."""
+    """Return an object, and its sides as made one piece so many times.
+
+    It is made so once if it is held out, or does not open.
+    """
     number, found = numbered
-    forms = min(count, 1) if is_held_out(found.name) else count
+    often = found.opens and not is_held_out(found.name)
+    forms = count if often else min(count, 1)
     skins = [coloured_skin(found.mesh, 1000 * number + form) for form in range(forms)]
     return found, [replace(found.sides, canvases=look_at(skin)) for skin in skins]
 
@@ -93,7 +99,7 @@ def _add(
     canvases = sides.canvases
     picture = Image.fromarray(canvases.color.reshape(-1, CANVAS, 3))
     depth = np.where(canvases.depth == NOTHING, NOTHING, canvases.depth // COARSE)
-    pack.writestr(f"{name}/color.jpg", _jpeg(picture, 88))
+    pack.writestr(f"{name}/color.webp", _small(picture, "WEBP", 85))
     steps = np.diff(depth, prepend=0).astype(np.int16)
     pack.writestr(f"{name}/depth", lzma.compress(steps.tobytes()))
     pack.writestr(f"{name}/part", lzma.compress(sides.part.tobytes()))
@@ -101,9 +107,9 @@ def _add(
     pack.writestr(f"{name}/note.json", json.dumps(note))
 
 
-def _jpeg(picture: Image.Image, quality: int) -> bytes:
+def _small(picture: Image.Image, encoding: str, quality: int) -> bytes:
     kept = io.BytesIO()
-    picture.save(kept, "JPEG", quality=quality)
+    picture.save(kept, encoding, quality=quality)
     return kept.getvalue()
 
 

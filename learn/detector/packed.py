@@ -52,7 +52,7 @@ def read_pack(path: Path) -> Iterator[Packed]:
                 continue
             folder = name.rpartition("/")[0]
             note = json.loads(pack.read(name))
-            color = np.asarray(Image.open(io.BytesIO(pack.read(f"{folder}/color.jpg"))))
+            color = np.asarray(Image.open(io.BytesIO(pack.read(f"{folder}/color.webp"))))
             steps = np.frombuffer(lzma.decompress(pack.read(f"{folder}/depth")), np.int16)
             depth = np.cumsum(steps.reshape(shape), axis=2, dtype=np.int32)
             part = np.frombuffer(lzma.decompress(pack.read(f"{folder}/part")), np.uint8)

@@ -27,13 +27,12 @@ from asset_factory.factory.models.detector.canvas import (
 )
 from asset_factory.factory.views.raster import Side, side_facing
 
+from .labelled import EITHER, Row, labelled_objects
 from .sides import Instances, LabelledSides, way_toward
 
 AXES = "xyz"
 #: A lid whose box is this wide covers the object from side to side.
 WIDE = 0.85
-#: The way of a part that may be hinged at either edge.
-EITHER = -1
 #: Of the meshes of a folder every so many is kept for measuring.
 HELD_OUT = 5
 WHOLE = (0.0, 0.0, 1.0, 1.0)
@@ -57,39 +56,49 @@ def is_held_out(name: str) -> bool:
 
 
 def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObject]:
-    """Yield the meshes of a folder with ``INVENTORY.csv``, ``openings.json``, ``fronts.json``.
+    """Yield the meshes of a folder with ``INVENTORY.csv``, and ``openings.json``, ``fronts.json``.
 
-    Those that nobody could tell of, or that stand open, are left out, and, by ``held_out``, those
-    that are kept for measuring, or those that are not.
+    Meshes of which the package has labels of its own need neither of these two. Those that nobody
+    could tell of, or that stand open, are left out, and, by ``held_out``, those that are kept for
+    measuring, or those that are not.
     """
-    labels = json.loads((folder / "openings.json").read_text())
-    fronts = json.loads((folder / "fronts.json").read_text())
+    labels = _read(folder / "openings.json", {})
+    fronts = _read(folder / "fronts.json", {"front": {}, "open_as_given": []})
     open_as_given = {each.split(" ")[0] for each in fronts["open_as_given"]}
     with (folder / "INVENTORY.csv").open(newline="") as rows:
         inventory = list(csv.DictReader(rows))
     for row in inventory:
         name = Path(row["file"]).stem
-        if row["opens"] not in ("yes", "no") or name in open_as_given:
-            continue
         if held_out is not None and is_held_out(name) is not held_out:
             continue
-        front = _front(fronts["front"].get(name, "-y"))
-        if front is None:
-            continue
+        kind = row["kind"]
+        if (seen := labelled_objects().get(name)) is not None:
+            kind = seen.kind
+            opens = seen.opens
+            front = seen.front
+            rows_of = [each.row() for each in seen.parts]
+        else:
+            if row["opens"] not in ("yes", "no") or name in open_as_given:
+                continue
+            found = _front(fronts["front"].get(name, "-y"))
+            if found is None:
+                continue
+            front = found
+            opens = row["opens"] == "yes"
+            rows_of = _labelled(labels, name, front) if name in labels else []
+            if opens and name not in labels:
+                rows_of = [(view, WHOLE, Sort.OTHER, EITHER, True) for view in range(len(SIDES))]
         mesh = load(folder / row["file"], IntakeConfig()).mesh
-        opens = row["opens"] == "yes"
-        rows_of: list[_Row] = []
-        if name in labels:
-            rows_of = _labelled(labels, name, front)
-        elif opens:
-            rows_of = [(view, WHOLE, Sort.OTHER, EITHER, True) for view in range(len(SIDES))]
         part = np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8)
         sides = LabelledSides(look_at(mesh), part, _on_canvas(rows_of, mesh))
-        yield RealObject(name, row["kind"], opens, SIDES.index(front), mesh, sides)
+        yield RealObject(name, kind, opens, SIDES.index(front), mesh, sides)
 
 
-#: A row: side, box in shares of its picture, sort, way, ignored.
-_Row = tuple[int, Sequence[float], Sort, int, bool]
+def _read(path: Path, otherwise: dict[str, Any]) -> dict[str, Any]:
+    if not path.exists():
+        return otherwise
+    found: dict[str, Any] = json.loads(path.read_text())
+    return found
 
 
 def _front(text: str) -> Side | None:
@@ -101,7 +110,7 @@ def _front(text: str) -> Side | None:
     return side_facing(direction)
 
 
-def _labelled(labels: Mapping[str, Any], name: str, front: Side) -> list[_Row]:
+def _labelled(labels: Mapping[str, Any], name: str, front: Side) -> list[Row]:
     rows = [row for entry in labels[name] for row in _rows(entry, front)]
     for entry in labels.get(f"{name}:optional", []):
         rows += _ignored(entry, _sides_of(entry["plane"]))
@@ -114,16 +123,16 @@ def _sides_of(plane: str) -> tuple[Side, ...]:
     }[plane]  # fmt: skip
 
 
-def _on(side: Side, entry: Mapping[str, Any]) -> list[float]:
+def _on(side: Side, entry: Mapping[str, Any]) -> tuple[float, ...]:
     """Return an entry's box in shares of a side's picture."""
     u0, v0, u1, v1 = entry["box"]
     right = side.frame[0]
     if float(right.sum()) < 0.0:
         u0, u1 = 1.0 - u1, 1.0 - u0
-    return [u0, v0, u1, v1]
+    return u0, v0, u1, v1
 
 
-def _rows(entry: Mapping[str, Any], front: Side) -> list[_Row]:
+def _rows(entry: Mapping[str, Any], front: Side) -> list[Row]:
     """Return what an entry means on each side; a panel is on the side where the front is."""
     sides = _sides_of(entry["plane"])
     axis = np.array(entry["axis"] or [0.0, 0.0, 0.0], dtype=np.float64)
@@ -167,16 +176,16 @@ def _edge(
     return WAYS.index(edges[0] if low.pop() else edges[1])
 
 
-def _ignored(entry: Mapping[str, Any], sides: Sequence[Side]) -> list[_Row]:
+def _ignored(entry: Mapping[str, Any], sides: Sequence[Side]) -> list[Row]:
     return [(SIDES.index(each), _on(each, entry), Sort.OTHER, EITHER, True) for each in sides]
 
 
 def _lid_rows(
     entry: Mapping[str, Any], sides: Sequence[Side], hinges: Sequence[Mapping[str, float]]
-) -> list[_Row]:
+) -> list[Row]:
     """Return a lid on all sides on which it must be seen."""
     direction = _hinge_direction(hinges)
-    rows: list[_Row] = []
+    rows: list[Row] = []
     box = entry["box"]
     above = Side.TOP in sides
     wide = box[2] - box[0] >= WIDE
@@ -187,12 +196,12 @@ def _lid_rows(
         elif above:
             rows.append((view, WHOLE, Sort.OTHER, EITHER, True))
         elif side is Side.TOP:
-            shown = [box[0], 0.0, box[2], 1.0]
+            shown = box[0], 0.0, box[2], 1.0
             if sides[0] in (Side.LEFT, Side.RIGHT):
-                shown = [0.0, box[0], 1.0, box[2]]
+                shown = 0.0, box[0], 1.0, box[2]
             rows.append((view, shown, Sort.LID, way, not wide))
         else:
-            rows.append((view, [0.0, box[1], 1.0, box[3]], Sort.LID, way, not wide))
+            rows.append((view, (0.0, box[1], 1.0, box[3]), Sort.LID, way, not wide))
     return rows
 
 
@@ -211,7 +220,7 @@ def _hinge_direction(hinges: Sequence[Mapping[str, float]]) -> FloatArray | None
     return direction
 
 
-def _on_canvas(rows: Sequence[_Row], mesh: Mesh) -> Instances:
+def _on_canvas(rows: Sequence[Row], mesh: Mesh) -> Instances:
     sizes = mesh.extents / mesh.extents.max() * LONGEST
     table = np.zeros((len(rows), 10))
     for number, (view, box, sort, way, ignored) in enumerate(rows):

@@ -37,7 +37,7 @@ RATES = (5e-4, 1e-3)
 WARMING = 0.05
 #: Of a batch: real objects, real ones made one piece, objects of descriptions, generated ones made
 #: one piece; the rest is generated.
-SHARES = (0.19, 0.19, 0.06, 0.12)
+SHARES = (0.25, 0.25, 0.05, 0.12)
 #: Of the workers, those that make generated objects one piece; each takes five times as long.
 ONE_PIECE_WORKERS = 0.25
 #: Weights that are kept follow those that learn by this share a step.

@@ -154,7 +154,7 @@ def test_a_pack_keeps_objects_and_labels(tmp_path):
     textures = tmp_path / "textures"
     textures.mkdir()
     Image.new("RGB", (8, 8), (10, 200, 30)).save(textures / "green.jpg")
-    options = {"out": tmp_path / "pack.zip", "real": real, "textures": textures}
+    options = {"out": tmp_path / "pack.zip", "real": [real], "textures": textures}
     write_pack(Namespace(**options, described=None, one_piece=1, workers=1))
     packed, fused = read_pack(tmp_path / "pack.zip")
     assert not packed.one_piece

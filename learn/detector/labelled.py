@@ -1,0 +1,76 @@
+"""Labels of real meshes as their sides show them: ``labels/*.json``, by the mesh's name."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+import numpy as np
+
+from asset_factory.factory.models.detector.canvas import SIDES, WAYS, PanelWay, Sort
+from asset_factory.factory.views.raster import Side
+
+from .sides import way_toward
+
+LABELS = Path(__file__).with_name("labels")
+#: The way of a part that may be hinged at either edge.
+EITHER = -1
+Share = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
+#: A row: side, box in shares of its picture, sort, way, ignored.
+Row = tuple[int, tuple[float, ...], Sort, int, bool]
+
+
+class LabelledPart(msgspec.Struct, forbid_unknown_fields=True):
+    """A part on one side; a part that several sides show has an entry for each.
+
+    Attributes:
+        side: that shows it.
+        sort: what it is.
+        box: left, lower, right, upper edge in shares of the side's picture.
+        hinge: edge of a door or flap as its side shows it, side of the object of a lid; ``None``:
+            it has none, or nobody can tell.
+        unsure: that it opens so; nothing is learned there.
+    """
+
+    side: Side
+    sort: Sort
+    box: tuple[Share, Share, Share, Share]
+    hinge: str | None = None
+    unsure: bool = False
+
+    def row(self) -> Row:
+        """Return it as numbers."""
+        return SIDES.index(self.side), self.box, self.sort, self._way(), self.unsure
+
+    def _way(self) -> int:
+        if self.sort is Sort.DRAWER:
+            return WAYS.index(PanelWay.OUT)
+        if self.sort is Sort.CONTROL:
+            return WAYS.index(PanelWay.OTHER)
+        if self.hinge is None:
+            return EITHER
+        if self.sort is Sort.LID:
+            away = -Side(self.hinge).frame[2]
+            return WAYS.index(way_toward(np.asarray(away), self.side))
+        return WAYS.index(PanelWay(self.hinge))
+
+
+class LabelledObject(msgspec.Struct, forbid_unknown_fields=True):
+    """What a person sees of one mesh: its kind, whether anything opens, its front, its parts."""
+
+    kind: str
+    opens: bool
+    front: Side = Side.FRONT
+    parts: tuple[LabelledPart, ...] = ()
+
+
+@cache
+def labelled_objects() -> dict[str, LabelledObject]:
+    """Return what people saw of the meshes that were labelled so, by name."""
+    read = msgspec.json.Decoder(dict[str, LabelledObject]).decode
+    found: dict[str, LabelledObject] = {}
+    for each in sorted(LABELS.glob("*.json")):
+        found |= read(each.read_bytes())
+    return found
