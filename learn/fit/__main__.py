@@ -1,7 +1,7 @@
 """Fit the small networks that the maker ships: weights, and a card beside them.
 
     python -m asset_factory.learn.fit agreement configs/weights/agreement.safetensors \
-        --real FOLDER --data ROOT
+        --real FOLDER... --data ROOT
     python -m asset_factory.learn.fit motions configs/weights/evidence.safetensors
     python -m asset_factory.learn.fit trust configs/weights/trust.safetensors
 
@@ -96,7 +96,8 @@ def _agreement(asked: Asked) -> Fit:
         "panel that only the detector sees, and a lid. `factory/articulate/detected` asks them."
     )
     data = (
-        f"the meshes of {asked.real.name} that the detector did not learn from, as they are and "
+        f"the meshes of {' and '.join(folder.name for folder in asked.real)} that the detector did "
+        "not learn from, as they are and "
         "made one piece, and the objects of the develop half made one piece"
     )
     return Fit(stored, what, data, report(stored, rated))
@@ -112,7 +113,7 @@ def _parser() -> argparse.ArgumentParser:
     motions = commands.add_parser("motions", help="how evidence for motions weighs, usual ranges")
     trust = commands.add_parser("trust", help="in each source of auto")
     agreement = commands.add_parser("agreement", help="between the detector and others")
-    agreement.add_argument("--real", type=Path, required=True, help="folder of labelled meshes")
+    agreement.add_argument("--real", type=Path, nargs="+", required=True, help="labelled meshes")
     agreement.add_argument("--data", type=Path, required=True, help="root of the list's objects")
     named = ((agreement, _agreement), (motions, _motions), (trust, _trust))
     for command, fit in named:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +21,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.stated import Stated
 from asset_factory.factory.mesh import FloatArray, Mesh
 from asset_factory.factory.models.detector.canvas import SIDES, SORTS, STRIDE, Sort, look_at
-from asset_factory.factory.models.detector.decode import overlaps
+from asset_factory.factory.models.detector.decode import overlaps, shared_areas
 from asset_factory.factory.models.detector.detect import Detection, detect
 from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
@@ -57,7 +57,7 @@ class LabelledMesh:
     truth: Instances
 
 
-def labelled_meshes(real: Path, root: Path) -> Iterator[LabelledMesh]:
+def labelled_meshes(folders: Sequence[Path], root: Path) -> Iterator[LabelledMesh]:
     """Yield labelled real meshes that the detector did not see, as they are and made one piece.
 
     After them come the objects in ``root`` of the list's half to tune on, made one piece.
@@ -65,7 +65,8 @@ def labelled_meshes(real: Path, root: Path) -> Iterator[LabelledMesh]:
     Raises:
         ConfigError: an object of the list is not there.
     """
-    for seed, each in enumerate(real_objects(real, held_out=True)):
+    real = chain.from_iterable(real_objects(folder, held_out=True) for folder in folders)
+    for seed, each in enumerate(real):
         yield LabelledMesh(each.mesh, each.sides.instances)
         yield LabelledMesh(coloured_skin(each.mesh, seed), each.sides.instances)
     requests = real_requests(root, read_list(None), "develop")
@@ -176,7 +177,7 @@ def _right(
         known = here & wanted & ~truth.ignored
         if known.any() and float(overlaps(box, truth.box[known]).max()) >= SAME_PART:
             return True
-        unknown = here & truth.ignored
-        if unknown.any() and float(overlaps(box, truth.box[unknown]).max()) >= SAME_PART:
+        unknown = shared_areas(box, truth.box[here & truth.ignored])
+        if unknown.size and float(unknown.max()) >= SAME_PART * float(np.prod(box[2:] - box[:2])):
             return None
     return False
