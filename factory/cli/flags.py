@@ -130,11 +130,7 @@ def entries_where(registry: Registry, where: str, **defaults: str) -> Iterator[E
 
 
 def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
-    """Return the filters of ``--where``; a value that no asset has is told on stderr.
-
-    Raises:
-        ConfigError: it cannot be read, or asks for what no asset can be.
-    """
+    """Return the filters of ``--where``; a value that no asset has is told on stderr."""
     filters = parse_where(where, **defaults)
     if sentence := unknown_values(registry, filters):
         complain(f"factory: --where: {sentence}")
@@ -142,10 +138,7 @@ def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
 
 
 def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
-    """Return the configuration that flags ask for, of work ``here`` or on other machines.
-
-    Raises ConfigError: a bad flag.
-    """
+    """Return the configuration that flags ask for, of work ``here`` or on other machines."""
     from ..articulate.asking.endpoint import require_endpoint
     from ..articulate.settings import require_usable
     from ..intake.orientation import parse_up
@@ -215,8 +208,7 @@ def _published(flags: InputFlags) -> dict[str, str]:
 def simulators_named(names: str) -> tuple[str, ...]:
     """Parse simulators, comma-separated, or ``all``.
 
-    Raises:
-        ConfigError: one is unknown, or not installed; says what there is, or what installs it.
+    Raises ConfigError: one is unknown, or not installed; says what there is, or what installs it.
     """
     said = USUAL if names == "all" else names.split(",")
     chosen = tuple(dict.fromkeys(name.strip() for name in said if name.strip()))
@@ -254,8 +246,7 @@ def workers_fitting(asked: int | None, each: int) -> int:
 
     As many as there are processors are asked for by default; one may need ``each`` [bytes].
 
-    Raises:
-        ConfigError: fewer than one is asked for.
+    Raises ConfigError: fewer than one is asked for.
     """
     from ..jobs.memory import workers_for
 
@@ -272,8 +263,8 @@ def in_own_process(
 ) -> T | None:
     """Call a function of a file in a child process, within the limits on one asset.
 
-    Returns what it returned; ``None`` where no answer came, which is said.
-    Raises AssetFactoryError: what it raised.
+    Returns what it returned, and raises what it raised; ``None`` where no answer came, which is
+    said.
     """
     from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
@@ -321,12 +312,11 @@ def require_maniskill(purpose: str, *modules: str) -> None:
 
 def require_page(port: int) -> None:
     """Raise ConfigError where no page can be served: no such port, or a library is missing."""
-    from ..jobs.pages import missing_library
+    from ..jobs.pages import require_libraries
 
     if not 0 <= port < 2**16:
         raise ConfigError(f"--port must be 0 to 65535, not {port}")
-    if (missing := missing_library()) is not None:
-        raise ConfigError(missing)
+    require_libraries()
 
 
 def check_effort(command: Any, counts: Sequence[str]) -> None:

@@ -37,9 +37,7 @@ def run(command: ReportPages) -> int:
 def write_report(registry: Registry, workers: int | None) -> Path:
     """Draw what is to be drawn, and say on stderr what could not be; returns the first page.
 
-    Raises:
-        ConfigError: a library is missing.
-        RegistryError: the pages cannot be written.
+    Raises ConfigError where a library is missing, RegistryError where nothing can be written.
     """
     from asset_factory.sim_checks.processes.isolation import processors
 
@@ -48,13 +46,13 @@ def write_report(registry: Registry, workers: int | None) -> Path:
 
     try:
         with console.counted("drawing pages") as progress:
-            drawn = draw_pages(registry, workers or processors(), progress)
+            index, failed = draw_pages(registry, workers or processors(), progress)
     except OSError as error:
         where = error.filename or registry.root
         raise RegistryError(f"{where}: the report cannot be written: {error.strerror}") from error
-    for sentence in drawn.failed:
+    for sentence in failed:
         complain(f"factory: no page of {sentence}")
-    return drawn.index
+    return index
 
 
 def report_after(output: Path, workers: int | None) -> Path | None:

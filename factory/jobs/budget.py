@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -24,10 +25,8 @@ class Budget:
     Attributes:
         limit: inputs begun at most, those known from before not counted; ``None``: all.
         max_s: after so long none is begun, and running builds are stopped [s]. ``None``: no limit.
-        retry: reason codes; inputs rejected or left unjudged for one of them are built again.
-            ``any``: for any.
-        repair: every known input's files are compared with those published; damaged assets are
-            built again.
+        retry: reason codes, or ``any``; inputs without a pass for one of them are built again.
+        repair: known inputs' files are compared with those published; damaged ones are built again.
         damaged: ids of known inputs that are built again before all others, whatever their files
             say.
     """
@@ -53,24 +52,17 @@ class Budget:
 def parse_since(text: str, now: float | None = None) -> float:
     """Return a point in time [s since 1970].
 
-    Args:
-        text: seconds ago (``3600``), a date or a time (``2026-11-21``, ``2026-11-21T18:00``, local
-            unless it says otherwise), or a file: when that was last modified.
-        now: the present; by the clock if ``None``.
+    It is told as seconds ago (``3600``), a date or a time (``2026-11-21``, ``2026-11-21T18:00``,
+    local unless it says otherwise), or a file: when that was last modified.
 
-    Raises:
-        ConfigError: it is none of these.
+    Raises ConfigError: it is none of these.
     """
-    try:
+    with suppress(ValueError):
         ago = float(text)
-    except ValueError:
-        ago = float("nan")
-    if ago >= 0.0:
-        return (time() if now is None else now) - ago
-    try:
+        if ago >= 0.0:
+            return (time() if now is None else now) - ago
+    with suppress(ValueError):
         return datetime.fromisoformat(text).timestamp()
-    except ValueError:
-        pass
     try:
         return Path(text).stat().st_mtime
     except OSError as error:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import errno
 import hashlib
 import io
-import shutil
 import tarfile
-import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from asset_factory.sim_checks.processes.scratch import scratch
@@ -27,14 +26,10 @@ _NOWHERE = "/nowhere"
 
 @dataclass(frozen=True)
 class SentInput:
-    """What a node must know of an input beside its bytes.
+    """What a node must know of an input beside its bytes, whose SHA-256 is ``digest``.
 
-    Attributes:
-        argument: of the function, that is the input's path.
-        folder: name of its folder, from which a category may be guessed.
-        name: of its main file.
-        links: files that are links to outside its folder; the reader is to refuse them there too.
-        digest: SHA-256 of its bytes.
+    ``argument`` of the function is its path; from its folder's name a category may be guessed.
+    ``links`` are files that lead out of its folder; the reader is to refuse them there too.
     """
 
     argument: str
@@ -47,17 +42,16 @@ class SentInput:
     def unpacked(self, data: bytes) -> Iterator[Path]:
         """Yield the input's path on this machine, where it lies within this.
 
-        Raises:
-            ExchangeError: other bytes were sent.
-            OSError: there is no room for it.
+        Raises ExchangeError if other bytes were sent, OSError where there is no room.
         """
         if hashlib.sha256(data).hexdigest() != self.digest:
             raise ExchangeError("an input is not the one that was sent: its digest is another")
-        around = Path(tempfile.mkdtemp(prefix="input-", dir=scratch()))
-        # One folder more, for a folder may be called "..".
-        folder = around / "in" / self.folder
-        try:
-            (around / "in").mkdir()
+        with TemporaryDirectory(
+            prefix="input-", dir=scratch(), ignore_cleanup_errors=True
+        ) as around:
+            # One folder more, for a folder may be called "..".
+            folder = Path(around) / "in" / self.folder
+            (Path(around) / "in").mkdir()
             folder.mkdir(exist_ok=True)
             with tarfile.open(fileobj=io.BytesIO(data), mode="r:") as archive:
                 unpacked(archive, folder)
@@ -65,19 +59,13 @@ class SentInput:
                 (folder / name).parent.mkdir(parents=True, exist_ok=True)
                 (folder / name).symlink_to(_NOWHERE)
             yield folder / self.name
-        finally:
-            shutil.rmtree(around, ignore_errors=True)
 
 
 @dataclass(frozen=True)
 class PackedInput:
-    """An input as it was sent.
+    """An input as it was sent: what its receiver must know, and its files as a tar archive.
 
-    Attributes:
-        source: where it lies.
-        sent: what its receiver must know.
-        data: its files as a tar archive.
-        names: of all files that were looked for, relative to its folder.
+    ``names`` are all files that were looked for, relative to its folder.
     """
 
     source: Path
@@ -93,12 +81,9 @@ class PackedInput:
 
 @dataclass(frozen=True)
 class Inputs:
-    """How calls name their inputs.
+    """How calls name their inputs, and the place where an input lies for the caller.
 
-    Attributes:
-        argument: of the function, that is an input's path.
-        place: its argument that tells where the input lies for the caller.
-        reads: what a call's value says of the files that the input was made of.
+    ``reads`` tells from a call's value which files the input was made of.
     """
 
     argument: str
@@ -112,8 +97,7 @@ class Inputs:
     def packed(self, arguments: Mapping[str, Any], more: frozenset[str]) -> PackedInput:
         """Return an input with what it seems to refer to, and ``more`` that belongs to it.
 
-        Raises:
-            ValueError: it has too many bytes.
+        Raises ValueError: it has too many bytes.
         """
         source = Path(arguments[self.argument])
         names = companions(source, more)

@@ -31,12 +31,7 @@ a node has already.
 
 @dataclass(frozen=True)
 class Checkpoints:
-    """Which checkpoints calls may ask for.
-
-    Attributes:
-        argument: of the function, that tells where they lie.
-        names: as configurations name them.
-    """
+    """Which checkpoints calls may ask for, and the argument that tells where they lie."""
 
     argument: str
     names: tuple[str, ...]
