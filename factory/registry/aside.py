@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,12 +24,9 @@ _TABLES = (
 
 @dataclass(frozen=True)
 class InputNow:
-    """An input, and the asset that it is now.
+    """An input by the place of its main file, and the asset that it is now.
 
-    Attributes:
-        place: of its main file.
-        digest: of that file alone: a mesh in place of another is another input.
-        id: of the asset.
+    The digest is of that file alone: a mesh in place of another is another input.
     """
 
     place: Path
@@ -37,12 +35,10 @@ class InputNow:
 
 
 def keep_current(registry: Registry, inputs: Sequence[InputNow]) -> tuple[str, ...]:
-    """Note which asset each input is, and supersede those that no input is any more.
+    """Note which asset each input is; supersede, and return, those that no input is any more.
 
     The same mesh with a corrected sidecar is another asset, and the one before is wrong. Which
     input was which asset is noted in the database alone: where that is rebuilt, both stay.
-
-    Returns the ids of the superseded.
     """
     left: list[str] = []
     if not inputs:
@@ -76,10 +72,8 @@ def superseded(root: Path) -> tuple[Entry, ...]:
     """Return the entries of superseded assets, by id; what cannot be read is left out."""
     found = []
     for folder in sorted((root / SUPERSEDED).glob("*")):
-        try:
+        with suppress(RegistryError, ValueError, KeyError):
             found.append(entry_from(read_report(folder).entry))
-        except (RegistryError, ValueError, KeyError):
-            continue
     return tuple(found)
 
 

@@ -32,13 +32,9 @@ class EntryChange:
 class Diff:
     """What happened to whom; each group by id.
 
-    Attributes:
-        new: only after.
-        gone: only before.
-        newly_passed: passed after, not before.
-        newly_failed: passed before, not after; ``after.reason`` and ``after.message`` say why.
-        changed: passed or failed both times, with something else about it.
-        same: how many did not change.
+    Those in ``changed`` passed or failed both times, with something else about them; why others
+    newly failed, ``after.reason`` and ``after.message`` say. ``same`` counts those that did not
+    change.
     """
 
     new: tuple[Entry, ...] = ()

@@ -24,12 +24,7 @@ LOG_NAME = Path(LOGS) / "builds.jsonl"
 
 @dataclass(frozen=True)
 class LoggedBuild:
-    """An entry of the log on an asset's last build.
-
-    Attributes:
-        input: path of what it was made of, as it was given.
-        stages: time of each stage [s], by its name.
-    """
+    """An asset's last build: its input's path, as it was given, and the time of each stage [s]."""
 
     input: str
     stages: Mapping[str, float]
@@ -50,11 +45,7 @@ def logged_build(output: Path, asset_id: str) -> LoggedBuild | None:
 
 
 class Log:
-    """Appends to ``logs/builds.jsonl`` of a registry; several jobs may at once.
-
-    Args:
-        output: the registry's folder.
-    """
+    """Appends to ``logs/builds.jsonl`` of a registry; several jobs may at once."""
 
     def __init__(self, output: Path) -> None:
         path = output / LOG_NAME

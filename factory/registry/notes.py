@@ -26,11 +26,7 @@ _UNREADABLE = (
 class Note:
     """One asset's note.
 
-    Attributes:
-        tags: sorted.
-        solved: ``yes``, ``no`` or empty.
-        solved_files: :func:`fingerprint` of the files that the robot was given; others have not
-            been tried.
+    ``solved_files`` is the :func:`fingerprint` of the files that the robot had; others are untried.
     """
 
     tags: tuple[str, ...] = ()

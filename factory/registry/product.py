@@ -43,9 +43,6 @@ class Product:
     """The end of one build: its result, a report, and the folder that it is in.
 
     Attributes:
-        source: the input, as given.
-        result: its row, and how long it took.
-        told: its report.
         bundle: the finished bundle's folder, in the staging folder that was given; of a rejected
             one a folder of its model for pages, and ``None`` without.
         unloaded_ids: under which an earlier attempt may be listed that did not come so far as to
@@ -103,27 +100,17 @@ def _keep_shown(bundle: Path) -> None:
 
 
 def refused(
-    origin: Source, rejection: InputRejected, stages: Stages, shown: Path | None = None
+    origin: Source, why: InputRejected | Unjudged, stages: Stages, shown: Path | None = None
 ) -> Product:
-    """Return the product of an input that could not become an asset; ``shown`` is kept of it."""
-    finding = Finding(
-        code=rejection.code,
-        severity=Severity.ERROR,
-        message=rejection.message,
-        value=rejection.value,
-        unit=rejection.unit,
-        limit=rejection.limit,
-    )
-    entry, told = without_asset(origin, finding, Status.REJECTED)
-    return _product(origin, entry, told, shown, stages)
-
-
-def stopped(
-    origin: Source, unjudged: Unjudged, stages: Stages, shown: Path | None = None
-) -> Product:
-    """Return the product of an input that got no verdict; ``shown`` is kept of it."""
-    entry, told = without_asset(origin, unjudged.finding, Status.UNJUDGED)
-    return _product(origin, entry, told, shown, stages)
+    """Return the product of an input that became no asset; ``shown`` is kept of it."""
+    if isinstance(why, Unjudged):
+        finding = why.finding
+    else:
+        told = (why.code, Severity.ERROR, why.message)
+        finding = Finding(*told, value=why.value, unit=why.unit, limit=why.limit)
+    status = Status.UNJUDGED if isinstance(why, Unjudged) else Status.REJECTED
+    entry, report = without_asset(origin, finding, status)
+    return _product(origin, entry, report, shown, stages)
 
 
 def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Entry, BuildReport]:

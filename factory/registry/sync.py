@@ -26,14 +26,7 @@ _BEFORE_INDEX = (ASSETS, REJECTED, NOTES)
 
 @dataclass
 class Synced:
-    """What a synchronisation came to.
-
-    Attributes:
-        files: at the URL now.
-        sent: of those, sent this time.
-        removed: that were there and are none of the registry's any more.
-        bytes: sent [bytes].
-    """
+    """Files at a URL after a synchronisation; those sent and removed by it; bytes sent."""
 
     files: int = 0
     sent: int = 0
@@ -73,12 +66,7 @@ def sync(files: Iterable[tuple[str, bytes]], url: str) -> Synced:
 
 @dataclass
 class _Sync:
-    """One run.
-
-    Attributes:
-        system, root: where files go.
-        there: files at first: path below the root -> entry of the listing.
-    """
+    """One run; ``there`` are the files at first: path below the root -> entry of the listing."""
 
     system: Any
     root: str

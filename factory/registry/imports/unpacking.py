@@ -33,13 +33,7 @@ _MAX_SUMS = 2_000_000_000
 
 @dataclass(frozen=True)
 class ImportLimits:
-    """At most so much.
-
-    Attributes:
-        total_bytes: of all files together [bytes].
-        file_bytes: of one file [bytes].
-        files: how many.
-    """
+    """At most so many bytes in all, bytes of one file, and files."""
 
     total_bytes: int = 200_000_000_000
     file_bytes: int = 4_000_000_000
@@ -74,9 +68,7 @@ class Tally:
 
 
 def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
-    """Copy an export's files.
-
-    ``source`` is a folder, or a .tar or .tar.gz file; ``target`` an empty folder.
+    """Copy the files of an export, a folder or a .tar or .tar.gz file, into an empty folder.
 
     Raises:
         RegistryError: it is no export, too large, or has something that no export has: links,
