@@ -31,13 +31,7 @@ _MAX_HEADER_LINES = 1000
 
 @dataclass
 class PlyElement:
-    """One announced table.
-
-    Attributes:
-        name: e.g. ``vertex``.
-        count: rows.
-        properties: name, type, and for a list the type of its length.
-    """
+    """One announced table; a property is its name, its type, and for a list its length's type."""
 
     name: str
     count: int
@@ -46,13 +40,9 @@ class PlyElement:
 
 @dataclass(frozen=True)
 class PlyHeader:
-    """What a file announces.
+    """What a file announces: elements in the order of the body, and where that begins [bytes].
 
-    Attributes:
-        elements: in the order of the body.
-        order: ``<`` or ``>``, ``None`` for text.
-        texture: the image named by a ``TextureFile`` comment.
-        start: where the body begins [bytes].
+    ``order`` is ``<`` or ``>``, ``None`` for text; a ``TextureFile`` comment names the texture.
     """
 
     elements: list[PlyElement]
@@ -237,12 +227,9 @@ _NONE: IntArray = np.zeros(0, dtype=np.int64)
 
 @dataclass(frozen=True)
 class _Triangles:
-    """Triangles of fanned polygons.
+    """Triangles of fanned polygons, of so many corners each.
 
-    Attributes:
-        vertices: of each triangle, shape [n, 3].
-        slots: their places in the flat list of polygon corners, shape [n, 3].
-        lengths: corners of each polygon.
+    ``slots`` are their places in the flat list of polygon corners, shape [n, 3].
     """
 
     vertices: IntArray
@@ -251,11 +238,7 @@ class _Triangles:
 
 
 def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Return the triangles of a PLY file, in the file's own frame and units.
-
-    Raises:
-        InputRejected: ``unreadable``, ``too_large``, or ``external_reference`` for its texture.
-    """
+    """Return the triangles of a PLY file, in the file's own frame and units."""
     header = read_header(data, path.name)
     entries = sum(max(element.count, 0) for element in header.elements)
     most = _ENTRIES_PER_FACE * files.limits.max_faces
@@ -337,11 +320,8 @@ def _coloured(
         colors = _columns(table, _RGB, rows)
         if colors is not None and len(colors):
             full = 255.0 if colors.max() > 1.0 else 1.0
-            red, green, blue = (round(float(c), 6) for c in _linear(colors / full).mean(axis=0))
+            linear = linear_of(np.clip(np.nan_to_num(colors / full), 0.0, 1.0))
+            red, green, blue = (round(float(c), 6) for c in linear.mean(axis=0))
             notes.append("The colours of vertices or faces were averaged to one colour.")
             return Material("default", (red, green, blue, 1.0))
     return Material("default")
-
-
-def _linear(srgb: FloatArray) -> FloatArray:
-    return linear_of(np.clip(np.nan_to_num(srgb), 0.0, 1.0))

@@ -35,10 +35,6 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
     """Return every link's visuals and every joint of a URDF, in the root link's frame.
 
     What ``path`` refers to lies in or below its folder.
-
-    Raises:
-        InputRejected: ``not_a_tree``, ``unsupported_joint``, ``missing_file``,
-            ``external_reference``, ``unreadable``, ``too_large``.
     """
     links = robot.findall("link")
     for what, elements in (("links", links), ("joints", robot.findall("joint"))):
@@ -199,7 +195,6 @@ def _mimic(element: ET.Element) -> Mimic | None:
 
 def _number(element: ET.Element | None, attribute: str) -> float | None:
     """Return a number that may be absent; one that cannot be read is as good as none."""
-    try:
+    with suppress(ValueError):
         return None if element is None else float(element.get(attribute, ""))
-    except ValueError:
-        return None
+    return None
