@@ -62,7 +62,6 @@ class SceneJoint:
     """A joint, as URDF has it.
 
     Attributes:
-        name: unique in the scene.
         kind: ``revolute``, ``continuous``, ``prismatic`` or ``fixed``.
         parent, child: indices of links, parents first.
         origin: child frame in the parent frame at value 0, shape [4, 4].
@@ -113,10 +112,8 @@ class SceneGraph:
     """An articulated object, ready to be shown.
 
     Attributes:
-        name: of the object.
         links: names, root first, parents before children.
         joints: parents first; each link but the root is the child of one.
-        visuals: visible surfaces.
         hulls: convex pieces, what engines collide with.
         replaced: those that repairs took away or made otherwise.
     """
@@ -136,12 +133,8 @@ class SceneGraph:
             seen.add(joint.child)
         if len(seen) != len(self.links):
             raise ValueError(f"{len(self.links) - len(seen)} links hang on no joint")
-        if any(surface.link not in seen for surface in self._surfaces):
+        if any(each.link not in seen for each in (*self.visuals, *self.hulls, *self.replaced)):
             raise ValueError("a surface is on no link")
-
-    @property
-    def _surfaces(self) -> tuple[SceneSurface, ...]:
-        return (*self.visuals, *self.hulls, *self.replaced)
 
     @cached_property
     def movable(self) -> tuple[SceneJoint, ...]:
@@ -184,10 +177,8 @@ class SceneGraph:
 def put_together(name: str, scenes: Mapping[str, tuple[SceneGraph, FloatArray]]) -> SceneGraph:
     """Return several objects as one, on a root link ``ground``; hulls are left out.
 
-    Args:
-        name: of the whole.
-        scenes: each with the pose of its root, shape [4, 4], by a name that becomes the beginning
-            of its links' and joints' names: ``robot/elbow``.
+    Each comes with the pose of its root, shape [4, 4], by a name that becomes the beginning of its
+    links' and joints' names: ``robot/elbow``.
     """
     links = ["ground"]
     joints = []

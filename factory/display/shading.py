@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
+from PIL import Image
 from scipy.ndimage import binary_dilation, uniform_filter
 
 from ..geometry.colors import linear_of, srgb_of
@@ -41,11 +42,9 @@ _SHOWN = np.round(255.0 * srgb_of(np.linspace(0.0, 1.0, _BANDS))).astype(np.uint
 
 @dataclass(frozen=True)
 class Coloring:
-    """How faces are coloured.
+    """How faces are coloured: in their own colours, unless ``tints`` has others.
 
-    Attributes:
-        caster: of the rays.
-        tints: linear RGB by link and surface, in place of their own; ``None``: their own.
+    Those are linear RGB by link and surface.
     """
 
     caster: Caster
@@ -54,12 +53,10 @@ class Coloring:
 
 @dataclass(frozen=True)
 class Painted:
-    """A picture before its corners are darkened.
+    """A picture before its corners are darkened, and what the middles of its pixels met.
 
-    Attributes:
-        hits: of the middles of all pixels.
-        color: linear RGB multiplied by alpha, and alpha, shape [pixels, 4].
-        ends: pixels where a link ends before another, shape [pixels].
+    ``color`` is linear RGB multiplied by alpha, and alpha, shape [pixels, 4]; ``ends`` are the
+    pixels where a link ends before another, shape [pixels].
     """
 
     hits: Hits
@@ -185,8 +182,6 @@ def _albedo(surface: SceneSurface, faces: npt.NDArray[np.int32], weights: FloatR
 @lru_cache(maxsize=16)
 def _texels(image: bytes) -> FloatRows | None:
     """Return the linear RGB of an image, shape [height, width, 3]; ``None``: it is broken."""
-    from PIL import Image
-
     try:
         with Image.open(io.BytesIO(image), formats=("PNG", "JPEG")) as opened:
             opened.draft("RGB", (512, 512))
@@ -205,9 +200,7 @@ def _borders(hits: Hits, shape: tuple[int, int]) -> npt.NDArray[np.bool_]:
     normal = hits.normal.reshape(*shape, 3)
     ends = np.zeros(shape, dtype=bool)
     bends = np.zeros(shape, dtype=bool)
-    for axis in (0, 1):
-        first = (slice(None, -1), slice(None)) if axis == 0 else (slice(None), slice(None, -1))
-        second = (slice(1, None), slice(None)) if axis == 0 else (slice(None), slice(1, None))
+    for first, second in ((np.s_[:-1], np.s_[1:]), (np.s_[:, :-1], np.s_[:, 1:])):
         both = (link[first] >= 0) & (link[second] >= 0)
         other = link[first] != link[second]
         turn = np.einsum("ijk,ijk->ij", normal[first], normal[second]) < 0.85

@@ -21,14 +21,7 @@ from .text import write_text
 
 @dataclass(frozen=True)
 class Bundle:
-    """The files written.
-
-    Attributes:
-        folder: holds everything; nothing in it points outside.
-        urdf, mjcf: the two descriptions.
-        manifest: the content of ``asset.json``.
-        layout: what all of it says.
-    """
+    """The files written into a folder, and what all of them say; nothing in it points outside."""
 
     folder: Path
     urdf: Path

@@ -37,12 +37,9 @@ INERTIA_CELLS = {
 
 @dataclass(frozen=True)
 class LinkFiles:
-    """Everything that one link's elements say, besides the asset itself.
+    """The name of a link in every description, its visual pieces, and OBJ files of its hulls.
 
-    Attributes:
-        name: of the link, the same in URDF, MJCF and manifest.
-        visuals: see :class:`VisualPiece`.
-        collisions: OBJ files, one per hull, relative to the bundle.
+    The files are relative to the bundle.
     """
 
     name: str
@@ -54,12 +51,8 @@ class LinkFiles:
 class Layout:
     """An asset whose meshes lie in its bundle folder, ready to be described.
 
-    Attributes:
-        asset: to describe.
-        links: one per part.
-        resistances: one per joint.
-        excluded_pairs: names of links whose contacts MuJoCo is told to ignore.
-        notes: losses and changes on the way, one sentence each.
+    ``links`` has one for each part, ``resistances`` one for each joint; MuJoCo is told to ignore
+    contacts of ``excluded_pairs`` of links. ``notes`` are losses and changes on the way.
     """
 
     asset: Asset
@@ -70,11 +63,7 @@ class Layout:
 
 
 def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], ...]) -> Layout:
-    """Write all meshes of ``asset`` below ``folder``.
-
-    Raises:
-        ValueError: an excluded pair names a part that is not there.
-    """
+    """Write all meshes of ``asset`` below ``folder``; excluded pairs are names of parts."""
     for subfolder in (VISUAL_FOLDER, COLLISION_FOLDER):
         (folder / subfolder).mkdir(parents=True)
     textures = TextureFolder(folder / VISUAL_FOLDER)
@@ -84,7 +73,7 @@ def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], .
     links = tuple(map(LinkFiles, names, visuals, hulls))
     resistances = joint_resistances(asset)
     notes = (*textures.notes, *resistance_notes(asset, resistances))
-    return Layout(asset, links, resistances, _pairs(asset, names, excluded_pairs), notes)
+    return Layout(asset, links, resistances, _sorted(excluded_pairs, names), notes)
 
 
 def child_offset(articulation: Articulation, part: int) -> FloatArray:
@@ -117,14 +106,12 @@ def _write_hulls(asset: Asset, part: int, folder: Path) -> tuple[Path, ...]:
     return tuple(files)
 
 
-def _pairs(
-    asset: Asset, names: tuple[str, ...], pairs: tuple[tuple[str, str], ...]
+def _sorted(
+    pairs: tuple[tuple[str, str], ...], names: tuple[str, ...]
 ) -> tuple[tuple[str, str], ...]:
-    link_of = {part.name: name for part, name in zip(asset.articulation.parts, names, strict=True)}
     for pair in pairs:
         for name in pair:
-            if name not in link_of:
-                known = sorted(link_of)
+            if name not in names:
+                known = sorted(names)
                 raise ValueError(f"excluded pair {pair}: no part {name!r}; there are {known}")
-    linked = ((link_of[first], link_of[second]) for first, second in pairs)
-    return tuple(sorted({(min(pair), max(pair)) for pair in linked}))
+    return tuple(sorted({(min(pair), max(pair)) for pair in pairs}))

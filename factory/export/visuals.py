@@ -11,6 +11,7 @@ import numpy as np
 from PIL import Image
 
 from ..asset import Asset
+from ..intake.images import encode_png
 from ..mesh import IntArray, Material, Mesh, Texture
 from .meshes import material_mtl, visual_obj
 from .text import write_text
@@ -22,10 +23,8 @@ PLAIN_MODES = frozenset({"L", "RGB", "RGBA"})
 class TextureFolder:
     """Writes each image once and remembers where.
 
-    MuJoCo reads no JPEG, so everything becomes PNG: one file serves all simulators.
-
-    Attributes:
-        notes: a sentence per image that could not be decoded; its material stays a plain colour.
+    MuJoCo reads no JPEG, so everything becomes PNG: one file serves all simulators. ``notes`` has a
+    sentence per image that could not be decoded; its material stays a plain colour.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -57,17 +56,13 @@ class TextureFolder:
 def png_bytes(texture: Texture) -> bytes:
     """Return the image as an 8-bit PNG; a PNG that already is one keeps its bytes.
 
-    Raises:
-        OSError, ValueError, SyntaxError: Pillow cannot decode it.
+    Raises OSError, ValueError, SyntaxError: Pillow cannot decode it.
     """
     with Image.open(io.BytesIO(texture.data)) as image:
         image.load()
         if image.format == "PNG" and image.mode in PLAIN_MODES:
             return texture.data
-        transparent = image.mode in ("RGBA", "LA", "PA") or "transparency" in image.info
-        buffer = io.BytesIO()
-        image.convert("RGBA" if transparent else "RGB").save(buffer, format="PNG", compress_level=6)
-    return buffer.getvalue()
+        return encode_png(image)
 
 
 VISUAL_FOLDER = Path("meshes/visual")
@@ -77,13 +72,9 @@ VISUAL_FOLDER = Path("meshes/visual")
 class VisualPiece:
     """One visual file: MuJoCo takes one material per mesh, so nobody gets more.
 
-    Attributes:
-        name: unique in the asset; starts with ``handle_`` for handle geometry, by which ManiSkill
-            finds it.
-        file: OBJ, relative to the bundle.
-        mesh: its content, object frame at rest [m].
-        material: how it looks.
-        texture: PNG, relative to the bundle; ``None`` for a plain colour.
+    Its name is unique in the asset, and starts with ``handle_`` for handle geometry, by which
+    ManiSkill finds it. ``mesh`` is the content of the OBJ, object frame at rest [m]; both files, of
+    which the texture is PNG and ``None`` for a plain colour, are relative to the bundle.
     """
 
     name: str
