@@ -21,15 +21,10 @@ PATIENCE_S = 10.0
 
 @dataclass
 class BuildRun:
-    """A build, under way or ended.
+    """A build, under way or ended; its process leads a group of its own.
 
-    Attributes:
-        process: of ``factory build``, leader of a group of its own.
-        errors: what it complains of.
-        asset: id of what it registered, or rejected; empty as long as there is none.
-        said: why there is none, once it has ended without.
-        stopped: whether it was killed.
-        follower: reads what it prints.
+    ``asset`` is the id of what it registered, or rejected, empty as long as there is none; ``said``
+    is why there is none, once it has ended without. The follower reads what it prints.
     """
 
     process: subprocess.Popen[str]
@@ -41,11 +36,7 @@ class BuildRun:
 
 
 class Builds:
-    """Runs ``factory build`` with the flags that a page was opened with.
-
-    Args:
-        arguments: of the command line, after ``factory``; with ``--json``.
-    """
+    """Runs ``factory build`` with the flags of a page; ``--json`` is one of them."""
 
     def __init__(self, arguments: tuple[str, ...]) -> None:
         self._arguments = arguments

@@ -28,12 +28,9 @@ _ABOVE = {Hinge.TOP: Hinge.BACK, Hinge.BOTTOM: Hinge.FRONT}
 
 
 def found_parts(mesh: Mesh, scene: SceneGraph, kinds: Mapping[str, PartKind]) -> Stated:
-    """Return the moving parts of an object as somebody would state them.
+    """Return the moving parts of an object as somebody would state them, its front being -Y.
 
-    Args:
-        mesh: that they are stated of, front -Y.
-        scene: with its links, in the same frame.
-        kinds: of links, where they are known.
+    ``scene`` has its links, in the mesh's frame; ``kinds`` are those of links where they are known.
     """
     boxes = _link_boxes(scene)
     carried = {joint.child: joint.parent for joint in scene.movable if joint.child in boxes}
@@ -90,14 +87,11 @@ def _part(
 def _side(mesh: Mesh, box: FloatArray, joint: SceneJoint, axis: FloatArray, kind: PartKind) -> Side:
     """Return the side on which a part is seen best: where it slides, looks, or is turned."""
     off = box.mean(axis=0) - mesh.bounds.mean(axis=0)
-    if joint.kind == "prismatic":
-        direction = axis
-    elif kind in _HINGED:
-        direction = np.eye(3)[int((box[1] - box[0]).argmin())]
-    else:
-        direction = axis
-    if joint.kind != "prismatic" and direction @ off < 0.0:
-        direction = -direction
+    direction = axis
+    if not joint.slides:
+        if kind in _HINGED:
+            direction = np.eye(3)[int((box[1] - box[0]).argmin())]
+        direction = -direction if direction @ off < 0.0 else direction
     side = side_facing(direction)
     return Side.FRONT if side is Side.BOTTOM else side
 

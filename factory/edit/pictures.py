@@ -22,14 +22,10 @@ _STEP = 0.008
 
 @dataclass(frozen=True)
 class SidePicture:
-    """One side, drawn.
+    """One side as PNG, transparent where nothing is, of so many columns and rows.
 
-    Attributes:
-        side: which.
-        png: transparent where nothing is.
-        size: columns and rows [pixels].
-        frame: left, lower, right and upper end of the mesh, in shares of the picture: what the
-            shares of a stated box are shares of.
+    ``frame`` is the left, lower, right and upper end of the mesh, in shares of the picture: what
+    the shares of a stated box are shares of.
     """
 
     side: Side

@@ -1,4 +1,7 @@
-"""Work on an edited mesh, in a child process: a file of anybody's may take any time."""
+"""Work on an edited mesh, in a child process: a file of anybody's may take any time.
+
+Whatever it raises is an AssetFactoryError that says why.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +22,6 @@ from ..config import BuildConfig
 from ..display.glb import glb_of, read_model, scene_from
 from ..display.made import scene_of_articulation, scene_of_mesh
 from ..errors import ConfigError, InputRejected
-from ..export.manifest import Manifest
 from ..intake.intake import Intake
 from ..intake.loading import load_mesh
 from ..intake.stated import Stated
@@ -37,12 +39,10 @@ PREVIEW_NAME = "stated.{}"
 
 @dataclass(frozen=True)
 class OpenedMesh:
-    """A mesh as the page shows it first.
+    """A mesh as the page shows it first: a GLB, nothing of which moves.
 
-    Attributes:
-        model: GLB of it, nothing of which moves.
-        found: parts that were made of it before, as a statement's JSON data; empty if there are
-            none, or nobody can say where.
+    ``found`` are parts that were made of it before, as a statement's JSON data; empty if there are
+    none, or nobody can say where.
     """
 
     model: bytes
@@ -51,28 +51,14 @@ class OpenedMesh:
 
 @dataclass(frozen=True)
 class ShownVerdict:
-    """What became of a build.
-
-    Attributes:
-        model: GLB of the asset; empty without.
-        told: for the page, JSON data.
-    """
+    """What became of a build: GLB of the asset, empty without, and JSON data for the page."""
 
     model: bytes
     told: dict[str, Any]
 
 
 def open_mesh(mesh: Path, config: BuildConfig, asset: Path | None) -> OpenedMesh:
-    """Load a mesh, and the asset made of it.
-
-    Args:
-        mesh: its file.
-        config: how it is read.
-        asset: the folder of the asset made of it, if that is known.
-
-    Raises:
-        InputRejected: it cannot be loaded.
-    """
+    """Load a mesh, and what its asset's folder shows, if that is known."""
     intake = _loaded(mesh, config)
     model = glb_of(scene_of_mesh(intake.name, intake.mesh))
     return OpenedMesh(model, {} if asset is None else _found_in(asset, intake))
@@ -89,11 +75,7 @@ def look(mesh: Path, config: BuildConfig, front: str) -> None:
 
 
 def preview(mesh: Path, config: BuildConfig, stated: Stated) -> bytes:
-    """Return a GLB of the parts as they are stated, without solids; links: ``PREVIEW_NAME``.
-
-    Raises:
-        InputRejected: a stated part is not found.
-    """
+    """Return a GLB of the parts as they are stated, without solids; links: ``PREVIEW_NAME``."""
     intake = _loaded(mesh, config)
     seen = _seen(mesh, config, stated.front)
     named = [
@@ -125,11 +107,7 @@ def guess(mesh: Path, config: BuildConfig) -> dict[str, Any]:
 
 
 def verdict_of(output: Path, asset_id: str) -> ShownVerdict:
-    """Return what the registry says of a build.
-
-    Raises:
-        RegistryError: it is not there, or cannot be read.
-    """
+    """Return what the registry says of a build."""
     entry = Registry(output).entry(asset_id)
     page = asset_page(output, entry)
     groups = [
@@ -170,13 +148,10 @@ def _found_in(asset: Path, intake: Intake) -> dict[str, Any]:
         scene = scene_from(read_model(asset / MODEL))
     except (OSError, ValueError):
         return {}
-    return _plain(found_parts(intake.mesh, scene, _kinds(manifest)))
-
-
-def _kinds(manifest: Manifest | None) -> dict[str, PartKind]:
     proposed = {} if manifest is None else manifest.proposed
-    known = set(PartKind)
-    return {name: PartKind(each.kind) for name, each in proposed.items() if each.kind in known}
+    told = {name: each.kind for name, each in proposed.items()}
+    kinds = {name: PartKind(kind) for name, kind in told.items() if kind in set(PartKind)}
+    return _plain(found_parts(intake.mesh, scene, kinds))
 
 
 def _plain(stated: Stated) -> dict[str, Any]:

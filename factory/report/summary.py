@@ -23,12 +23,9 @@ class JobState(StrEnum):
 
 @dataclass(frozen=True)
 class Summary:
-    """What a job did.
+    """What a job did: a result for each input, in any order, and how it ended.
 
-    Attributes:
-        results: one per input, in any order.
-        state: how the job ended.
-        left: inputs that were not begun, or not finished when it was interrupted.
+    ``left`` counts inputs that were not begun, or not finished when it was interrupted.
     """
 
     results: tuple[Result, ...]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from http import HTTPStatus
 from pathlib import Path, PurePosixPath
@@ -28,8 +29,7 @@ def page_of_file(path: Path, live: bool = False) -> str:
 
     If ``live``, it is served, and other files may be dropped on it.
 
-    Raises:
-        InputRejected: it cannot be shown, with a reason code.
+    Raises InputRejected: it cannot be shown, with a reason code.
     """
     if not path.exists():
         raise InputRejected("missing_file", f"{path.name}: no such file")
@@ -57,11 +57,9 @@ def _model(path: Path) -> bytes:
     if path.is_dir():
         raise InputRejected("missing_file", f"{path.name}: no {MODEL} or {URDF} in this folder")
     if path.suffix.lower() == ".glb":
-        try:
+        # A GLB without joints of ours is a mesh.
+        with suppress(OSError, ValueError):
             return read_model(path)
-        except (OSError, ValueError):
-            # A GLB without joints of ours is a mesh.
-            pass
     return glb_of(scene_of_file(path))
 
 
@@ -73,10 +71,8 @@ TEXT = "text/plain; charset=utf-8"
 class DroppedFiles:
     """Answers for the page of a file, and then of whatever is dropped on it.
 
-    Args:
-        page: the first one, HTML.
-        draw: returns the page of a file, or ``None`` where no answer came; raises
-            AssetFactoryError with a sentence.
+    ``draw`` returns the page of a file, or ``None`` where no answer came; raises AssetFactoryError
+    with a sentence.
     """
 
     def __init__(self, page: str, draw: Callable[[Path], str | None]) -> None:
@@ -101,15 +97,12 @@ class DroppedFiles:
 
 
 def unpack_drop(body: bytes, folder: Path) -> Path:
-    """Write dropped files into a folder; return the one to be shown, descriptions first.
+    """Write dropped files into an empty folder; return the one to be shown, descriptions first.
 
-    Args:
-        body: a line of JSON with names and sizes, ``[["robot/arm.urdf", 120], ...]``, then the
-            bytes of all.
-        folder: an empty one.
+    ``body`` is a line of JSON with names and sizes, ``[["robot/arm.urdf", 120], ...]``, then the
+    bytes of all.
 
-    Raises:
-        ConfigError: these are no files, or there is none among them that can be shown.
+    Raises ConfigError: these are no files, or there is none among them that can be shown.
     """
     head, _, rest = body.partition(b"\n")
     try:

@@ -76,11 +76,7 @@ def _films(names: Sequence[str], entry: Entry) -> Sequence[str]:
 
 
 def write_asset(root: Path, entry: Entry) -> None:
-    """Write the page of one asset with its pictures and model; its row, last, says it is whole.
-
-    Raises:
-        OSError: the site cannot be written.
-    """
+    """Write the page of one asset with its pictures and model; its row, last, says it is whole."""
     folder = root / PAGES / _ASSETS / entry.id
     folder.mkdir(parents=True, exist_ok=True)
     films = _films(_all_films(root), entry)
@@ -103,11 +99,7 @@ def write_asset(root: Path, entry: Entry) -> None:
 
 
 def write_index(registry: Registry) -> Path:
-    """Write the grid, the plain lists and the contact sheet of all pages; returns the first page.
-
-    Raises:
-        OSError: the site cannot be written.
-    """
+    """Write grid, plain lists and contact sheet of all pages; returns the first page."""
     site = registry.root / PAGES
     site.mkdir(parents=True, exist_ok=True)
     for name in STATIC_FILES:

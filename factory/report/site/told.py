@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from itertools import groupby
 from pathlib import Path, PurePath
@@ -44,14 +45,7 @@ class FindingTold:
 
 @dataclass(frozen=True)
 class FindingGroup:
-    """Findings of one code and severity, and what the code means.
-
-    Attributes:
-        code: of all.
-        severity: ``error``, ``warning`` or ``note``.
-        meaning: of the code.
-        findings: all of them.
-    """
+    """Findings of one code and severity, and what the code means."""
 
     code: str
     severity: Severity
@@ -65,13 +59,10 @@ class AssetPage:
 
     Attributes:
         entry: its row; of a file that is only viewed, one made for it.
-        report: what the validator said.
         scene: what is shown; ``None`` where there is no model.
         manifest: ``asset.json``; ``None`` where there is none that can be read.
         findings: errors first.
         hypotheses: sentences on other hypotheses of the input.
-        repairs: what was changed.
-        places: poses and points that findings lead to.
         data: for the page's script, JSON data.
         folder: link to the asset's own folder; empty without one.
         registry: name of its registry's folder.
@@ -144,8 +135,7 @@ def about(entry: Entry) -> str:
 def asset_page(root: Path, entry: Entry) -> AssetPage:
     """Return what the page of a registered asset says.
 
-    Raises:
-        RegistryError: its report cannot be read.
+    Raises RegistryError: its report cannot be read.
     """
     place = ASSETS if entry.status is Status.PASSED else REJECTED
     folder = root / place / entry.id
@@ -231,11 +221,8 @@ def _told(stored: StoredReport) -> BuildReport:
 
 def _model(folder: Path) -> bytes:
     """Return the model of an asset; of one that was published without, what its URDF shows."""
-    try:
+    with suppress(OSError, ValueError):
         return read_model(folder / MODEL)
-    except (OSError, ValueError):
-        pass
-    try:
+    with suppress(OSError, ValueError, InputRejected):
         return glb_of(scene_of_file(folder / URDF))
-    except (OSError, ValueError, InputRejected):
-        return b""
+    return b""
