@@ -42,13 +42,7 @@ from . import (
 
 @dataclass(frozen=True)
 class Command:
-    """A command.
-
-    Attributes:
-        name: what is typed after ``factory``.
-        flags: a dataclass; its docstring is the help.
-        run: does it; returns the exit code.
-    """
+    """What is typed after ``factory``, its flags, whose docstring is the help, and what does it."""
 
     name: str
     flags: type[Any]
