@@ -42,7 +42,13 @@ from . import (
 
 @dataclass(frozen=True)
 class Command:
-    """What is typed after ``factory``, its flags, whose docstring is the help, and what does it."""
+    """A command.
+
+    Attributes:
+        name: what is typed after ``factory``.
+        flags: a dataclass; its docstring is the help.
+        run: does it; returns the exit code.
+    """
 
     name: str
     flags: type[Any]

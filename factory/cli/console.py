@@ -58,7 +58,9 @@ def follow(
     """Collect results as they come, showing a progress bar on a terminal and plain lines elsewhere.
 
     What was known from before is counted, not told one by one; rate and time left are those of the
-    rest. ``collected`` is given each, so that an interruption loses none.
+    rest.
+
+    ``collected`` is given each, so that an interruption loses none.
     """
     console = Terminal(stderr=True, quiet=quiet)
     if console.is_terminal:

@@ -130,7 +130,11 @@ def entries_where(registry: Registry, where: str, **defaults: str) -> Iterator[E
 
 
 def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
-    """Return the filters of ``--where``; a value that no asset has is told on stderr."""
+    """Return the filters of ``--where``; a value that no asset has is told on stderr.
+
+    Raises:
+        ConfigError: it cannot be read, or asks for what no asset can be.
+    """
     filters = parse_where(where, **defaults)
     if sentence := unknown_values(registry, filters):
         complain(f"factory: --where: {sentence}")
@@ -138,7 +142,10 @@ def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
 
 
 def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
-    """Return the configuration that flags ask for, of work ``here`` or on other machines."""
+    """Return the configuration that flags ask for, of work ``here`` or on other machines.
+
+    Raises ConfigError: a bad flag.
+    """
     from ..articulate.asking.endpoint import require_endpoint
     from ..articulate.settings import require_usable
     from ..intake.orientation import parse_up
@@ -208,7 +215,8 @@ def _published(flags: InputFlags) -> dict[str, str]:
 def simulators_named(names: str) -> tuple[str, ...]:
     """Parse simulators, comma-separated, or ``all``.
 
-    Raises ConfigError: one is unknown, or not installed; says what there is, or what installs it.
+    Raises:
+        ConfigError: one is unknown, or not installed; says what there is, or what installs it.
     """
     said = USUAL if names == "all" else names.split(",")
     chosen = tuple(dict.fromkeys(name.strip() for name in said if name.strip()))
@@ -246,7 +254,8 @@ def workers_fitting(asked: int | None, each: int) -> int:
 
     As many as there are processors are asked for by default; one may need ``each`` [bytes].
 
-    Raises ConfigError: fewer than one is asked for.
+    Raises:
+        ConfigError: fewer than one is asked for.
     """
     from ..jobs.memory import workers_for
 

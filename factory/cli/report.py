@@ -37,7 +37,9 @@ def run(command: ReportPages) -> int:
 def write_report(registry: Registry, workers: int | None) -> Path:
     """Draw what is to be drawn, and say on stderr what could not be; returns the first page.
 
-    Raises ConfigError where a library is missing, RegistryError where nothing can be written.
+    Raises:
+        ConfigError: a library is missing.
+        RegistryError: the pages cannot be written.
     """
     from asset_factory.sim_checks.processes.isolation import processors
 

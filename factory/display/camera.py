@@ -42,7 +42,8 @@ class Camera:
     def rays(self, pixels: FloatArray) -> FloatArray:
         """Return directions through places in the picture, not normalised: depth is along the lens.
 
-        ``pixels`` are column and row, 0.5 in the middle of the first, shape [count, 2].
+        Args:
+            pixels: column and row, 0.5 in the middle of the first, shape [count, 2].
         """
         scale = 2.0 * self.spread / self.height
         corner = scale * (self.height * self.axes[1] - self.width * self.axes[0]) / 2.0
@@ -70,7 +71,8 @@ def box_corners(surfaces: Sequence[SceneSurface]) -> FloatArray:
 class Viewpoint:
     """In front of what opens, to the side from which its inside is seen, and above.
 
-    ``axes`` are right, up and backward of every camera there, as rows, shape [3, 3].
+    Attributes:
+        axes: right, up and backward directions of every camera there, as rows, shape [3, 3].
     """
 
     def __init__(self, scene: SceneGraph) -> None:
@@ -88,8 +90,12 @@ class Viewpoint:
     ) -> Camera:
         """Return the nearest camera that has all of the object in its picture.
 
-        ``poses`` are the joint values [rad] or [m] to be seen; none: all from closed to open. With
-        ``turn`` it stands elsewhere: so far around from +X, counterclockwise from above [rad].
+        Args:
+            width: of the picture [pixels].
+            height: of the picture [pixels].
+            poses: joint values [rad] or [m] of every pose to be seen; none: all from closed to
+                open.
+            turn: stand elsewhere: so far around from +X, counterclockwise from above [rad].
         """
         wanted = poses or tuple(self._scene.opened(amount) for amount in (0.0, 0.5, 1.0))
         boxes = [box for values in wanted for box in self._placed(values)]

@@ -97,9 +97,12 @@ class LinkCaster:
     ) -> None:
         """Cast some of the rays, and keep hits that are nearer than earlier ones.
 
-        They start at ``eye``, shape [3], or one each, shape [count, 3], in ``directions``, shape
-        [count, 3], both in the root frame; ``rays`` says which of ``into``, changed in place, they
-        are.
+        Args:
+            eye: where they start, root frame, shape [3], or one each, shape [count, 3].
+            directions: of those rays, root frame, shape [count, 3].
+            pose: of the link.
+            rays: which of ``into`` they are.
+            into: changed in place.
         """
         turn = pose[:3, :3].astype(np.float32)
         origins = np.empty(directions.shape, dtype=np.float32)

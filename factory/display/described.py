@@ -31,11 +31,13 @@ PLAIN = ((0.62, 0.61, 0.58, 1.0), (0.30, 0.42, 0.55, 1.0), (0.55, 0.36, 0.28, 1.
 
 
 def scene_of_file(path: Path) -> SceneGraph:
-    """Return what a URDF, an MJCF, or a mesh in any format that is read shows.
+    """Return what a file shows.
 
-    What it refers to lies in its folder or below.
+    It is a URDF, an MJCF, or a mesh in any format that is read; what it refers to lies in its
+    folder or below.
 
-    Raises InputRejected: it cannot be shown, with a reason code.
+    Raises:
+        InputRejected: it cannot be shown, with a reason code.
     """
     if path.suffix.lower() in DESCRIPTIONS:
         try:

@@ -101,9 +101,13 @@ class Buffer:
 def primitive(
     buffer: Buffer, mesh: Mesh, faces: IntArray, normals: FloatArray | None = None
 ) -> dict[str, Any]:
-    """Return some faces of one material, without that material; ``buffer`` takes the numbers.
+    """Return some faces of one material, without that material.
 
-    ``normals`` are unit normals of the corners of all faces, shape [face_count, 3, 3].
+    Args:
+        buffer: takes the numbers.
+        mesh: in the file's frame.
+        faces: which, shape [n].
+        normals: unit normals of the corners of all faces, shape [face_count, 3, 3].
     """
     corners = mesh.faces[faces].reshape(-1)
     uv = mesh.corner_uv

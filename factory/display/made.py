@@ -82,8 +82,11 @@ def surfaces_of(
 ) -> list[SceneSurface]:
     """Return one surface per material of a mesh [m].
 
-    ``frame`` is the origin of the link's frame, the axes being the mesh's, shape [3]; ``images``
-    are those made so far, and more are added.
+    Args:
+        mesh: any.
+        link: that it is on.
+        frame: origin of the link's frame, the axes being the mesh's, shape [3].
+        images: those made so far; more are added.
     """
     found = []
     for index in range(len(mesh.materials)):

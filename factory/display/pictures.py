@@ -36,10 +36,12 @@ Pixels = npt.NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Pictures:
-    """WebP files of one asset, with transparent ground: stills, hulls closed and a colour each.
+    """WebP files of one asset, with transparent ground.
 
-    ``moving`` is animated, empty where nothing moves; ``fault`` is the pose in which it fails, the
-    place marked in red, empty where there is none.
+    Attributes:
+        closed, opened, hulls: stills; hulls closed, a colour each.
+        moving: animated; empty where nothing moves.
+        fault: the pose in which it fails, the place marked in red; empty where there is none.
     """
 
     closed: bytes
@@ -51,9 +53,11 @@ class Pictures:
 
 @dataclass(frozen=True)
 class Fault:
-    """Joint values at which something is wrong [rad] or [m], and where, root frame [m], shape [3].
+    """Where something is wrong.
 
-    The point is ``None`` where only the pose is known.
+    Attributes:
+        values: joint values there [rad] or [m].
+        point: root frame [m], shape [3]; ``None`` where only the pose is known.
     """
 
     values: Mapping[str, float]

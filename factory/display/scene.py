@@ -62,6 +62,7 @@ class SceneJoint:
     """A joint, as URDF has it.
 
     Attributes:
+        name: unique in the scene.
         kind: ``revolute``, ``continuous``, ``prismatic`` or ``fixed``.
         parent, child: indices of links, parents first.
         origin: child frame in the parent frame at value 0, shape [4, 4].
@@ -112,8 +113,10 @@ class SceneGraph:
     """An articulated object, ready to be shown.
 
     Attributes:
+        name: of the object.
         links: names, root first, parents before children.
         joints: parents first; each link but the root is the child of one.
+        visuals: visible surfaces.
         hulls: convex pieces, what engines collide with.
         replaced: those that repairs took away or made otherwise.
     """
@@ -177,8 +180,10 @@ class SceneGraph:
 def put_together(name: str, scenes: Mapping[str, tuple[SceneGraph, FloatArray]]) -> SceneGraph:
     """Return several objects as one, on a root link ``ground``; hulls are left out.
 
-    Each comes with the pose of its root, shape [4, 4], by a name that becomes the beginning of its
-    links' and joints' names: ``robot/elbow``.
+    Args:
+        name: of the whole.
+        scenes: each with the pose of its root, shape [4, 4], by a name that becomes the beginning
+            of its links' and joints' names: ``robot/elbow``.
     """
     links = ["ground"]
     joints = []

@@ -42,9 +42,11 @@ _SHOWN = np.round(255.0 * srgb_of(np.linspace(0.0, 1.0, _BANDS))).astype(np.uint
 
 @dataclass(frozen=True)
 class Coloring:
-    """How faces are coloured: in their own colours, unless ``tints`` has others.
+    """How faces are coloured.
 
-    Those are linear RGB by link and surface.
+    Attributes:
+        caster: of the rays.
+        tints: linear RGB by link and surface, in place of their own; ``None``: their own.
     """
 
     caster: Caster
@@ -53,10 +55,12 @@ class Coloring:
 
 @dataclass(frozen=True)
 class Painted:
-    """A picture before its corners are darkened, and what the middles of its pixels met.
+    """A picture before its corners are darkened.
 
-    ``color`` is linear RGB multiplied by alpha, and alpha, shape [pixels, 4]; ``ends`` are the
-    pixels where a link ends before another, shape [pixels].
+    Attributes:
+        hits: of the middles of all pixels.
+        color: linear RGB multiplied by alpha, and alpha, shape [pixels, 4].
+        ends: pixels where a link ends before another, shape [pixels].
     """
 
     hits: Hits

@@ -21,10 +21,15 @@ PATIENCE_S = 10.0
 
 @dataclass
 class BuildRun:
-    """A build, under way or ended; its process leads a group of its own.
+    """A build, under way or ended.
 
-    ``asset`` is the id of what it registered, or rejected, empty as long as there is none; ``said``
-    is why there is none, once it has ended without. The follower reads what it prints.
+    Attributes:
+        process: of ``factory build``, leader of a group of its own.
+        errors: what it complains of.
+        asset: id of what it registered, or rejected; empty as long as there is none.
+        said: why there is none, once it has ended without.
+        stopped: whether it was killed.
+        follower: reads what it prints.
     """
 
     process: subprocess.Popen[str]
@@ -36,7 +41,11 @@ class BuildRun:
 
 
 class Builds:
-    """Runs ``factory build`` with the flags of a page; ``--json`` is one of them."""
+    """Runs ``factory build`` with the flags that a page was opened with.
+
+    Args:
+        arguments: of the command line, after ``factory``; with ``--json``.
+    """
 
     def __init__(self, arguments: tuple[str, ...]) -> None:
         self._arguments = arguments

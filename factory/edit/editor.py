@@ -44,7 +44,8 @@ class AskedChild:
     def ask(self, function: Callable[..., T], *arguments: object) -> T:
         """Return what a function returns there.
 
-        Raises AssetFactoryError: what it raised, or that no answer came.
+        Raises:
+            AssetFactoryError: what it raised, or that no answer came.
         """
         with self._lock:
             outcome = self._child.call(function, *arguments, limits=self._limits)
@@ -62,7 +63,13 @@ class AskedChild:
 
 
 class Editor:
-    """What a page is told about one mesh, and what it may change: its sidecar."""
+    """What a page is told about one mesh, and what it may change: its sidecar.
+
+    Args:
+        subject: the mesh to edit.
+        config: how it is loaded, and who guesses.
+        builds: what its Build does.
+    """
 
     def __init__(self, subject: Subject, config: BuildConfig, builds: Builds) -> None:
         self.token = secrets.token_urlsafe(24)
@@ -211,7 +218,8 @@ def editing(
 ) -> Iterator[PageServer]:
     """Yield the server of a page on which a mesh is edited.
 
-    Raises AssetFactoryError: the mesh cannot be loaded, or the port is taken.
+    Raises:
+        AssetFactoryError: the mesh cannot be loaded, or the port is taken.
     """
     preload(("asset_factory.factory.edit.work",))
     editor = Editor(subject, config, builds)

@@ -28,9 +28,12 @@ _ABOVE = {Hinge.TOP: Hinge.BACK, Hinge.BOTTOM: Hinge.FRONT}
 
 
 def found_parts(mesh: Mesh, scene: SceneGraph, kinds: Mapping[str, PartKind]) -> Stated:
-    """Return the moving parts of an object as somebody would state them, its front being -Y.
+    """Return the moving parts of an object as somebody would state them.
 
-    ``scene`` has its links, in the mesh's frame; ``kinds`` are those of links where they are known.
+    Args:
+        mesh: that they are stated of, front -Y.
+        scene: with its links, in the same frame.
+        kinds: of links, where they are known.
     """
     boxes = _link_boxes(scene)
     carried = {joint.child: joint.parent for joint in scene.movable if joint.child in boxes}

@@ -22,10 +22,14 @@ _STEP = 0.008
 
 @dataclass(frozen=True)
 class SidePicture:
-    """One side as PNG, transparent where nothing is, of so many columns and rows.
+    """One side, drawn.
 
-    ``frame`` is the left, lower, right and upper end of the mesh, in shares of the picture: what
-    the shares of a stated box are shares of.
+    Attributes:
+        side: which.
+        png: transparent where nothing is.
+        size: columns and rows [pixels].
+        frame: left, lower, right and upper end of the mesh, in shares of the picture: what the
+            shares of a stated box are shares of.
     """
 
     side: Side

@@ -15,9 +15,12 @@ from ..runtime.layout import ASSETS, REJECTED, REPORT
 
 @dataclass(frozen=True)
 class Subject:
-    """A mesh whose parts are going to be stated, and the registry that builds go into.
+    """A mesh whose parts are going to be stated.
 
-    ``asset`` is the folder of the asset made of it before; ``None`` if that is not asked about.
+    Attributes:
+        mesh: its file.
+        output: folder of the registry that builds go into.
+        asset: folder of the asset made of it before; ``None`` if that is not asked about.
     """
 
     mesh: Path
@@ -39,11 +42,14 @@ class Subject:
 def subject_of(given: Path, output: Path | None, usual: Path) -> Subject:
     """Find the mesh that somebody wants to edit.
 
-    ``given`` is a mesh file, the folder of an asset or of a rejected one, or its id in ``output``;
-    ``usual`` is the registry of a mesh if none was said.
+    Args:
+        given: a mesh file, the folder of an asset or of a rejected one, or its id.
+        output: the registry's folder, if it was said.
+        usual: the registry of a mesh otherwise.
 
-    Raises ConfigError for no such thing, or if its input is gone, RegistryError for no such
-    registry.
+    Raises:
+        ConfigError: no such thing, or its input is gone.
+        RegistryError: no such registry.
     """
     if given.is_file():
         return Subject(_required(given), output or usual)

@@ -39,10 +39,12 @@ PREVIEW_NAME = "stated.{}"
 
 @dataclass(frozen=True)
 class OpenedMesh:
-    """A mesh as the page shows it first: a GLB, nothing of which moves.
+    """A mesh as the page shows it first.
 
-    ``found`` are parts that were made of it before, as a statement's JSON data; empty if there are
-    none, or nobody can say where.
+    Attributes:
+        model: GLB of it, nothing of which moves.
+        found: parts that were made of it before, as a statement's JSON data; empty if there are
+            none, or nobody can say where.
     """
 
     model: bytes
@@ -51,14 +53,28 @@ class OpenedMesh:
 
 @dataclass(frozen=True)
 class ShownVerdict:
-    """What became of a build: GLB of the asset, empty without, and JSON data for the page."""
+    """What became of a build.
+
+    Attributes:
+        model: GLB of the asset; empty without.
+        told: for the page, JSON data.
+    """
 
     model: bytes
     told: dict[str, Any]
 
 
 def open_mesh(mesh: Path, config: BuildConfig, asset: Path | None) -> OpenedMesh:
-    """Load a mesh, and what its asset's folder shows, if that is known."""
+    """Load a mesh, and the asset made of it.
+
+    Args:
+        mesh: its file.
+        config: how it is read.
+        asset: the folder of the asset made of it, if that is known.
+
+    Raises:
+        InputRejected: it cannot be loaded.
+    """
     intake = _loaded(mesh, config)
     model = glb_of(scene_of_mesh(intake.name, intake.mesh))
     return OpenedMesh(model, {} if asset is None else _found_in(asset, intake))
@@ -75,7 +91,11 @@ def look(mesh: Path, config: BuildConfig, front: str) -> None:
 
 
 def preview(mesh: Path, config: BuildConfig, stated: Stated) -> bytes:
-    """Return a GLB of the parts as they are stated, without solids; links: ``PREVIEW_NAME``."""
+    """Return a GLB of the parts as they are stated, without solids; links: ``PREVIEW_NAME``.
+
+    Raises:
+        InputRejected: a stated part is not found.
+    """
     intake = _loaded(mesh, config)
     seen = _seen(mesh, config, stated.front)
     named = [
@@ -107,7 +127,11 @@ def guess(mesh: Path, config: BuildConfig) -> dict[str, Any]:
 
 
 def verdict_of(output: Path, asset_id: str) -> ShownVerdict:
-    """Return what the registry says of a build."""
+    """Return what the registry says of a build.
+
+    Raises:
+        RegistryError: it is not there, or cannot be read.
+    """
     entry = Registry(output).entry(asset_id)
     page = asset_page(output, entry)
     groups = [

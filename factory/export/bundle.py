@@ -21,7 +21,14 @@ from .text import write_text
 
 @dataclass(frozen=True)
 class Bundle:
-    """The files written into a folder, and what all of them say; nothing in it points outside."""
+    """The files written.
+
+    Attributes:
+        folder: holds everything; nothing in it points outside.
+        urdf, mjcf: the two descriptions.
+        manifest: the content of ``asset.json``.
+        layout: what all of it says.
+    """
 
     folder: Path
     urdf: Path

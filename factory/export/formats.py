@@ -53,7 +53,8 @@ FORMATS = (
 def formats_named(names: tuple[str, ...]) -> tuple[Format, ...]:
     """Return those formats, in the table's order, and URDF and MJCF, which the checks read.
 
-    Raises ConfigError: there is no such format, or what it needs is not installed.
+    Raises:
+        ConfigError: there is no such format, or what it needs is not installed.
     """
     known = [each.name for each in FORMATS]
     for name in names:

@@ -37,9 +37,12 @@ INERTIA_CELLS = {
 
 @dataclass(frozen=True)
 class LinkFiles:
-    """The name of a link in every description, its visual pieces, and OBJ files of its hulls.
+    """Everything that one link's elements say, besides the asset itself.
 
-    The files are relative to the bundle.
+    Attributes:
+        name: of the link, the same in URDF, MJCF and manifest.
+        visuals: see :class:`VisualPiece`.
+        collisions: OBJ files, one per hull, relative to the bundle.
     """
 
     name: str
@@ -51,8 +54,12 @@ class LinkFiles:
 class Layout:
     """An asset whose meshes lie in its bundle folder, ready to be described.
 
-    ``links`` has one for each part, ``resistances`` one for each joint; MuJoCo is told to ignore
-    contacts of ``excluded_pairs`` of links. ``notes`` are losses and changes on the way.
+    Attributes:
+        asset: to describe.
+        links: one per part.
+        resistances: one per joint.
+        excluded_pairs: names of links whose contacts MuJoCo is told to ignore.
+        notes: losses and changes on the way, one sentence each.
     """
 
     asset: Asset
@@ -63,7 +70,11 @@ class Layout:
 
 
 def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], ...]) -> Layout:
-    """Write all meshes of ``asset`` below ``folder``; excluded pairs are names of parts."""
+    """Write all meshes of ``asset`` below ``folder``.
+
+    Raises:
+        ValueError: an excluded pair names a part that is not there.
+    """
     for subfolder in (VISUAL_FOLDER, COLLISION_FOLDER):
         (folder / subfolder).mkdir(parents=True)
     textures = TextureFolder(folder / VISUAL_FOLDER)

@@ -20,8 +20,12 @@ Row = tuple[float, ...]
 class ManifestHandle:
     """Where to take hold of what a joint moves.
 
-    The point is on its surface [m], in the frame of the link ``frame``; ``normal`` is outward
-    there, and a pull along ``pull`` opens the joint, both in the object frame.
+    Attributes:
+        frame: name of the link in whose frame the point is.
+        point: on its surface [m].
+        normal: outward there, object frame.
+        pull: in which direction a pull there opens the joint, object frame.
+        source: how it was found.
     """
 
     frame: str
@@ -100,8 +104,12 @@ class ManifestTarget:
 class ManifestProposal:
     """Why a part moves, so that what becomes of it can be traced back.
 
-    ``id`` is the same on every machine; ``probability`` is ``None`` where it was stated, or not
-    rated; ``signs`` spoke for it.
+    Attributes:
+        id: of the proposal; the same on every machine.
+        proposer: who made it.
+        kind: what the part is.
+        probability: of the proposal; ``None`` where it was stated, or not rated.
+        signs: what spoke for it, by name.
     """
 
     id: str
@@ -169,15 +177,21 @@ class Manifest:
     """An asset; metres, kilograms, radians, object frame unless a field says otherwise.
 
     Attributes:
-        category, license: of the input; ``None`` if unknown.
+        name, category, license: of the input; ``None`` if unknown.
+        urdf, mjcf: the descriptions' files.
         articulator: the source of parts and joints.
         proposers: whose proposals became its moving parts, sorted.
         scale: to be applied by a loader.
+        fixed_base: whether the base is held in place.
         mass: of everything [kg].
         bounds, closed_bounds: box around the visible surface, every joint at 0 and at lower [m].
         ground_offset: height of the object frame at which the object stands on the ground [m].
-        joints: parents first; ``links`` are in the URDF's order.
+        hulls: how many convex pieces.
+        joints: parents first.
+        links: in the URDF's order.
+        targets: ways to open the joints.
         excluded_pairs: links that MuJoCo does not collide.
+        provenance: where it came from.
         tools: versions of the libraries that made it; ``None``: not installed.
         notes: assumptions and changes, a sentence each.
         invented: surfaces that the input does not have; the file leaves the field out where there
@@ -241,6 +255,7 @@ class Manifest:
     def from_json(cls, text: str | bytes) -> Manifest:
         """Return the inverse of :meth:`to_json`.
 
-        Raises ValueError: it is no manifest of this version; says why.
+        Raises:
+            ValueError: it is no manifest of this version; says why.
         """
         return from_json(cls, json.loads(text))

@@ -23,8 +23,11 @@ def hull_obj(hull: Hull, origin: FloatArray) -> str:
 def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> str:
     """Return a mesh of one material as OBJ, with its texture coordinates and normals.
 
-    ``origin`` is the link frame's [m], object frame, shape [3]; ``library`` is the MTL beside the
-    OBJ.
+    Args:
+        mesh: in the object frame at rest [m].
+        origin: the link frame's origin [m], object frame, shape [3].
+        library: file name of the MTL beside the OBJ.
+        material: name of the material in it.
     """
     vertices = mesh.vertices - origin
     if 0 < len(vertices) < FEWEST_VERTICES:

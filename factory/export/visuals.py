@@ -23,8 +23,10 @@ PLAIN_MODES = frozenset({"L", "RGB", "RGBA"})
 class TextureFolder:
     """Writes each image once and remembers where.
 
-    MuJoCo reads no JPEG, so everything becomes PNG: one file serves all simulators. ``notes`` has a
-    sentence per image that could not be decoded; its material stays a plain colour.
+    MuJoCo reads no JPEG, so everything becomes PNG: one file serves all simulators.
+
+    Attributes:
+        notes: a sentence per image that could not be decoded; its material stays a plain colour.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -56,7 +58,8 @@ class TextureFolder:
 def png_bytes(texture: Texture) -> bytes:
     """Return the image as an 8-bit PNG; a PNG that already is one keeps its bytes.
 
-    Raises OSError, ValueError, SyntaxError: Pillow cannot decode it.
+    Raises:
+        OSError, ValueError, SyntaxError: Pillow cannot decode it.
     """
     with Image.open(io.BytesIO(texture.data)) as image:
         image.load()
@@ -72,9 +75,13 @@ VISUAL_FOLDER = Path("meshes/visual")
 class VisualPiece:
     """One visual file: MuJoCo takes one material per mesh, so nobody gets more.
 
-    Its name is unique in the asset, and starts with ``handle_`` for handle geometry, by which
-    ManiSkill finds it. ``mesh`` is the content of the OBJ, object frame at rest [m]; both files, of
-    which the texture is PNG and ``None`` for a plain colour, are relative to the bundle.
+    Attributes:
+        name: unique in the asset; starts with ``handle_`` for handle geometry, by which ManiSkill
+            finds it.
+        file: OBJ, relative to the bundle.
+        mesh: its content, object frame at rest [m].
+        material: how it looks.
+        texture: PNG, relative to the bundle; ``None`` for a plain colour.
     """
 
     name: str

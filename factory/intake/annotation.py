@@ -16,6 +16,7 @@ class AnnotatedJoint:
     """A joint in the input's frame and units, as annotated: nothing is checked or normalised yet.
 
     Attributes:
+        name: as in the annotation.
         kind: ``fixed``, ``revolute``, ``continuous``, ``prismatic`` or ``both`` (turns, then
             slides).
         parent, child: part ids.
@@ -23,7 +24,7 @@ class AnnotatedJoint:
         origin: a point on the axis, shape [3].
         lower, upper: [rad] or [input length units]; ``None`` where there is no limit.
         slide_axis, slide_lower, slide_upper: of the second joint of ``both``.
-        damping, friction: SI; ``None`` where absent.
+        damping, friction: as annotated, SI; ``None`` where absent.
         mimic: the joint that it follows, by name, in the units of both; ``None`` for none.
     """
 
@@ -47,9 +48,11 @@ class AnnotatedJoint:
 class Annotation:
     """Which face belongs to which part, and how parts are jointed.
 
-    ``face_part`` has a part id per face of the *input*, in its own order, shape [input_face_count];
-    a part may own no face. Joints are in any order, and may be a forest, or not even that.
-    ``source`` is ``urdf``, ``mjcf``, ``usd`` or ``pred.npz``.
+    Attributes:
+        face_part: part id per face of the *input*, in its own order, shape [input_face_count].
+        part_names: indexed by part id; a part may own no face.
+        joints: in any order; may be a forest, or not even that.
+        source: ``urdf``, ``mjcf``, ``usd`` or ``pred.npz``.
     """
 
     face_part: IntArray

@@ -61,7 +61,8 @@ UNKNOWN = Category("object", "extent", 1.0, (0.02, 5.0))
 def category_table() -> Mapping[str, Category]:
     """Return the table in ``configs/categories.toml``, by canonical name and by alias.
 
-    Raises ConfigError: an entry contradicts itself or a name appears twice.
+    Raises:
+        ConfigError: an entry contradicts itself or a name appears twice.
     """
     text = (resource_files("asset_factory") / "configs" / "categories.toml").read_bytes()
     table: dict[str, Category] = {}

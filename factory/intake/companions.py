@@ -48,8 +48,12 @@ def companions(source: Path, known: frozenset[str] = frozenset()) -> frozenset[s
     Some may be too many, and some missing that are called strangely, or named beyond the first
     64 MiB of a file: what an input was made of only its reader knows, see :class:`.reads.Reads`.
 
-    Paths, of files and of links to anywhere, are relative to its folder, as are those of files that
-    it is ``known`` to refer to.
+    Args:
+        source: the input.
+        known: further files that it is known to refer to, relative to its folder.
+
+    Returns:
+        Paths relative to its folder, of files and of links to anywhere.
     """
     root = source.parent
     beside = [path for path in sidecar_paths(source) if path.is_file()]

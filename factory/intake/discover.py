@@ -35,7 +35,8 @@ def find_inputs(paths: Sequence[Path]) -> tuple[Path, ...]:
     is one. Hidden files, links that lead out of a folder (:func:`links_out`), and what a registry
     in it holds, are passed over.
 
-    Raises ConfigError: a path does not exist.
+    Raises:
+        ConfigError: a path does not exist.
     """
     found: dict[Path, Path] = {}
     for path in paths:

@@ -27,8 +27,10 @@ _LFS_POINTER = b"version https://git-lfs.github.com/spec/"
 class InputFiles:
     """Reads an input and what it refers to.
 
-    Nothing outside ``root`` is read, through symbolic links or otherwise; ``max_bytes`` of the
-    limits bounds all files together, ``max_texture_pixels`` each image.
+    Args:
+        root: nothing outside this folder is read, through symbolic links or otherwise.
+        limits: ``max_bytes`` bounds all files together, ``max_texture_pixels`` each image.
+        log: of the files that are read; one of its own by default.
     """
 
     def __init__(self, root: Path, limits: IntakeConfig, log: ReadLog | None = None) -> None:
@@ -56,7 +58,9 @@ class InputFiles:
     def read(self, path: Path) -> bytes:
         """Return the content of ``path``.
 
-        Raises FileNotFoundError, or InputRejected: too large, or no regular file.
+        Raises:
+            InputRejected: ``too_large``, or ``unreadable`` if it is no regular file.
+            FileNotFoundError: there is no such file.
         """
         if path in self._cache:
             return self._cache[path]
@@ -80,7 +84,11 @@ class InputFiles:
         return data
 
     def spend_pixels(self, name: str, pixels: int) -> None:
-        """Ask before decoding an image; the sum is bounded too, against decompression bombs."""
+        """Ask before decoding an image; the sum is bounded too, against decompression bombs.
+
+        Raises:
+            InputRejected: ``too_large``.
+        """
         limit = self.limits.max_texture_pixels
         require_at_most(f"texture {name}", pixels, limit, "pixels")
         self._pixels += max(pixels, _PIXELS_OF_SMALLEST)
@@ -90,7 +98,8 @@ class InputFiles:
     def find(self, reference: str, base: Path) -> Path:
         """Return where ``reference``, as written in a file in folder ``base``, leads.
 
-        Raises InputRejected: ``external_reference`` if it leads outside the input's folder.
+        Raises:
+            InputRejected: ``external_reference`` if it leads outside the input's folder.
         """
         plain = reference.strip().replace("\\", "/")
         if not plain or "\0" in plain:

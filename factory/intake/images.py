@@ -20,9 +20,13 @@ def load_texture(data: bytes, name: str, files: InputFiles) -> Texture | None:
     """Return an encoded image as a texture; PNG and JPEG keep their bytes, others become PNG.
 
     The header's size is checked before a pixel is decoded; the image is then decoded once, so that
-    no simulator meets a broken one: ``None`` for one that cannot be.
+    no simulator meets a broken one.
 
-    Raises InputRejected: ``too_large``: more pixels than the limits of ``files`` allow.
+    Returns:
+        ``None`` if the image cannot be decoded.
+
+    Raises:
+        InputRejected: ``too_large``: more pixels than the limits of ``files`` allow.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -19,15 +19,17 @@ class Provenance:
     Attributes:
         input: file name of the input (not its path).
         digest: SHA-256 over the input file and the files it refers to.
+        category: of the object, e.g. ``fridge``; ``None`` if unknown.
         up: the input's up axis, e.g. ``y``.
         up_source: who said so: ``option``, ``sidecar``, ``format``, ``default``; ``sides``: only
             so do they show what opens.
         scale: factor from input units to metres.
         scale_source: ``option``, ``sidecar``, ``category``, ``format``, ``guess`` (no category) or
             ``as_is``.
-        density: from the sidecar [kg/m3].
-        dropped_degenerate, dropped_non_finite: faces without area, or with a corner that is NaN or
-            infinite, that were dropped.
+        density: [kg/m3] from the sidecar, else ``None``.
+        license: from the sidecar or the file, else ``None``.
+        dropped_degenerate: faces without area that were dropped.
+        dropped_non_finite: faces with a NaN or infinite corner that were dropped.
         notes: assumptions, one sentence each.
     """
 
@@ -47,12 +49,15 @@ class Provenance:
 
 @dataclass(frozen=True)
 class Intake:
-    """A loaded input, called by its safe file stem, its mesh in metres, z up.
+    """A loaded input.
 
     Attributes:
+        name: safe file stem, e.g. ``kitchen_cabinet``.
+        mesh: metres, z up.
         source_faces: for each face of ``mesh`` its index in the input's own face order, shape
             [face_count].
         transform: input frame to object frame (rotation and uniform scale), shape [4, 4].
+        provenance: see :class:`Provenance`.
         annotation: parts and joints that came with the input, in the input's frame; ``None`` for a
             plain mesh.
         annotation_path: an annotation file named by the sidecar, not yet understood.

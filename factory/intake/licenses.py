@@ -48,11 +48,16 @@ def require_allowed(
 ) -> None:
     """Reject an input under none of the allowed licenses.
 
-    Where ``license`` names several, with ``;`` between them, each must be allowed. ``allowed`` are
-    names such as ``CC-BY-4.0``, or shell patterns such as ``CC0-*``, in any case; ``unknown``
-    allows inputs that say nothing; empty: everything is allowed.
+    Args:
+        what: opens the sentence.
+        license: of the input, as its sidecar or its file says; ``None`` or blank where nobody says.
+            Where several are named, with ``;`` between them, each must be allowed.
+        allowed: names such as ``CC-BY-4.0``, or shell patterns such as ``CC0-*``, in any case;
+            ``unknown`` allows inputs that say nothing; empty: everything is allowed.
+        digest: over all files of the input.
 
-    Raises InputRejected: code ``license_disallowed``, naming its license and those allowed.
+    Raises:
+        InputRejected: code ``license_disallowed``, naming its license and those allowed.
     """
     if is_allowed(license, allowed):
         return

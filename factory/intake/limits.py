@@ -12,7 +12,11 @@ SENSIBLE_SIZE = (1e-6, 1e6)
 
 
 def require_at_most(what: str, value: int, limit: int, unit: str) -> None:
-    """Raise InputRejected ``too_large``, with both numbers, if ``value`` exceeds ``limit``."""
+    """Reject with ``too_large`` if ``value`` exceeds ``limit``.
+
+    Raises:
+        InputRejected: code ``too_large``, with both numbers.
+    """
     if value > limit:
         raise InputRejected(
             "too_large",
@@ -24,9 +28,14 @@ def require_at_most(what: str, value: int, limit: int, unit: str) -> None:
 
 
 def require_sensible_size(what: str, bounds: FloatArray) -> None:
-    """Raise InputRejected ``absurd_size`` for what a wrong scale made too small or too large.
+    """Reject with ``absurd_size`` what a wrong scale made too small or too large to compute with.
 
-    ``bounds`` are the lower and upper corner [m], shape [2, 3]; they may hold infinity or NaN.
+    Args:
+        what: opens the sentence.
+        bounds: lower and upper corner [m], shape [2, 3]; may hold infinity or NaN.
+
+    Raises:
+        InputRejected: code ``absurd_size``, with the number.
     """
     least, most = SENSIBLE_SIZE
     extent = float(np.ptp(bounds, axis=0).max())

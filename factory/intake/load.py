@@ -31,7 +31,8 @@ def load(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake
 
     ``log`` of the files that are read is filled also where it raises.
 
-    Raises InputRejected: with a reason code.
+    Raises:
+        InputRejected: with a reason code.
     """
     if is_usd(path):
         return load_usd(path, config, log)

@@ -35,7 +35,8 @@ def local_inputs(places: Sequence[Path | str], output: Path) -> tuple[Path, ...]
     Places are paths or URLs that fsspec understands; copies lie in the registry's folder,
     ``output``.
 
-    Raises ConfigError: a URL cannot be read; the sentence names no secret.
+    Raises:
+        ConfigError: a URL cannot be read; the sentence names no secret.
     """
     return tuple(_local(place, output) for place in places)
 

@@ -24,7 +24,8 @@ UP_AXES = tuple(_ROTATIONS)
 def parse_up(text: str) -> str:
     """Return an up axis in the form ``y`` or ``-z``; ``+Y`` and ``Y`` are understood too.
 
-    Raises ConfigError: it is none of the six.
+    Raises:
+        ConfigError: it is none of the six.
     """
     axis = text.strip().lower().removeprefix("+")
     if axis not in _ROTATIONS:

@@ -29,7 +29,10 @@ class References:
     """Reads what descriptions in one folder name, within bounds.
 
     Text is searched by an expression that takes time in proportion to it, nothing is built of it,
-    and so no process of its own is needed. Nothing outside ``root`` is read, links followed.
+    and so no process of its own is needed.
+
+    Args:
+        root: nothing outside this folder is read, links followed.
     """
 
     def __init__(self, root: Path) -> None:

@@ -25,8 +25,10 @@ _CODES = {
 def rejecting(name: str, folder: Path, log: ReadLog | None = None) -> Iterator[None]:
     """Turn errors over a file from anybody into a rejection: the file is at fault.
 
-    ``name`` opens the sentence of what no reader says itself; none tells where ``folder`` is.
-    ``log`` notes which files were looked for, and which links lead out of the folder.
+    Args:
+        name: opens the sentence of what no reader says itself.
+        folder: of the input; sentences do not tell where it is.
+        log: notes which files were looked for, and which links lead out of the folder.
 
     Raises:
         InputRejected: ``missing_file``, ``external_reference``, ``too_large``, ``unsupported``,

@@ -30,8 +30,14 @@ _MOST = 1e9
 class Sidecar:
     """The content of a sidecar file; ``None`` where it says nothing.
 
-    The height is real [m], ``scale`` leads from input units to metres, the density is in [kg/m3];
-    ``annotation`` is a file with parts and joints.
+    Attributes:
+        category: of the object, e.g. ``fridge``.
+        up: the input's up axis.
+        height: real height [m].
+        scale: factor from input units to metres.
+        density: [kg/m3].
+        license: of the input.
+        annotation: path of a file with parts and joints.
     """
 
     category: str | None = None

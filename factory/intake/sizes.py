@@ -25,9 +25,13 @@ _UNKNOWN_EXTENT_IN_UNITS = 0.5
 
 @dataclass(frozen=True)
 class Scale:
-    """A factor from input units to metres, and the sentence that says why, if anything was assumed.
+    """A factor from input units to metres, and the sentence that says why.
 
-    It is ``plausible`` where a known unit explains the size; if not, the typical size was imposed.
+    Attributes:
+        factor: metres per input unit.
+        source: as in ``Provenance.scale_source``.
+        note: ``None`` if nothing was assumed.
+        plausible: whether a known unit explains the size; if not, the typical size was imposed.
     """
 
     factor: float
@@ -39,8 +43,11 @@ class Scale:
 def scale_of_unit_cube(extents: FloatArray, category: str | None) -> Scale | None:
     """Return the factor to its category's typical size for a mesh that fills a unit cube.
 
-    Image-to-3D tools scale whatever they make to it, so that its size says nothing. ``extents`` are
-    of the mesh, z up, input units, shape [3].
+    Image-to-3D tools scale whatever they make to it, so that its size says nothing.
+
+    Args:
+        extents: of the mesh, z up, input units, shape [3].
+        category: as for :func:`scale_by_size`.
     """
     usual = usual_of(category)
     if usual is UNKNOWN or abs(float(extents.max()) - 1.0) > CUBE_WITHIN:
@@ -58,7 +65,9 @@ def scale_of_unit_cube(extents: FloatArray, category: str | None) -> Scale | Non
 def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
     """Return the factor that makes a mesh plausible in metres, by category if it is known.
 
-    ``extents`` are of the mesh, z up, input units, shape [3].
+    Args:
+        extents: of the mesh, z up, input units, shape [3].
+        category: as from :func:`normalised` or :func:`guess_category`.
     """
     size = usual_of(category)
     source = "guess" if size is UNKNOWN else "category"
@@ -122,9 +131,14 @@ def given_scale(
 ) -> Scale | None:
     """Return the factor to metres that follows from a height or scale; ``None`` if nobody says.
 
-    ``extents`` are of the mesh, z up, input units, shape [3]; the configured height wins.
+    Args:
+        extents: of the mesh, z up, input units, shape [3].
+        config: its height wins over the sidecar's.
+        sidecar: of the input.
+        name: of the file, which opens the sentence.
 
-    Raises InputRejected: ``zero_size``: there is no height to scale.
+    Raises:
+        InputRejected: ``zero_size``: there is no height to scale.
     """
     height = config.height if config.height is not None else sidecar.height
     if height is None:

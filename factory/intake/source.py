@@ -27,9 +27,12 @@ ID_DIGITS = 10
 class Source:
     """A mesh, URDF or MJCF file, and what it refers to.
 
-    Attributes:
+    Args:
         place: where it lies for whoever registers it, if that is elsewhere; folder and file are
             called the same.
+
+    Attributes:
+        path, config, place: as given.
         reads: every file it was made of, by :meth:`load`: path relative to its folder -> digest.
         digest: of all of them, once all were read.
         keyed: whether what becomes of it holds for these files, and is not done again.

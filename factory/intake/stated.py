@@ -214,7 +214,11 @@ _INNER: Mapping[str, type[Struct]] = {
 
 
 def read_stated(path: Path, files: InputFiles) -> Stated | None:
-    """Return the parts that are stated beside mesh file ``path``; ``None`` if there is no file."""
+    """Return the parts that are stated beside mesh file ``path``; ``None`` if there is no file.
+
+    Raises:
+        InputRejected: ``bad_sidecar``, with the place and what it may contain.
+    """
     for candidate in stated_paths(path):
         if candidate.is_file():
             return _parse(candidate, files)
@@ -234,7 +238,8 @@ _ENDS = (".parts.json", ".parts.toml")
 def stated_from(values: object) -> Stated:
     """Return the statement that a decoded JSON or TOML document makes.
 
-    Raises ConfigError: with the place, the fault and a remedy.
+    Raises:
+        ConfigError: with the place, the fault and a remedy.
     """
     for fault in _wrong_words(values, Stated, "$"):
         raise ConfigError(fault)
@@ -245,7 +250,11 @@ def stated_from(values: object) -> Stated:
 
 
 def decoded(text: bytes, form: str = "JSON") -> object:
-    """Return what a document in that form holds, ``JSON`` or ``TOML``. Raises ConfigError."""
+    """Return what a document of stated parts holds, before it is understood.
+
+    Raises:
+        ConfigError: it is not in that form, ``JSON`` or ``TOML``.
+    """
     try:
         written = text.decode("utf-8")
         return tomllib.loads(written) if form == "TOML" else json.loads(written)

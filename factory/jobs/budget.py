@@ -25,8 +25,10 @@ class Budget:
     Attributes:
         limit: inputs begun at most, those known from before not counted; ``None``: all.
         max_s: after so long none is begun, and running builds are stopped [s]. ``None``: no limit.
-        retry: reason codes, or ``any``; inputs without a pass for one of them are built again.
-        repair: known inputs' files are compared with those published; damaged ones are built again.
+        retry: reason codes; inputs rejected or left unjudged for one of them are built again.
+            ``any``: for any.
+        repair: every known input's files are compared with those published; damaged assets are
+            built again.
         damaged: ids of known inputs that are built again before all others, whatever their files
             say.
     """
@@ -52,10 +54,13 @@ class Budget:
 def parse_since(text: str, now: float | None = None) -> float:
     """Return a point in time [s since 1970].
 
-    It is told as seconds ago (``3600``), a date or a time (``2026-11-21``, ``2026-11-21T18:00``,
-    local unless it says otherwise), or a file: when that was last modified.
+    Args:
+        text: seconds ago (``3600``), a date or a time (``2026-11-21``, ``2026-11-21T18:00``, local
+            unless it says otherwise), or a file: when that was last modified.
+        now: the present; by the clock if ``None``.
 
-    Raises ConfigError: it is none of these.
+    Raises:
+        ConfigError: it is none of these.
     """
     with suppress(ValueError):
         ago = float(text)

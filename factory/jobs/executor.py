@@ -17,10 +17,13 @@ AHEAD = 2
 
 @dataclass(frozen=True)
 class Call:
-    """One thing to do, told from others by its name; the arguments must pickle.
+    """One thing to do.
 
-    It is ended at ``until`` [s since 1970], ``None``: by the limits alone; ``wanted`` is asked on
-    this machine before it is begun, if it was not handed to another.
+    Attributes:
+        name: tells it from others in logs.
+        arguments: of the function, by name; they must pickle.
+        until: when it is ended, if it still runs [s since 1970]; ``None``: by the limits alone.
+        wanted: asked on this machine before it is begun, if it was not handed to another.
     """
 
     name: str
@@ -47,9 +50,12 @@ class Executor(Protocol):
 
         Calls are taken from ``calls`` as workers come free, in the caller's thread and never more
         than :data:`AHEAD` times the workers ahead: a million of them need no more memory than ten.
-        Closing the iterator kills running builds. The function is importable by name, its results
-        pickle.
+        Closing the iterator kills running builds.
 
-        Each comes once, a failed one with the failed outcome of its last try, and one that was not
-        wanted or not done in time with neither value nor failure. Nothing that a call does raises.
+        The function is importable by name, and its results pickle; calls may be lazy.
+
+        Returns:
+            Every call once, a failed one with the failed outcome of its last try, and one that was
+            not wanted or not done in time with neither value nor failure. Nothing that a call does
+            raises.
         """

@@ -71,15 +71,19 @@ class _Begun:
 
 
 class Job:
-    """One run over some inputs, each listed once. The same job again builds only missing ones.
+    """One run over some inputs. The same job again builds only missing ones.
 
-    Where ``one_network`` all workers ask one, which takes an executor on this machine.
+    Args:
+        inputs: files, as :func:`~..mesh.find_inputs` lists them; each once.
+        output: the registry's folder; made if it is not there.
+        one_network: whether all workers ask one network, which takes an executor on this machine.
 
     Attributes:
         left: inputs not done, for want of time or because the limit was reached.
         state: how it ended, so far.
 
-    Raises ConfigError: one of the inputs may be shown to a network, and none can run.
+    Raises:
+        ConfigError: one of the inputs may be shown to a network, and none can run.
     """
 
     def __init__(
@@ -119,7 +123,8 @@ class Job:
 
         Closing the iterator, or an exception, kills running builds; finished ones are registered.
 
-        Raises RegistryError: the registry cannot be written any more.
+        Raises:
+            RegistryError: the registry cannot be written any more.
         """
         with self._writable():
             yield from self._run()

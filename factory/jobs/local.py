@@ -143,8 +143,13 @@ def tried(
 ) -> Outcome[T]:
     """Make one call in a child, again where that may help; whatever it does, this returns.
 
-    ``limits`` are of each try, and ``wanted`` is asked before each. The last one is ended at
-    ``until`` [s since 1970]; ``None``: by the limits alone.
+    Args:
+        child: ended where the call does not end.
+        function: with its arguments.
+        limits: of each try.
+        retries: further tries of what crashed, hung or ran out of memory.
+        until: when the last try is ended [s since 1970]; ``None``: by the limits alone.
+        wanted: asked before each try.
 
     Returns:
         The outcome of the last try; neither value nor failure where it was not wanted, or not done

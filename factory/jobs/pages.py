@@ -32,10 +32,11 @@ def draw_pages(
 ) -> tuple[Path, list[str]]:
     """Write or renew the site of a registry, which others may use meanwhile.
 
-    ``progress`` is told how many pages are done, of how many. Returns the first page, and a
-    sentence for each asset whose page could not be drawn.
+    ``progress`` is told how many pages are done, of how many.
 
-    Raises ConfigError where a library is missing, OSError where the site cannot be written.
+    Raises:
+        ConfigError: a library is missing.
+        OSError: the site cannot be written.
     """
     require_libraries()
     old = tuple(stale(registry))

@@ -26,10 +26,15 @@ BATCH = 128
 
 @dataclass(frozen=True)
 class Probe:
-    """One input, as it was named and from wherever one looks, and keys of its verdict.
+    """One input, and its known verdict.
 
-    ``reads`` are the files that it is made of as far as is known, with their digests now; ``claim``
-    is a name for the work of making it, the same in every job.
+    Attributes:
+        given: the input, as it was named.
+        source: where it is, from wherever one looks.
+        reads: the files that it is made of as far as is known, with their digests now.
+        key: of what would be made of it.
+        failure_key: of its having got no verdict.
+        claim: a name for the work of making it, the same in every job.
     """
 
     given: Path
@@ -53,7 +58,8 @@ def known_of(probes: Sequence[Probe], registry: Registry) -> Iterator[Entry | No
 class KnownReads:
     """Which files inputs were made of, by their main file and its sidecars, which lead there.
 
-    Losing ``folder`` costs time only.
+    Args:
+        folder: losing it costs time only.
     """
 
     def __init__(self, folder: Path, config: BuildConfig) -> None:

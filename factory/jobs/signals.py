@@ -20,8 +20,9 @@ class Terminated(KeyboardInterrupt):
 def interruptible(first: Callable[[], None] | None = None) -> Iterator[None]:
     """Have SIGTERM raise :class:`Terminated` within this, as Ctrl-C would; main thread only.
 
-    ``first`` is what the first Ctrl-C does; the second one is a KeyboardInterrupt, as the first is
-    without it.
+    Args:
+        first: what the first Ctrl-C does; the second one is a KeyboardInterrupt. ``None``: the
+            first one is.
     """
 
     def begun(_number: int, _frame: FrameType | None) -> None:

@@ -28,11 +28,14 @@ def build_here(
     weights: Mapping[str, Path] | None = None,
     engines: int = 1,
 ) -> Product:
-    """Make one input in this process, which somebody else may kill; returns it for the registry.
+    """Make one input in this process, which somebody else may kill.
 
     What an earlier try left in ``staging`` is removed. ``place`` is where the input lies for
     whoever registers it, and ``weights`` are where checkpoints lie here, if that is elsewhere. So
     many ``engines`` may run at once; verdicts do not depend on it.
+
+    Returns:
+        The product, for the registry.
     """
     shutil.rmtree(staging, ignore_errors=True)
     staging.mkdir(parents=True)

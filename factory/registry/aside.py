@@ -24,9 +24,12 @@ _TABLES = (
 
 @dataclass(frozen=True)
 class InputNow:
-    """An input by the place of its main file, and the asset that it is now.
+    """An input, and the asset that it is now.
 
-    The digest is of that file alone: a mesh in place of another is another input.
+    Attributes:
+        place: of its main file.
+        digest: of that file alone: a mesh in place of another is another input.
+        id: of the asset.
     """
 
     place: Path
@@ -35,10 +38,12 @@ class InputNow:
 
 
 def keep_current(registry: Registry, inputs: Sequence[InputNow]) -> tuple[str, ...]:
-    """Note which asset each input is; supersede, and return, those that no input is any more.
+    """Note which asset each input is, and supersede those that no input is any more.
 
     The same mesh with a corrected sidecar is another asset, and the one before is wrong. Which
     input was which asset is noted in the database alone: where that is rebuilt, both stay.
+
+    Returns the ids of the superseded.
     """
     left: list[str] = []
     if not inputs:

@@ -19,9 +19,13 @@ from .placing import remove
 
 @dataclass(frozen=True)
 class Freed:
-    """The files removed: folders of dead processes, counted by ``files``, and unfinished files.
+    """The files removed.
 
-    ``cache`` are results that can be computed again; ``kept`` are those that stay.
+    Attributes:
+        staging: folders of processes that are dead; ``files`` counts them.
+        unfinished: files that nobody finished writing.
+        cache: results that can be computed again.
+        kept: of these, those that stay.
     """
 
     staging: Trimmed
@@ -40,8 +44,11 @@ def collect_garbage(
 ) -> Freed:
     """Remove what nobody needs: never anything published, nor what a living process holds.
 
-    Of the cache goes what nobody used for ``older_than_s`` [s], and what is beyond ``keep_bytes``
-    [bytes]; ``None``: nothing does for its age, or for its size.
+    Args:
+        root: the registry's folder.
+        older_than_s: what of the cache nobody used for so long goes [s]; ``None``: it does not go
+            for its age.
+        keep_bytes: how much of the cache may stay [bytes]; ``None``: any amount.
     """
     sweep()
     drop_abandoned(root / CLAIMS)

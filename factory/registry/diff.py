@@ -32,9 +32,13 @@ class EntryChange:
 class Diff:
     """What happened to whom; each group by id.
 
-    Those in ``changed`` passed or failed both times, with something else about them; why others
-    newly failed, ``after.reason`` and ``after.message`` say. ``same`` counts those that did not
-    change.
+    Attributes:
+        new: only after.
+        gone: only before.
+        newly_passed: passed after, not before.
+        newly_failed: passed before, not after; ``after.reason`` and ``after.message`` say why.
+        changed: passed or failed both times, with something else about it.
+        same: how many did not change.
     """
 
     new: tuple[Entry, ...] = ()

@@ -38,11 +38,15 @@ class Entry:
 
     Attributes:
         id: name and the first digits of the input's digest.
-        category, license: of the object; empty if unknown.
-        reason, message: code and sentence of the first error; empty if it passed.
+        name: the input's name.
+        category: of the object; empty if unknown.
+        status: what became of it.
+        reason: code of the first error; empty if it passed.
         parts, joints, hulls: how many parts, movable joints and convex pieces.
         key: what it was made from, hexadecimal: inputs, settings, versions of stages and libraries;
             empty if unknown.
+        message: the first error's sentence; empty if it passed.
+        license: of the input; empty if unknown.
         split: ``train`` or ``test``; follows from the id.
         tags: what people call it, sorted.
         solved: ``yes`` or ``no``: whether a robot opened one of its joints; empty if nobody tried.
@@ -84,7 +88,8 @@ def lasting_data(entry: Entry) -> dict[str, Any]:
 def entry_from(data: object, *, tags: tuple[str, ...] = (), solved: str = "") -> Entry:
     """Return the entry that :func:`lasting_data` described; fields that are missing are empty.
 
-    Raises ValueError: it is not one, or its id could not be a folder's name.
+    Raises:
+        ValueError: it is not one, or its id could not be a folder's name.
     """
     if not isinstance(data, Mapping):
         raise ValueError(f"an entry must be an object, not {type(data).__name__}")

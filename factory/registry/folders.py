@@ -40,7 +40,8 @@ def current_folder(root: Path, asset_id: str) -> Path:
     """Return where an asset lies: with those that passed, or with the others.
 
     It lies in both only if a process died between putting it in one and taking it out of the other:
-    the newer counts, and in doubt the rejection.
+        the newer counts,
+    and in doubt the rejection.
     """
     passed, rejected = (root / place / asset_id for place in (ASSETS, REJECTED))
     if not rejected.is_dir():
@@ -51,7 +52,8 @@ def current_folder(root: Path, asset_id: str) -> Path:
 def read_record(folder: Path, note: Path) -> RegistryRow:
     """Return the row of one folder.
 
-    Raises RegistryError: its report cannot be read, or is of another asset or place.
+    Raises:
+        RegistryError: its report cannot be read, or is of another asset or place.
     """
     stored = read_report(folder)
     try:

@@ -24,7 +24,12 @@ LOG_NAME = Path(LOGS) / "builds.jsonl"
 
 @dataclass(frozen=True)
 class LoggedBuild:
-    """An asset's last build: its input's path, as it was given, and the time of each stage [s]."""
+    """An entry of the log on an asset's last build.
+
+    Attributes:
+        input: path of what it was made of, as it was given.
+        stages: time of each stage [s], by its name.
+    """
 
     input: str
     stages: Mapping[str, float]
@@ -45,7 +50,11 @@ def logged_build(output: Path, asset_id: str) -> LoggedBuild | None:
 
 
 class Log:
-    """Appends to ``logs/builds.jsonl`` of a registry; several jobs may at once."""
+    """Appends to ``logs/builds.jsonl`` of a registry; several jobs may at once.
+
+    Args:
+        output: the registry's folder.
+    """
 
     def __init__(self, output: Path) -> None:
         path = output / LOG_NAME

@@ -26,7 +26,11 @@ _UNREADABLE = (
 class Note:
     """One asset's note.
 
-    ``solved_files`` is the :func:`fingerprint` of the files that the robot had; others are untried.
+    Attributes:
+        tags: sorted.
+        solved: ``yes``, ``no`` or empty.
+        solved_files: :func:`fingerprint` of the files that the robot was given; others have not
+            been tried.
     """
 
     tags: tuple[str, ...] = ()

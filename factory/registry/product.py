@@ -43,6 +43,9 @@ class Product:
     """The end of one build: its result, a report, and the folder that it is in.
 
     Attributes:
+        source: the input, as given.
+        result: its row, and how long it took.
+        told: its report.
         bundle: the finished bundle's folder, in the staging folder that was given; of a rejected
             one a folder of its model for pages, and ``None`` without.
         unloaded_ids: under which an earlier attempt may be listed that did not come so far as to

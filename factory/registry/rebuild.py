@@ -39,6 +39,9 @@ def make_registry(root: Path) -> None:
     """Make the folders and the database that are not there; the rows of assets that are.
 
     Of several that do so at once one makes them.
+
+    Raises:
+        RegistryError: it cannot be made or used.
     """
     try:
         _make(root)
@@ -60,7 +63,11 @@ def _make(root: Path) -> None:
 
 
 def open_registry(root: Path) -> None:
-    """Make sure that the database is of this program's version; rebuild one that is older."""
+    """Make sure that the database is of this program's version; the folders give an older one anew.
+
+    Raises:
+        RegistryError: there is none, it is damaged, or a newer program made it.
+    """
     if not (root / DATABASE).is_file():
         if (root / ASSETS).is_dir() and all_ids(root):
             advice = f"`factory registry rebuild --output {root}` makes it from the folders"
@@ -78,7 +85,12 @@ def open_registry(root: Path) -> None:
 
 @dataclass(frozen=True)
 class Rebuilt:
-    """The rows written, and a sentence for each folder that is none of an asset; left as it is."""
+    """The rows found.
+
+    Attributes:
+        entries: how many rows were written.
+        unreadable: a sentence for each folder that is none of an asset; left where it is.
+    """
 
     entries: int
     unreadable: tuple[str, ...] = ()
@@ -90,7 +102,8 @@ def rebuild(root: Path) -> Rebuilt:
     Others may go on reading and writing: rows are never missing in between, and corrected a few at
     a time. A database that cannot be read is replaced by a whole new one.
 
-    Raises RegistryError: no registry there, or its database is a newer program's.
+    Raises:
+        RegistryError: no registry there, or its database is a newer program's.
     """
     if not (root / ASSETS).is_dir():
         raise RegistryError(f"{root}: no registry here, for want of a folder {ASSETS!r}")

@@ -25,7 +25,8 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
 
     The product's bundle is in one of the registry's staging folders, and is gone afterwards.
 
-    Raises OSError: the registry cannot be written; nothing is half-published.
+    Raises:
+        OSError: the registry cannot be written; nothing is half-published.
     """
     started = perf_counter()
     entry = product.entry

@@ -38,9 +38,11 @@ _MAX_MANIFEST = 16_000_000
 class Registry:
     """A folder of validated assets, which several processes may read and write at once.
 
-    ``create`` makes one that is not there.
+    Args:
+        create: make it if it is not there; otherwise a missing one raises RegistryError.
 
-    Raises RegistryError: no registry there, a damaged database, or one that a newer program made.
+    Raises:
+        RegistryError: no registry there, a damaged database, or one that a newer program made.
     """
 
     def __init__(self, root: Path, *, create: bool = False) -> None:
@@ -73,18 +75,25 @@ class Registry:
     def staging_folder(self) -> AbstractContextManager[Path]:
         """Return a fresh folder to build in; whatever is still in it afterwards is removed.
 
-        It is locked while the process lives, so that ``factory gc`` can tell what dead ones left.
+        It is locked while the process lives, so that ``factory gc`` can tell what dead
+        ones left.
         """
         return held_folder(self.staging)
 
     def publish(self, entry: Entry, bundle: Path, told: BuildReport) -> Path:
-        """Move a finished bundle into ``assets`` and list it; returns the asset's folder.
+        """Move a finished bundle into ``assets`` and list it.
 
         The same bytes again change nothing. Others take the place of the old ones at once, so that
-        a reader finds the old asset or the new one. Tags and ``solved`` are those that were noted.
+        a reader finds the old asset or the new one.
 
-        ``bundle`` is a folder from :meth:`staging_folder`, gone afterwards; what was ``told`` is
-        written into it with the digests of its files and the entry.
+        Args:
+            entry: its row; ``status`` must be ``passed``. Its tags and ``solved`` are those that
+                were noted.
+            bundle: a folder from :meth:`staging_folder`; gone afterwards.
+            told: written into the bundle with the digests of its files and the entry.
+
+        Returns:
+            The asset's folder.
         """
         if entry.status is not Status.PASSED:
             status = f"status is '{entry.status}', only 'passed' is published"
@@ -108,12 +117,17 @@ class Registry:
     def note(
         self, asset_id: str, *, tags: Sequence[str] | None = None, solved: str | None = None
     ) -> Entry:
-        """Note all tags of an asset, or whether a robot opened one of its joints: yes, no or "".
+        """Note something of an asset; ``None`` leaves a field as it was.
 
-        ``None`` leaves a field as it was; ``solved`` is forgotten when the asset is published anew
-        with other files. Returns the entry as it is now.
+        Args:
+            asset_id: its id.
+            tags: all that it shall have.
+            solved: ``yes`` or ``no``: whether a robot opened one of its joints; empty for unknown.
+                It is forgotten when the asset is published anew with other files.
 
-        Raises RegistryError for an unknown id or a tag that cannot be one.
+        Returns:
+            The entry as it is now. Raises RegistryError for an unknown id or a tag that cannot be
+            one.
         """
         require_tags(tuple(tags or ()))
         if solved is not None and solved not in SOLVED:
@@ -210,7 +224,8 @@ class Registry:
     def named(self, text: str) -> Entry:
         """Return the row of that id, or the only one whose id begins so.
 
-        Raises RegistryError: there is none, or there are several; names similar ids.
+        Raises:
+            RegistryError: there is none, or there are several; names similar ids.
         """
         with connected(self.root) as connection:
             begun = [known for known in rows.near(connection, text) if known.startswith(text)]

@@ -24,7 +24,12 @@ _DIGEST = re.compile("[0-9a-f]{64}")
 
 @dataclass(frozen=True)
 class BuildReport:
-    """The validator's report, or why it was not asked; and the repairs before that."""
+    """The report of one build.
+
+    Attributes:
+        report: of the validator, or why it was not asked.
+        repairs: changes before that.
+    """
 
     report: Report
     repairs: tuple[Repair, ...] = ()
@@ -32,7 +37,12 @@ class BuildReport:
 
 @dataclass(frozen=True)
 class StoredReport:
-    """A report as it was read, and SHA-256 of its file; nothing in it is believed unasked."""
+    """A report as it was read; nothing in it is believed before it is asked for.
+
+    Attributes:
+        data: all of it, JSON data.
+        digest: SHA-256 of its file.
+    """
 
     data: Mapping[str, Any]
     digest: str
@@ -81,7 +91,8 @@ class StoredReport:
     def files(self) -> dict[str, str]:
         """Return SHA-256 of the asset's files when it was registered, by path.
 
-        Raises ValueError: it has none, or they are no digests.
+        Raises:
+            ValueError: it has none, or they are no digests.
         """
         files = self.data.get("files")
         if not isinstance(files, dict) or not all(

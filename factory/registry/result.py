@@ -14,9 +14,13 @@ WHOLE_BUILD = "build"
 
 @dataclass(frozen=True)
 class Result:
-    """One input's outcome: the path as it was given, its row, and the time in all and by stage [s].
+    """One input's outcome.
 
     Attributes:
+        input: the path as it was given.
+        entry: its row in the registry.
+        seconds: wall-clock time [s].
+        stages: wall-clock time by stage [s].
         attempts: how often it was begun; 0 if it was known from before, more than 1 after a crash.
         reused: stages that were answered from the cache; ``build`` alone if it was known from
             before.

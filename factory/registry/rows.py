@@ -25,10 +25,13 @@ _HIGHEST = "\U0010ffff"
 
 @dataclass(frozen=True)
 class RegistryRow:
-    """An entry with SHA-256 of the report.json that it was read from.
+    """An entry, and what else is known of it.
 
-    ``gpu_ready`` is ``yes`` or ``no``: whether PhysX takes its hulls on a GPU; empty if it was not
-    validated, or did not pass.
+    Attributes:
+        entry: the entry.
+        digest: SHA-256 of the report.json that it was read from.
+        gpu_ready: ``yes`` or ``no``: whether PhysX takes its hulls on a GPU; empty if it was not
+            validated, or did not pass.
     """
 
     entry: Entry
@@ -47,9 +50,13 @@ class Condition:
 
 @dataclass(frozen=True)
 class Filters:
-    """Which entries are wanted, by their columns; ``None`` lets everything pass.
+    """Which entries are wanted; ``None`` lets everything pass.
 
-    ``tag`` is one of theirs; ``others`` must hold too, and are of our own columns and operators.
+    Attributes:
+        status, category, reason, split, solved, license, name: as the entry has it.
+        tag: one of its tags.
+        gpu_ready: as the row has it.
+        others: what else must hold, of our own columns and operators.
     """
 
     status: str | None = None

@@ -19,7 +19,8 @@ _MAX_LINE = 1_000_000
 def entries_of(path: Path) -> tuple[Entry, ...]:
     """Return every entry, by id, of a registry's folder or an export's folder, archive or list.
 
-    Raises RegistryError: it is none of these, or cannot be read.
+    Raises:
+        RegistryError: it is none of these, or cannot be read.
     """
     if (path / DATABASE).is_file():
         return tuple(Registry(path).walk())

@@ -26,7 +26,14 @@ _BEFORE_INDEX = (ASSETS, REJECTED, NOTES)
 
 @dataclass
 class Synced:
-    """Files at a URL after a synchronisation; those sent and removed by it; bytes sent."""
+    """What a synchronisation came to.
+
+    Attributes:
+        files: at the URL now.
+        sent: of those, sent this time.
+        removed: that were there and are none of the registry's any more.
+        bytes: sent [bytes].
+    """
 
     files: int = 0
     sent: int = 0
@@ -66,7 +73,12 @@ def sync(files: Iterable[tuple[str, bytes]], url: str) -> Synced:
 
 @dataclass
 class _Sync:
-    """One run; ``there`` are the files at first: path below the root -> entry of the listing."""
+    """One run.
+
+    Attributes:
+        system, root: where files go.
+        there: files at first: path below the root -> entry of the listing.
+    """
 
     system: Any
     root: str

@@ -51,7 +51,14 @@ _SENTENCES = {
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is not as it was published; ``path`` is within the registry."""
+    """One thing that is not as it was published.
+
+    Attributes:
+        id: of the asset.
+        kind: of the fault.
+        path: of the file or folder, within the registry.
+        message: a sentence.
+    """
 
     id: str
     kind: ProblemKind
@@ -71,10 +78,13 @@ class Settled(StrEnum):
 
 
 def verify(registry: Registry, ids: Iterable[str] | None = None) -> tuple[Problem, ...]:
-    """Return each file that differs from its digest at publication, and each wrong row, by id.
+    """Read every file again and compare it with its digest at publication.
 
     Others may use the registry meanwhile. All that has a row or a folder is read by default.
-    ``factory registry rebuild`` mends rows; a file that is not as published is built again.
+
+    Returns:
+        Faults, by id. ``factory registry rebuild`` mends rows; a file that is not as
+        published is built again.
     """
     found = (_confirmed(registry, asset_id) for asset_id in _ids(registry, ids))
     return tuple(chain.from_iterable(found))
@@ -162,11 +172,15 @@ def mend_rows(registry: Registry, problems: Iterable[Problem]) -> None:
 def settle(
     registry: Registry, problems: Iterable[Problem], *, final: bool = True
 ) -> dict[str, Settled]:
-    """Return what became of damaged assets, by id, once all that can be made again was.
+    """Return what became of damaged assets, once all that can be made again was.
 
     Files added to a folder, and assets that still differ from those registered, are moved to
-    ``withdrawn``: nobody takes them for assets any more, and nothing is lost. Unless all was tried,
-    which ``final`` says, they are left as they are.
+    ``withdrawn``: nobody takes them for assets any more, and nothing is lost.
+
+    Unless all was tried, which ``final`` says, they are left as they are.
+
+    Returns:
+        By id, sorted.
     """
     ids = sorted({problem.id for problem in problems})
     return {asset_id: _settled(registry, asset_id, final) for asset_id in ids}

@@ -28,10 +28,13 @@ _LISTED = 12
 def parse_where(text: str, **defaults: str) -> Filters:
     """Return the filters that a text asks for: conditions joined by ``and``, each given once.
 
-    Values with blanks are in quotes; an empty text is for all. ``defaults`` are columns that are
-    asked for unless the text speaks of them.
+    Args:
+        text: such as ``status = rejected and hulls >= 32``; values with blanks in quotes; empty
+            for all.
+        defaults: columns that are asked for unless the text speaks of them.
 
-    Raises ConfigError: it cannot be read; what would be right.
+    Raises:
+        ConfigError: it cannot be read; what would be right.
     """
     equal: dict[str, Any] = {}
     others: list[Condition] = []

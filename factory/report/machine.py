@@ -46,10 +46,14 @@ class Health(StrEnum):
 
 @dataclass(frozen=True)
 class Ability:
-    """One thing that this machine can or cannot do: what it is, and what it serves.
+    """One thing that this machine can or cannot do.
 
-    ``detail`` is its version or number, or why it is of no use; ``remedy`` is empty where nothing
-    need be done.
+    Attributes:
+        name: what it is.
+        serves: what it is for.
+        health: how it is.
+        detail: version or number, or why not.
+        remedy: what would help; empty where nothing need be done.
     """
 
     name: str
@@ -73,9 +77,14 @@ def abilities(output: Path) -> Iterator[Ability]:
 
 @dataclass(frozen=True)
 class Library:
-    """Something to import and try: ``trial`` runs in a child and says what it found, or raises.
+    """Something to import and try.
 
-    ``extra`` is ours that installs it; without a remedy, to install it again is what helps.
+    Attributes:
+        name, serves: see :class:`Ability`.
+        module: to import.
+        trial: runs in a child; says what it found, or raises.
+        extra: of ours, that installs it.
+        remedy: what helps where it is installed and fails; by default to install it again.
     """
 
     name: str

@@ -23,9 +23,12 @@ class JobState(StrEnum):
 
 @dataclass(frozen=True)
 class Summary:
-    """What a job did: a result for each input, in any order, and how it ended.
+    """What a job did.
 
-    ``left`` counts inputs that were not begun, or not finished when it was interrupted.
+    Attributes:
+        results: one per input, in any order.
+        state: how the job ended.
+        left: inputs that were not begun, or not finished when it was interrupted.
     """
 
     results: tuple[Result, ...]

@@ -20,11 +20,15 @@ Reader = Callable[[bytes, Path, InputFiles], Soup]
 
 @dataclass(frozen=True)
 class MeshFormat:
-    """One mesh format, by the suffix of its files in lower case.
+    """One mesh format.
 
-    It is read from a file's bytes, its path and what may be read beside it; whatever that raises is
-    a fault of the file. Where not ``y_up``, z is taken to be; a file that does not stand alone is
-    read where a description names it.
+    Attributes:
+        suffix: of its files, in lower case.
+        read: from a file's bytes, its path and what may be read beside it. Whatever it raises is a
+            fault of the file.
+        y_up: the format says that y is up; otherwise z is taken to be.
+        stands_alone: such a file may be built by itself; otherwise it is read where a
+            description names it.
     """
 
     suffix: str

@@ -54,7 +54,11 @@ class _Resolver:
 
 
 def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Return the triangles of a COLLADA file, scene transforms and instances applied, in metres."""
+    """Return the triangles of a COLLADA file, scene transforms and instances applied, in metres.
+
+    Raises:
+        InputRejected: ``unsupported`` (no pycollada), ``unreadable`` or ``too_large``.
+    """
     if find_spec("collada") is None:
         why = "COLLADA needs the package pycollada; install it or convert"
         raise InputRejected("unsupported", f"{path.name}: {why}")

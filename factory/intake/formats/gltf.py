@@ -42,7 +42,11 @@ class _Primitive:
 
 
 def read_gltf(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Return the triangles of a ``.glb`` or ``.gltf`` file, in its own frame (y up) and units."""
+    """Return the triangles of a ``.glb`` or ``.gltf`` file, in its own frame (y up) and units.
+
+    Raises:
+        InputRejected: ``unreadable``, ``unsupported``, ``too_large`` or ``external_reference``.
+    """
     document = GltfDocument(data, path, files)
     materials = read_materials(document)
     cache: dict[int, list[_Primitive]] = {}
@@ -245,9 +249,12 @@ def _move(primitive: _Primitive, matrix: FloatArray) -> _Primitive:
 
 @dataclass(frozen=True)
 class GltfMaterial:
-    """A material, and which ``TEXCOORD_n`` its texture uses.
+    """A material and how its texture coordinates are made.
 
-    ``uv_transform`` is applied to homogeneous glTF coordinates (origin top left), shape [3, 3].
+    Attributes:
+        material: name, colour and texture.
+        uv_set: which ``TEXCOORD_n`` the texture uses.
+        uv_transform: applied to homogeneous glTF coordinates (origin top left), shape [3, 3].
     """
 
     material: Material

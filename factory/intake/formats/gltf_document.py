@@ -37,9 +37,13 @@ _UNSUPPORTED = {
 
 
 class GltfDocument:
-    """A parsed glTF JSON with access to its binary data; references are relative to its folder.
+    """A parsed glTF JSON with access to its binary data.
 
-    ``notes`` say what of it had to be left out.
+    Args:
+        path: where it came from; references are relative to its folder.
+
+    Raises:
+        InputRejected: ``unreadable``, ``unsupported``, ``too_large`` or ``external_reference``.
     """
 
     def __init__(self, data: bytes, path: Path, files: InputFiles) -> None:

@@ -42,6 +42,9 @@ def read_obj(data: bytes, path: Path, files: InputFiles) -> Soup:
     """Return an OBJ file's triangles and its libraries' materials, in its own frame and units.
 
     A library or texture that is missing is noted, not fatal.
+
+    Raises:
+        InputRejected: ``unreadable``, ``too_large`` or ``external_reference``.
     """
     limits = files.limits
     require_at_most(path.name, data.count(b"\nv "), 3 * limits.max_faces, "vertices")
@@ -171,6 +174,9 @@ def read_mtl(data: bytes, folder: Path, files: InputFiles, notes: list[str]) -> 
     """Return materials by name; a diffuse map replaces the diffuse colour, as in modelling tools.
 
     Maps are relative to ``folder``; sentences about missing and broken ones are added to ``notes``.
+
+    Raises:
+        InputRejected: ``external_reference`` or ``too_large`` for a map.
     """
     require_at_most("material library", len(data), _MAX_BYTES, "bytes")
 

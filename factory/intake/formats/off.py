@@ -16,7 +16,11 @@ _WORDS_PER_FACE = 16
 
 
 def read_off(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Return the triangles of an OFF file, in the file's own frame and units."""
+    """Return the triangles of an OFF file, in the file's own frame and units.
+
+    Raises:
+        InputRejected: ``unreadable``, ``unsupported`` (binary, four-dimensional) or ``too_large``.
+    """
     name = path.name
     max_faces = files.limits.max_faces
     words = sum(data.count(blank) for blank in (b" ", b"\t", b"\n"))

@@ -31,7 +31,13 @@ _MAX_HEADER_LINES = 1000
 
 @dataclass
 class PlyElement:
-    """One announced table; a property is its name, its type, and for a list its length's type."""
+    """One announced table.
+
+    Attributes:
+        name: e.g. ``vertex``.
+        count: rows.
+        properties: name, type, and for a list the type of its length.
+    """
 
     name: str
     count: int
@@ -40,9 +46,13 @@ class PlyElement:
 
 @dataclass(frozen=True)
 class PlyHeader:
-    """What a file announces: elements in the order of the body, and where that begins [bytes].
+    """What a file announces.
 
-    ``order`` is ``<`` or ``>``, ``None`` for text; a ``TextureFile`` comment names the texture.
+    Attributes:
+        elements: in the order of the body.
+        order: ``<`` or ``>``, ``None`` for text.
+        texture: the image named by a ``TextureFile`` comment.
+        start: where the body begins [bytes].
     """
 
     elements: list[PlyElement]
@@ -227,9 +237,12 @@ _NONE: IntArray = np.zeros(0, dtype=np.int64)
 
 @dataclass(frozen=True)
 class _Triangles:
-    """Triangles of fanned polygons, of so many corners each.
+    """Triangles of fanned polygons.
 
-    ``slots`` are their places in the flat list of polygon corners, shape [n, 3].
+    Attributes:
+        vertices: of each triangle, shape [n, 3].
+        slots: their places in the flat list of polygon corners, shape [n, 3].
+        lengths: corners of each polygon.
     """
 
     vertices: IntArray
@@ -238,7 +251,11 @@ class _Triangles:
 
 
 def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Return the triangles of a PLY file, in the file's own frame and units."""
+    """Return the triangles of a PLY file, in the file's own frame and units.
+
+    Raises:
+        InputRejected: ``unreadable``, ``too_large``, or ``external_reference`` for its texture.
+    """
     header = read_header(data, path.name)
     entries = sum(max(element.count, 0) for element in header.elements)
     most = _ENTRIES_PER_FACE * files.limits.max_faces

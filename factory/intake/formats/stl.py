@@ -18,7 +18,11 @@ _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)")
 
 
 def read_stl(data: bytes, path: Path, files: InputFiles) -> Soup:
-    """Return the triangles of an STL file, in the file's own frame and units."""
+    """Return the triangles of an STL file, in the file's own frame and units.
+
+    Raises:
+        InputRejected: ``unreadable`` or ``too_large``.
+    """
     if len(data) >= _HEADER:
         count = int.from_bytes(data[80:84], "little")
         fits = _HEADER + count * _FACET

@@ -19,6 +19,8 @@ class Imported:
         part_names: indexed by part id.
         joints: root frame.
         digests: SHA-256 of everything that was read, in the order of first use.
+        notes: departures, one sentence each.
+        source: ``urdf`` or ``mjcf``.
         licenses: as the mesh files state them, each once.
         dropped_degenerate, dropped_non_finite: faces that the mesh files had and ``pieces`` do not.
     """

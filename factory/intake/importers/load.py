@@ -41,9 +41,13 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
 
     Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root
     frame, metres and z up by both specifications; ``transform`` leads from there to the object
-    frame, which differs only where an option or a sidecar says so. ``source_faces`` counts the
-    faces of the shapes in the order of the file. What that refers to lies in its folder, package or
-    a root.
+    frame, which differs only where an option or a sidecar says so.
+
+    What the file refers to lies in its folder, its package or a root.
+
+    Returns:
+        An intake whose ``annotation`` is set; ``source_faces`` counts the faces of the
+        description's shapes in the order of the file.
 
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``missing_file``, ``external_reference``,

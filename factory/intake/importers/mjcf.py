@@ -46,7 +46,14 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
     """Return every body's visual geoms and every joint of an MJCF, in the world frame.
 
     Several joints of one body become a chain through empty parts, in their order. A free joint is
-    dropped. What ``path`` refers to lies in or below its folder.
+    dropped.
+
+    What ``path`` refers to lies in or below its folder.
+
+    Raises:
+        InputRejected: ``unsupported_joint``, ``too_large``.
+        DescriptionError: what its reader refuses.
+        TimeoutError, ChildProcessError: the compiler hung or was killed, which is no verdict.
     """
     files = _referenced_files(root, path, config.max_bytes, log)
     size = sum(file.stat().st_size for file in files)

@@ -38,11 +38,13 @@ MOST = 1e9
 
 
 def read_prediction(path: Path, face_count: int, data: bytes | None = None) -> Annotation:
-    """Return the annotation in a ``pred.npz``; nothing in it is unpickled.
+    """Return the annotation in a ``pred.npz``.
 
-    The mesh has at least ``face_count`` faces, in the mesh file's own order; further labels are of
-    faces that were dropped. ``data`` is what the file held when it was read; ``None``: it is read
-    now.
+    Args:
+        path: the file; nothing in it is unpickled.
+        face_count: the mesh it speaks of has at least that many faces, in the mesh file's own
+            order; further labels are of faces that were dropped.
+        data: what the file held when it was read; ``None``: it is read now.
 
     Raises:
         InputRejected: ``missing_file``, or ``bad_annotation``: which field, what it is, what it

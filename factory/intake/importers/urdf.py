@@ -35,6 +35,10 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
     """Return every link's visuals and every joint of a URDF, in the root link's frame.
 
     What ``path`` refers to lies in or below its folder.
+
+    Raises:
+        InputRejected: ``not_a_tree``, ``unsupported_joint``, ``missing_file``,
+            ``external_reference``, ``unreadable``, ``too_large``.
     """
     links = robot.findall("link")
     for what, elements in (("links", links), ("joints", robot.findall("joint"))):

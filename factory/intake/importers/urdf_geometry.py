@@ -63,7 +63,9 @@ class GeometryReader:
     def read(self, shape: ET.Element, where: str) -> Mesh | None:
         """Return what a ``<visual>`` or ``<collision>`` shows [m]; ``None`` if nothing.
 
-        Raises DescriptionError for its numbers, InputRejected for a mesh file.
+        Raises:
+            DescriptionError: its numbers cannot be read.
+            InputRejected: see :func:`find_reference`, and whatever is wrong with a mesh file.
         """
         geometry = LENIENT.geometry(shape, where)
         if geometry is None:

@@ -76,8 +76,10 @@ def load_usd(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> In
 def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
     """Refuse a USD asset that leads out of a folder, or is too large, as an input.
 
-    Everything lies in or below the folder, symbolic links followed; all layers' files together have
-    ``max_bytes`` at most.
+    Args:
+        main: the layer to begin with.
+        folder: everything lies in or below it, symbolic links followed.
+        max_bytes: of all layers' files together [bytes].
 
     Raises:
         InputRejected: ``external_reference``, ``missing_file``, ``unreadable``, ``unsupported``
@@ -91,9 +93,15 @@ def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
 def read_annotated(path: Path, max_faces: int) -> tuple[Mesh, Annotation, FloatArray]:
     """Return all surfaces of a stage as one mesh, its parts and joints, and how it was turned.
 
-    The mesh is in metres, z up; parts and joints are in the stage's frame and units, from which the
-    transform leads, shape [4, 4]. See :func:`require_own_layers` for what to ask before, and
-    :func:`load_usd` for what is raised.
+    ``path`` is the root layer's; see :func:`require_own_layers` for what to ask before.
+
+    Returns:
+        The mesh in metres, z up; parts and joints in the stage's frame and units; the transform
+        from there, shape [4, 4].
+
+    Raises:
+        InputRejected: ``unreadable``, ``empty``, ``too_large``, ``not_a_tree``,
+            ``unsupported_joint``.
     """
     with rejecting(path.name, path.parent):
         return _annotated(_read_leniently(path), path.name, max_faces)

@@ -33,9 +33,16 @@ def annotation_of(
 ) -> Annotation:
     """Return parts and joints of a stage, in the file's own frame and units.
 
-    Bodies that no joint holds stand still: they are fixed to the root. ``pieces``, a body and a
-    mesh each and at least one, give the order of faces; ``transform`` leads from the file's frame
-    to the stage's, shape [4, 4]. Raises InputRejected where the joints close a loop, among others.
+    Bodies that no joint holds stand still: they are fixed to the root.
+
+    Args:
+        stage: with at least one surface.
+        pieces: body and mesh, which give the order of faces.
+        transform: from the file's frame to the stage's, shape [4, 4].
+        file: name for messages.
+
+    Raises:
+        InputRejected: ``unsupported_joint``; ``not_a_tree``: the joints close a loop.
     """
     ends = [body for joint in stage.joints for body in joint.bodies]
     bodies = list(dict.fromkeys([*(body for body, _ in pieces), *ends]))
@@ -109,7 +116,10 @@ def _authored_value(joint: PhysicsJoint, stage: PhysicsStage) -> float:
 def _value_at_pose(joint: PhysicsJoint, first: FloatArray, second: FloatArray) -> float:
     """Return the joint's value at the authored pose [rad] or [m]; 0 where frames do not match.
 
-    ``first`` and ``second`` are the frames on its bodies, in the stage's, shape [4, 4].
+    Args:
+        joint: of which the file states both frames.
+        first: the frame on ``body0``, in the stage's, shape [4, 4].
+        second: the frame on ``body1``.
     """
     relative = first[:3, :3].T @ second[:3, :3]
     skew = relative - relative.T

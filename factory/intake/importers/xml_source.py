@@ -31,7 +31,8 @@ def read_xml(path: Path, max_bytes: int, log: ReadLog) -> Element:
 def find_reference(reference: str, folder: Path, where: str, log: ReadLog) -> Path:
     """Return the file that ``reference`` names below ``folder``, as :func:`locate` understands it.
 
-    Raises InputRejected: ``external_reference`` or ``missing_file``; ``where`` opens the sentence.
+    Raises:
+        InputRejected: ``external_reference`` or ``missing_file``; ``where`` opens the sentence.
     """
     with rejecting(where, folder, log):
         for place in locate(unquote(reference.strip()).replace("\\", "/"), folder.resolve()):

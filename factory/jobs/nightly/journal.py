@@ -68,7 +68,8 @@ def locked(nights: Path) -> Iterator[Callable[[str], None]]:
 
     Gives a function that takes this night's name, to be told to whoever is refused.
 
-    Raises ConfigError: another night runs there; says which, where and what to do.
+    Raises:
+        ConfigError: another night runs there; says which, where and what to do.
     """
     lock = FileLock(nights / ".lock", blocking=False)
     holder = nights / ".holder"

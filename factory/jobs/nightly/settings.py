@@ -72,7 +72,8 @@ class NightConfig:
 def load_night(path: Path) -> NightConfig:
     """Return the night that a TOML file describes; relative paths in it start from its folder.
 
-    Raises ConfigError: unreadable, or a setting that does not exist or has another type.
+    Raises:
+        ConfigError: unreadable, or a setting that does not exist or has another type.
     """
     try:
         stated = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -118,7 +119,8 @@ def _weights(stated: str, base: Path) -> str:
 def with_licenses(config: NightConfig) -> NightConfig:
     """Return the same night, whose build refuses inputs under another license.
 
-    Raises ConfigError: the build's own settings name other licenses.
+    Raises:
+        ConfigError: the build's own settings name other licenses.
     """
     intake = config.build.intake
     names = config.licenses.names
@@ -134,7 +136,8 @@ def with_licenses(config: NightConfig) -> NightConfig:
 def require_possible(config: NightConfig) -> None:
     """Find out now what would fail in the night.
 
-    Raises ConfigError: a setting that cannot be; names it and what would work.
+    Raises:
+        ConfigError: a setting that cannot be; names it and what would work.
     """
     from ...articulate.catalog import ARTICULATORS
     from ...articulate.settings import require_usable

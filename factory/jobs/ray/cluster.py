@@ -42,10 +42,13 @@ class ClusterLost(AssetFactoryError):
 def connected(address: str, processors: int | None) -> Iterator[Any]:
     """Yield Ray, connected; disconnect afterwards, and end an own cluster.
 
-    ``address`` is ``local`` for a cluster of one's own, with so many ``processors`` (all by
-    default); ``auto`` for the one that this machine belongs to, or ``host:port``.
+    Args:
+        address: ``local`` for a cluster of one's own; ``auto`` for the one that this machine
+            belongs to, or ``host:port``.
+        processors: of a cluster of one's own; all of them by default.
 
-    Raises ConfigError: Ray is not installed, or there is no cluster at that address.
+    Raises:
+        ConfigError: Ray is not installed, or there is no cluster at that address.
     """
     if find_spec("ray") is None:
         raise ConfigError("Ray is not installed; `pip install 'asset-factory[ray]'` brings it")

@@ -44,7 +44,8 @@ class Exchange:
     Attributes:
         argument: which argument of the function is the folder to fill.
         url: of a folder that all nodes can write and the caller can read, as fsspec names it; each
-            try sends one file there, which is removed when it was read. Empty: all see the folder.
+            try sends one file there, which is removed when it was read. Empty: the folder itself
+            lies where all nodes see it.
         absent: arguments that name places which only the caller sees if there is a URL; nodes get
             ``None`` for them.
     """
@@ -70,10 +71,13 @@ class Exchange:
 
 @dataclass(frozen=True)
 class Sent(Generic[T]):
-    """A node's answer: the function's value, and the folder that it filled there.
+    """A node's answer.
 
-    ``digest`` is SHA-256 of the file that was sent, ``size`` its size [bytes]; empty if there was
-    none.
+    Attributes:
+        value: of the function.
+        folder: that it filled, where that was.
+        digest: SHA-256 of the file that was sent; empty if there was nothing to send.
+        size: of that file [bytes].
     """
 
     value: T
@@ -84,9 +88,11 @@ class Sent(Generic[T]):
 
 @dataclass(frozen=True)
 class Transfer:
-    """Where one try's folder should be, as the caller awaits it.
+    """One try's folder, as the caller awaits it.
 
-    ``url`` is of the file that brings it; empty if it is there already.
+    Attributes:
+        folder: where it should be.
+        url: of the file that brings it; empty if it is there already.
     """
 
     folder: Path
@@ -95,7 +101,8 @@ class Transfer:
     def opened(self, outcome: Outcome[Sent[T]]) -> Outcome[T]:
         """Return the function's own outcome, with its folder here: paths in the value lead there.
 
-        Raises OSError: the file that brings it is not there any more, or is another one.
+        Raises:
+            OSError: the file that brings it is not there any more, or is another one.
         """
         answer: Any = outcome
         if outcome.value is None:
@@ -185,7 +192,9 @@ def make_and_send(
 def _send(packed: IO[bytes], target: str) -> None:
     """Write all of a file to a URL.
 
-    Raises OSError where a disk is full, else ExchangeError: no fault of the content.
+    Raises:
+        ExchangeError: that failed, which is no fault of the content.
+        OSError: a disk is full.
     """
     try:
         file_system, place = located(target)
@@ -201,7 +210,8 @@ def _send(packed: IO[bytes], target: str) -> None:
 def unpacked(archive: tarfile.TarFile, folder: Path) -> None:
     """Unpack files and folders of an archive, nothing else and nowhere else.
 
-    Raises ExchangeError: it holds something else, a path that leaves the folder, or too much.
+    Raises:
+        ExchangeError: it holds something else, a path that leaves the folder, or too much.
     """
     files = 0
     size = 0

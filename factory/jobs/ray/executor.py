@@ -63,7 +63,9 @@ class RayExecutor:
     ) -> Iterator[tuple[Call, Outcome[T]]]:
         """Make every call as :class:`~.executor.Executor` promises.
 
-        Raises ConfigError for no such cluster, ClusterLost if it went away, or no node can be used.
+        Raises:
+            ConfigError: there is no such cluster.
+            ClusterLost: the cluster as a whole went away, or none of its nodes can be used.
         """
         with connected(self.address, self.workers) as ray:
             tasks: _Tasks[T] = _Tasks(self, ray, function, limits)

@@ -26,10 +26,14 @@ _NOWHERE = "/nowhere"
 
 @dataclass(frozen=True)
 class SentInput:
-    """What a node must know of an input beside its bytes, whose SHA-256 is ``digest``.
+    """What a node must know of an input beside its bytes.
 
-    ``argument`` of the function is its path; from its folder's name a category may be guessed.
-    ``links`` are files that lead out of its folder; the reader is to refuse them there too.
+    Attributes:
+        argument: of the function, that is the input's path.
+        folder: name of its folder, from which a category may be guessed.
+        name: of its main file.
+        links: files that are links to outside its folder; the reader is to refuse them there too.
+        digest: SHA-256 of its bytes.
     """
 
     argument: str
@@ -42,7 +46,9 @@ class SentInput:
     def unpacked(self, data: bytes) -> Iterator[Path]:
         """Yield the input's path on this machine, where it lies within this.
 
-        Raises ExchangeError if other bytes were sent, OSError where there is no room.
+        Raises:
+            ExchangeError: other bytes were sent.
+            OSError: there is no room for it.
         """
         if hashlib.sha256(data).hexdigest() != self.digest:
             raise ExchangeError("an input is not the one that was sent: its digest is another")
@@ -63,9 +69,13 @@ class SentInput:
 
 @dataclass(frozen=True)
 class PackedInput:
-    """An input as it was sent: what its receiver must know, and its files as a tar archive.
+    """An input as it was sent.
 
-    ``names`` are all files that were looked for, relative to its folder.
+    Attributes:
+        source: where it lies.
+        sent: what its receiver must know.
+        data: its files as a tar archive.
+        names: of all files that were looked for, relative to its folder.
     """
 
     source: Path
@@ -81,9 +91,12 @@ class PackedInput:
 
 @dataclass(frozen=True)
 class Inputs:
-    """How calls name their inputs, and the place where an input lies for the caller.
+    """How calls name their inputs.
 
-    ``reads`` tells from a call's value which files the input was made of.
+    Attributes:
+        argument: of the function, that is an input's path.
+        place: its argument that tells where the input lies for the caller.
+        reads: what a call's value says of the files that the input was made of.
     """
 
     argument: str
@@ -97,7 +110,8 @@ class Inputs:
     def packed(self, arguments: Mapping[str, Any], more: frozenset[str]) -> PackedInput:
         """Return an input with what it seems to refer to, and ``more`` that belongs to it.
 
-        Raises ValueError: it has too many bytes.
+        Raises:
+            ValueError: it has too many bytes.
         """
         source = Path(arguments[self.argument])
         names = companions(source, more)

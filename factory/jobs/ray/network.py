@@ -32,7 +32,12 @@ RELAY_S = 240.0
 
 @dataclass(frozen=True)
 class Asked:
-    """A network that calls ask, and the argument of the function that is its address."""
+    """A network that calls ask.
+
+    Attributes:
+        config: which one, and how it is run.
+        argument: of the function, that is the address.
+    """
 
     config: ParticulateConfig
     argument: str

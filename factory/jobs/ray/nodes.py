@@ -34,7 +34,8 @@ class Nodes:
     def set_aside(self, node: str, why: str, seconds: float = float("inf")) -> None:
         """Give a node no work, for good or for a while [s].
 
-        Raises NoNodeLeft: it was the last one.
+        Raises:
+            NoNodeLeft: it was the last one.
         """
         told = node in self._aside
         address = self._alive().get(node, {}).get("NodeManagerAddress", node)

@@ -31,7 +31,12 @@ a node has already.
 
 @dataclass(frozen=True)
 class Checkpoints:
-    """Which checkpoints calls may ask for, and the argument that tells where they lie."""
+    """Which checkpoints calls may ask for.
+
+    Attributes:
+        argument: of the function, that tells where they lie.
+        names: as configurations name them.
+    """
 
     argument: str
     names: tuple[str, ...]

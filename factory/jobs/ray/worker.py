@@ -25,9 +25,15 @@ NEEDED = ("asset_factory.sim_checks.processes.isolation",)
 
 @dataclass(frozen=True)
 class WorkerSettings:
-    """How calls are made on a node, see :class:`~..local.LocalExecutor`.
+    """How calls are made on a node.
 
-    ``modules`` are what every child needs, imported once per process of Ray's.
+    Attributes:
+        retries: further tries of a call that crashed, hung or ran out of memory, each in a new
+            process.
+        calls: after so many a child is replaced by a new one.
+        resident_bytes: a child that holds more memory than this after a call is replaced at once
+            [bytes].
+        modules: what every child needs; imported once per process of Ray's.
     """
 
     retries: int
@@ -40,8 +46,12 @@ class WorkerSettings:
 class Order:
     """One call, as a node is given it.
 
-    ``input`` and ``weights`` are sent along; ``None``: the node sees them. It is ended at ``until``
-    [s since 1970], if it still runs.
+    Attributes:
+        function, arguments, limits: of the call.
+        settings: how it is made.
+        input: the one sent along; ``None``: the node sees it.
+        weights: which checkpoints are sent along; ``None``: the node sees them.
+        until: when it is ended, if it still runs [s since 1970].
     """
 
     function: Callable[..., Any]
@@ -57,10 +67,16 @@ _children: dict[WorkerSettings, WarmChild] = {}
 
 
 def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, Any]:
-    """Make the call of an :class:`Order` with the files sent along; whatever it does, this returns.
+    """Make one call with the files sent along; whatever it does, this returns.
 
-    It answers ``done`` and the outcome; ``full`` if this node had no room for its inputs or
-    outputs; ``lost`` and why, if files did not arrive, here or from here.
+    Args:
+        packed: an :class:`Order`.
+        data: of its input; empty if none was sent.
+        weights: checkpoints that it may ask for.
+
+    Returns:
+        ``done`` and its outcome; ``full`` if this node had no room for its inputs
+        or outputs; ``lost`` and why, if files did not arrive, here or from here.
     """
     import ray
 

@@ -49,7 +49,8 @@ def contents(
     Others may use the registry meanwhile; assets no longer in it, or no longer passing, are left
     out.
 
-    Raises RegistryError: a file differs from the published one.
+    Raises:
+        RegistryError: a file differs from the published one.
     """
     sums: list[tuple[str, str]] = []
     for name, data in _files(registry, entries, layout):

@@ -31,13 +31,16 @@ class Written:
 
 
 def write_export(files: Iterable[tuple[str, bytes]], target: str) -> Written:
-    """Write files of :func:`.contents.contents`; an unfinished export never has its name.
+    """Write an export; an unfinished one never has its name.
 
-    ``target`` is a folder that does not exist or is empty, a file that ends in .tar, .tar.gz or
-    .tgz, or a URL of either that fsspec understands, e.g. ``s3://bucket/assets.tar``. An archive
-    takes the place of an older one.
+    Args:
+        files: paths and contents, as :func:`.contents.contents` gives them.
+        target: a folder that does not exist or is empty, a file that ends in .tar, .tar.gz or .tgz,
+            or a URL of either that fsspec understands, e.g. ``s3://bucket/assets.tar``. An archive
+            takes the place of an older one.
 
-    Raises RegistryError: the target cannot be written, or fsspec is needed and not installed.
+    Raises:
+        RegistryError: the target cannot be written, or fsspec is needed and not installed.
     """
     sizes: list[int] = []
     files = _counted(files, sizes)

@@ -46,15 +46,19 @@ def import_export(
     trusted: bool = False,
     limits: ImportLimits | None = None,
 ) -> TakenIn:
-    """Take the assets of a folder or archive that an export is into a registry.
+    """Take an export's assets into a registry.
 
     All of it is unpacked beside the registry and checked before any of it is published; each asset
     is then published as a built one is. If that is interrupted, assets are there or not, and the
     same import goes on.
 
-    With ``replace`` its assets take the place of others with the same ids; a ``trusted`` one is
-    believed what it says they were made from, so that builds of the same inputs are answered with
-    them.
+    Args:
+        registry: where to.
+        source: a folder or archive that :func:`..export.write_export` wrote.
+        replace: let its assets take the place of others with the same ids.
+        trusted: believe what it says they were made from, so that builds of the same inputs are
+            answered with them.
+        limits: on its size.
 
     Raises:
         RegistryError: it is no export, something in it is not what its digests say, or other assets

@@ -33,7 +33,13 @@ _MAX_SUMS = 2_000_000_000
 
 @dataclass(frozen=True)
 class ImportLimits:
-    """At most so many bytes in all, bytes of one file, and files."""
+    """At most so much.
+
+    Attributes:
+        total_bytes: of all files together [bytes].
+        file_bytes: of one file [bytes].
+        files: how many.
+    """
 
     total_bytes: int = 200_000_000_000
     file_bytes: int = 4_000_000_000
@@ -68,7 +74,9 @@ class Tally:
 
 
 def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
-    """Copy the files of an export, a folder or a .tar or .tar.gz file, into an empty folder.
+    """Copy an export's files.
+
+    ``source`` is a folder, or a .tar or .tar.gz file; ``target`` an empty folder.
 
     Raises:
         RegistryError: it is no export, too large, or has something that no export has: links,

@@ -32,9 +32,16 @@ class InputChange:
 
 @dataclass(frozen=True)
 class Changes:
-    """Two nights compared: inputs that fail now, pass now, or fail for another reason.
+    """Two nights compared.
 
-    ``shared`` counts inputs of both nights; ``fresh`` and ``gone`` are inputs of one night only.
+    Attributes:
+        failing: passed then and not now.
+        passing: the other way round.
+        other: failed both times, for another reason.
+        shared: how many inputs both nights had.
+        passed_before, passed_now: how many of those passed.
+        fresh: inputs of the later night only.
+        gone: inputs of the earlier night only.
     """
 
     failing: tuple[InputChange, ...] = ()
@@ -162,10 +169,15 @@ class SourceRules:
 
 @dataclass(frozen=True)
 class SourceYield:
-    """How many inputs of a source, with all below it, there were in a night, and how many passed.
+    """How many inputs of a source there were in a night, and how many of them passed.
 
-    ``usual`` is the median of its yields over so many last nights, 0 to 1; ``None`` where there
-    were too few. It fell where it is further below that than is allowed.
+    Attributes:
+        source: an input of the configuration, with all below it.
+        passed, tried: inputs.
+        usual: the median of its yields over the last nights, 0 to 1; ``None`` where there were too
+            few.
+        nights: how many those were.
+        fell: whether the yield is further below that than is allowed.
     """
 
     source: str

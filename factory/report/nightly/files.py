@@ -66,7 +66,8 @@ def unfinished(nights: Path) -> tuple[str, ...]:
 def chosen_name(nights: Path, wanted: str | None) -> str:
     """Choose the night to run: as asked for, else an unfinished one, else the next number.
 
-    Raises ConfigError: a name that cannot be a folder's, or of a night that is finished.
+    Raises:
+        ConfigError: a name that cannot be a folder's, or of a night that is finished.
     """
     going_on = unfinished(nights)
     if wanted is None:

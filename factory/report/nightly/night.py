@@ -85,15 +85,21 @@ class Night:
     """One night in figures: the head of its summary, and a point of the trend.
 
     Attributes:
+        name: of its folder.
         state: ``finished``, ``interrupted``, or how the budget ended it.
         started, ended: ISO 8601 in UTC.
         seconds: that it ran, all its runs together [s].
-        known: of those with a verdict, known from before.
+        found: inputs there were.
+        passed, rejected, unjudged: how many of each verdict.
+        known: of all those, known from before.
         crashed: of those unjudged, known to crash and waiting for another version of something.
+        waiting: not begun.
         left_out: not begun because of their license.
         verified: entries compared with their files; ``None``: not done.
         damaged: of those, how many were not as registered.
-        mended, withdrawn: of those damaged, how many are whole again, or registered no more.
+        mended: of those damaged, how many are whole again.
+        withdrawn: of those damaged, how many are registered no more.
+        exit_code: what the command ended with.
     """
 
     name: str

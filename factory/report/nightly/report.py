@@ -30,13 +30,20 @@ class NightlyReport:
     """All that is known of a night.
 
     Attributes:
-        before: figures of the night before; ``None`` for the first one.
+        night: its figures.
+        before: those of the night before; ``None`` for the first one.
         tried: its attempts as they ended, those of its earlier runs included.
+        changes: against the night before.
         attention: sentences to read first.
-        not_allowed: assets registered under a license that is not ``allowed`` now; none: all are.
+        damage: of registered assets, as it was found.
+        left_out: inputs that were not built for their license.
+        not_allowed: assets registered under a license that is not allowed now.
+        allowed: licenses that are; empty: all of them.
         registry: how many rows this night added, removed and so on.
+        settings: how it was run, as told on the page.
         trend: nights in their order, this one last.
         settled: what became of each damaged asset, by id; none where nothing was mended.
+        sources: the yield by source.
     """
 
     night: Night

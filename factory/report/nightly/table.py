@@ -19,10 +19,12 @@ STAGE_PREFIX = "seconds_"
 
 
 def write_table(path: Path, tried: Sequence[NightResult]) -> None:
-    """Write a night's tries by input, whole: those that died too, and those of its earlier runs.
+    """Write a night's tries by input: those that died too, and those of its earlier runs.
 
     A column for each field of an attempt, ``attempt`` and ``last``, and a column
     ``seconds_<stage>`` for each stage that any of them went through.
+
+    A reader sees the old file or the new one, never half of it.
     """
     import pyarrow as pa
     from pyarrow import parquet

@@ -29,7 +29,8 @@ def page_of_file(path: Path, live: bool = False) -> str:
 
     If ``live``, it is served, and other files may be dropped on it.
 
-    Raises InputRejected: it cannot be shown, with a reason code.
+    Raises:
+        InputRejected: it cannot be shown, with a reason code.
     """
     if not path.exists():
         raise InputRejected("missing_file", f"{path.name}: no such file")
@@ -71,8 +72,10 @@ TEXT = "text/plain; charset=utf-8"
 class DroppedFiles:
     """Answers for the page of a file, and then of whatever is dropped on it.
 
-    ``draw`` returns the page of a file, or ``None`` where no answer came; raises AssetFactoryError
-    with a sentence.
+    Args:
+        page: the first one, HTML.
+        draw: returns the page of a file, or ``None`` where no answer came; raises
+            AssetFactoryError with a sentence.
     """
 
     def __init__(self, page: str, draw: Callable[[Path], str | None]) -> None:
@@ -97,12 +100,15 @@ class DroppedFiles:
 
 
 def unpack_drop(body: bytes, folder: Path) -> Path:
-    """Write dropped files into an empty folder; return the one to be shown, descriptions first.
+    """Write dropped files into a folder; return the one to be shown, descriptions first.
 
-    ``body`` is a line of JSON with names and sizes, ``[["robot/arm.urdf", 120], ...]``, then the
-    bytes of all.
+    Args:
+        body: a line of JSON with names and sizes, ``[["robot/arm.urdf", 120], ...]``, then the
+            bytes of all.
+        folder: an empty one.
 
-    Raises ConfigError: these are no files, or there is none among them that can be shown.
+    Raises:
+        ConfigError: these are no files, or there is none among them that can be shown.
     """
     head, _, rest = body.partition(b"\n")
     try:

@@ -27,7 +27,12 @@ class SweepMark:
 
 @dataclass(frozen=True)
 class SweepTold:
-    """What the validator measured along one joint, and the values of joints open meanwhile."""
+    """What the validator measured along one joint.
+
+    Attributes:
+        marks: of the pairs that come near.
+        open: values of the joints that have to be open for it [rad] or [m].
+    """
 
     marks: tuple[SweepMark, ...] = ()
     open: Mapping[str, float] = field(default_factory=dict)

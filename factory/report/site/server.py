@@ -26,7 +26,13 @@ _GUARDS = {
 
 @dataclass(frozen=True)
 class PageRequest:
-    """What a browser asks for; the path is as it was sent: nothing in it was resolved."""
+    """What a browser asks for.
+
+    Attributes:
+        method: ``GET`` or ``POST``.
+        path: as it was sent; nothing in it was resolved.
+        body: what came with it; empty of ``GET``.
+    """
 
     method: str
     path: str
@@ -48,7 +54,11 @@ NOT_FOUND = PageResponse(status=HTTPStatus.NOT_FOUND)
 
 @dataclass(frozen=True)
 class PageServer:
-    """A server that waits for its pages, the first of them at ``url``, to be asked for."""
+    """A server that waits for its pages to be asked for.
+
+    Attributes:
+        url: where the first page is.
+    """
 
     url: str
     _server: ThreadingHTTPServer
@@ -70,7 +80,8 @@ def serve(answer: Answer, port: int = 0, most_bytes: int = 0) -> Iterator[PageSe
     ``answer`` is called from several threads at once. Port 0 is any that is free; a request may
     bring ``most_bytes``.
 
-    Raises ConfigError: the port is taken.
+    Raises:
+        ConfigError: the port is taken.
     """
 
     class Handler(BaseHTTPRequestHandler):

@@ -76,7 +76,11 @@ def _films(names: Sequence[str], entry: Entry) -> Sequence[str]:
 
 
 def write_asset(root: Path, entry: Entry) -> None:
-    """Write the page of one asset with its pictures and model; its row, last, says it is whole."""
+    """Write the page of one asset with its pictures and model; its row, last, says it is whole.
+
+    Raises:
+        OSError: the site cannot be written.
+    """
     folder = root / PAGES / _ASSETS / entry.id
     folder.mkdir(parents=True, exist_ok=True)
     films = _films(_all_films(root), entry)
@@ -99,7 +103,11 @@ def write_asset(root: Path, entry: Entry) -> None:
 
 
 def write_index(registry: Registry) -> Path:
-    """Write grid, plain lists and contact sheet of all pages; returns the first page."""
+    """Write the grid, the plain lists and the contact sheet of all pages; returns the first page.
+
+    Raises:
+        OSError: the site cannot be written.
+    """
     site = registry.root / PAGES
     site.mkdir(parents=True, exist_ok=True)
     for name in STATIC_FILES:

@@ -45,7 +45,14 @@ class FindingTold:
 
 @dataclass(frozen=True)
 class FindingGroup:
-    """Findings of one code and severity, and what the code means."""
+    """Findings of one code and severity, and what the code means.
+
+    Attributes:
+        code: of all.
+        severity: ``error``, ``warning`` or ``note``.
+        meaning: of the code.
+        findings: all of them.
+    """
 
     code: str
     severity: Severity
@@ -59,10 +66,13 @@ class AssetPage:
 
     Attributes:
         entry: its row; of a file that is only viewed, one made for it.
+        report: what the validator said.
         scene: what is shown; ``None`` where there is no model.
         manifest: ``asset.json``; ``None`` where there is none that can be read.
         findings: errors first.
         hypotheses: sentences on other hypotheses of the input.
+        repairs: what was changed.
+        places: poses and points that findings lead to.
         data: for the page's script, JSON data.
         folder: link to the asset's own folder; empty without one.
         registry: name of its registry's folder.
@@ -135,7 +145,8 @@ def about(entry: Entry) -> str:
 def asset_page(root: Path, entry: Entry) -> AssetPage:
     """Return what the page of a registered asset says.
 
-    Raises RegistryError: its report cannot be read.
+    Raises:
+        RegistryError: its report cannot be read.
     """
     place = ASSETS if entry.status is Status.PASSED else REJECTED
     folder = root / place / entry.id
