@@ -18,7 +18,7 @@ from .intake.intake import Intake
 from .intake.source import Source
 from .manufacture.stage import with_targets
 from .registry import Registry
-from .registry.product import Made, Product, finished, refused, stopped
+from .registry.product import Made, Product, finished, refused
 from .registry.registration import register
 from .registry.result import Result
 from .runtime.layout import CACHE
@@ -74,8 +74,6 @@ def make_asset(
         return finished(origin, intake, made, stages)
     except (InputRejected, Unjudged) as ended:
         shown = None if intake is None else write_input(intake.mesh, staging / "input")
-        if isinstance(ended, Unjudged):
-            return stopped(origin, ended, stages, shown)
         return refused(origin, ended, stages, shown)
 
 

@@ -98,17 +98,13 @@ class Viewpoint:
             turn: stand elsewhere: so far around from +X, counterclockwise from above [rad].
         """
         wanted = poses or tuple(self._scene.opened(amount) for amount in (0.0, 0.5, 1.0))
-        corners = np.concatenate([self._corners(values) for values in wanted])
+        boxes = [box for values in wanted for box in self._placed(values)]
+        corners = np.concatenate(boxes or [np.zeros((1, 3))])
         axes = self.axes if turn is None else _axes_turned(turn, np.array([1.0, 0.0]))
         return _fitted(corners, axes, width, height)
 
-    def _corners(self, values: Mapping[str, float]) -> FloatArray:
-        """Return the corners of all links' boxes in a pose, root frame [m], shape [count, 3]."""
-        found = self._placed(values)
-        return np.concatenate(found) if found else np.zeros((1, 3))
-
     def _placed(self, values: Mapping[str, float]) -> list[FloatArray]:
-        """Return the corners of each link's box in a pose."""
+        """Return the corners of each link's box in a pose, root frame [m], shape [8, 3] each."""
         poses = self._scene.poses(values)
         boxes = self._boxes.items()
         return [box @ poses[link, :3, :3].T + poses[link, :3, 3] for link, box in boxes]
@@ -153,14 +149,10 @@ def _fitted(points: FloatArray, axes: FloatArray, width: int, height: int) -> Ca
     spread = float(np.tan(HALF_FIELD))
     half = np.array([spread * width / height, spread]) * (1.0 - MARGIN)
     local = points @ axes.T
-    eye = np.zeros(3)
-    distances = []
-    for axis in (0, 1):
-        # A point on the border of the picture has |offset| = half * distance from the eye.
-        outer = np.max(local[:, axis] + half[axis] * local[:, 2])
-        inner = np.max(-local[:, axis] + half[axis] * local[:, 2])
-        eye[axis] = (outer - inner) / 2.0
-        distances.append((outer + inner) / (2.0 * half[axis]))
+    # A point on the border of the picture has |offset| = half * distance from the eye.
+    outer = np.max(local[:, :2] + half * local[:, 2:], axis=0)
+    inner = np.max(-local[:, :2] + half * local[:, 2:], axis=0)
+    distances = (outer + inner) / (2.0 * half)
     nearest = float(local[:, 2].max()) + 1e-3
-    eye[2] = max(*distances, nearest)
+    eye = np.array([*(outer - inner) / 2.0, max(*distances, nearest)])
     return Camera(eye @ axes, axes, width, height, spread)

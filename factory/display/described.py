@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -65,11 +65,8 @@ def scene_of_description(description: Description, tree: Tree) -> SceneGraph:
         ends = (place[joint.parent], place[joint.child])
         frame = (joint.origin, unit_axis(joint))
         span = (low, high) if moves else (0.0, 0.0)
-        made = SceneJoint(joint.name, kind, *ends, *frame, *span)
-        if mimic:
-            made = replace(made, leader=mimic.leader, multiplier=mimic.multiplier)
-            made = replace(made, offset=mimic.offset)
-        joints.append(made)
+        follows = (mimic.leader, mimic.multiplier, mimic.offset) if mimic else ()
+        joints.append(SceneJoint(joint.name, kind, *ends, *frame, *span, *follows))
     looks = _FileColors(description.path.parent)
     visuals = []
     hulls = []
@@ -94,7 +91,7 @@ class _FileColors:
         self, file: str | None, vertices: FloatArray, faces: IntArray, link: int, plain: Color
     ) -> list[SceneSurface]:
         """Return a shape's triangles, by the materials that its file gives them."""
-        visual = self._visual(file)
+        visual = None if file is None else self._visual(file)
         if visual is None or visual.source_face_count != len(faces):
             return [plain_surface(link, vertices, faces, plain)]
         looks = visual.mesh
@@ -109,13 +106,9 @@ class _FileColors:
         )
         return surfaces_of(posed, link, np.zeros(3), self._images)
 
-    def _visual(self, file: str | None) -> Visual | None:
-        if file is None:
-            return None
+    def _visual(self, file: str) -> Visual | None:
         if file not in self._known:
-            try:
-                path = self._root / file
-                self._known[file] = load_visual(path, self._root, IntakeConfig())
-            except (InputRejected, OSError):
-                self._known[file] = None
+            self._known[file] = None
+            with suppress(InputRejected, OSError):
+                self._known[file] = load_visual(self._root / file, self._root, IntakeConfig())
         return self._known[file]

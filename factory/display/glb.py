@@ -168,19 +168,9 @@ def _animation(writer: _Writer, scene: SceneGraph, chains: list[list[int]]) -> d
 
 
 def _told(joint: SceneJoint) -> dict[str, Any]:
-    told: dict[str, Any] = {
-        "name": joint.name,
-        "kind": joint.kind,
-        "parent": joint.parent,
-        "child": joint.child,
-        "origin": joint.origin.tolist(),
-        "axis": joint.axis.tolist(),
-        "lower": joint.lower,
-        "upper": joint.upper,
-    }
-    if joint.leader:
-        told |= {"leader": joint.leader, "multiplier": joint.multiplier, "offset": joint.offset}
-    return told
+    follows = ("leader", "multiplier", "offset")
+    told = {k: value for k, value in vars(joint).items() if joint.leader or k not in follows}
+    return {**told, "origin": joint.origin.tolist(), "axis": joint.axis.tolist()}
 
 
 def flipped(uv: FloatRows) -> FloatRows:

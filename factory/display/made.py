@@ -6,11 +6,12 @@ import io
 from dataclasses import replace
 
 import numpy as np
+from PIL import Image
 
 from ..articulation import Articulation, JointKind
 from ..asset import Asset
 from ..geometry.rows import distinct_rows
-from ..mesh import FloatArray, IntArray, Material, Mesh, Texture
+from ..mesh import FloatArray, IntArray, Mesh, Texture
 from .scene import UNLIMITED, Color, SceneGraph, SceneJoint, SceneSurface
 
 #: Longest side of a picture on a surface [pixels]: enough for a page, a fraction of the bytes.
@@ -88,21 +89,18 @@ def surfaces_of(
         images: those made so far; more are added.
     """
     found = []
-    for index, material in enumerate(mesh.materials):
+    for index in range(len(mesh.materials)):
         own = mesh.submesh(np.flatnonzero(mesh.face_material == index))
         if len(own.faces):
-            found.append(_surface(own, material, link, frame, images))
+            found.append(_surface(own, link, frame, images))
     return found
 
 
 def _surface(
-    mesh: Mesh,
-    material: Material,
-    link: int,
-    frame: FloatArray,
-    images: dict[Texture, bytes | None],
+    mesh: Mesh, link: int, frame: FloatArray, images: dict[Texture, bytes | None]
 ) -> SceneSurface:
     """Return a mesh of one material, its corners split only where normals or coordinates differ."""
+    material = mesh.materials[0]
     image = None
     if material.texture is not None and mesh.corner_uv is not None:
         if material.texture not in images:
@@ -142,8 +140,6 @@ def plain_surface(
 
 def small_image(data: bytes) -> bytes | None:
     """Return the picture as JPEG, PNG if transparent; ``None`` if it cannot be decoded."""
-    from PIL import Image
-
     try:
         with Image.open(io.BytesIO(data), formats=("PNG", "JPEG")) as image:
             image.draft("RGB", (MAX_TEXTURE, MAX_TEXTURE))

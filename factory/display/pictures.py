@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
+from PIL import Image, ImageDraw
 
 from ..geometry.colors import linear_of
 from .camera import Camera, Viewpoint
@@ -90,8 +91,6 @@ def _pointed(look: Coloring, view: Viewpoint, fault: Fault) -> Pixels:
 
 def marked(pixels: Pixels, camera: Camera, point: tuple[float, ...]) -> Pixels:
     """Return the picture with a red ring around a place, whatever lies before it."""
-    from PIL import Image, ImageDraw
-
     column, row, _ = camera.places(np.array([point]))[0]
     fine = 4
     size = fine * camera.width, fine * camera.height
@@ -138,20 +137,16 @@ def paint_still(
 def tints_of(caster: Caster) -> dict[tuple[int, int], tuple[float, float, float]]:
     """Return a colour for every surface, neighbours in the list far apart."""
     found = {}
-    number = 0
-    for index, link in caster.links.items():
-        for place in range(len(link.surfaces)):
-            hue = (number * 0.618034) % 1.0
-            red, green, blue = linear_of(colorsys.hls_to_rgb(hue, 0.72, 0.42))
-            found[index, place] = (float(red), float(green), float(blue))
-            number += 1
+    places = ((i, n) for i, link in caster.links.items() for n in range(len(link.surfaces)))
+    for number, place in enumerate(places):
+        hue = (number * 0.618034) % 1.0
+        red, green, blue = linear_of(colorsys.hls_to_rgb(hue, 0.72, 0.42))
+        found[place] = (float(red), float(green), float(blue))
     return found
 
 
 def webp(pixels: Pixels) -> bytes:
     """Return a still as a WebP file."""
-    from PIL import Image
-
     buffer = io.BytesIO()
     Image.fromarray(pixels).save(buffer, format="WEBP", quality=84, method=0)
     return buffer.getvalue()
@@ -159,8 +154,6 @@ def webp(pixels: Pixels) -> bytes:
 
 def animated(pixels: list[Pixels]) -> bytes:
     """Return the frames there and back as an animated WebP file."""
-    from PIL import Image
-
     there = [Image.fromarray(each) for each in pixels]
     loop = [*there, *there[-2:0:-1]]
     times = [FRAME_MS] * len(loop)

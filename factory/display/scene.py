@@ -136,12 +136,8 @@ class SceneGraph:
             seen.add(joint.child)
         if len(seen) != len(self.links):
             raise ValueError(f"{len(self.links) - len(seen)} links hang on no joint")
-        if any(surface.link not in seen for surface in self._surfaces):
+        if any(each.link not in seen for each in (*self.visuals, *self.hulls, *self.replaced)):
             raise ValueError("a surface is on no link")
-
-    @property
-    def _surfaces(self) -> tuple[SceneSurface, ...]:
-        return (*self.visuals, *self.hulls, *self.replaced)
 
     @cached_property
     def movable(self) -> tuple[SceneJoint, ...]:

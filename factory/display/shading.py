@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
+from PIL import Image
 from scipy.ndimage import binary_dilation, uniform_filter
 
 from ..geometry.colors import linear_of, srgb_of
@@ -185,8 +186,6 @@ def _albedo(surface: SceneSurface, faces: npt.NDArray[np.int32], weights: FloatR
 @lru_cache(maxsize=16)
 def _texels(image: bytes) -> FloatRows | None:
     """Return the linear RGB of an image, shape [height, width, 3]; ``None``: it is broken."""
-    from PIL import Image
-
     try:
         with Image.open(io.BytesIO(image), formats=("PNG", "JPEG")) as opened:
             opened.draft("RGB", (512, 512))
@@ -205,9 +204,7 @@ def _borders(hits: Hits, shape: tuple[int, int]) -> npt.NDArray[np.bool_]:
     normal = hits.normal.reshape(*shape, 3)
     ends = np.zeros(shape, dtype=bool)
     bends = np.zeros(shape, dtype=bool)
-    for axis in (0, 1):
-        first = (slice(None, -1), slice(None)) if axis == 0 else (slice(None), slice(None, -1))
-        second = (slice(1, None), slice(None)) if axis == 0 else (slice(None), slice(1, None))
+    for first, second in ((np.s_[:-1], np.s_[1:]), (np.s_[:, :-1], np.s_[:, 1:])):
         both = (link[first] >= 0) & (link[second] >= 0)
         other = link[first] != link[second]
         turn = np.einsum("ijk,ijk->ij", normal[first], normal[second]) < 0.85

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import secrets
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from http import HTTPStatus
 from threading import Lock, Thread
@@ -102,15 +102,14 @@ class Editor:
         if not secrets.compare_digest(token.encode(), self.token.encode()):
             return NOT_FOUND
         try:
-            return self._posted(name, asked.body) if asked.method == "POST" else self._got(name)
+            if asked.method == "POST":
+                return self._posts[name](asked.body) if name in self._posts else NOT_FOUND
+            return self._got(name)
         except AssetFactoryError as error:
             return _json({"sentence": str(error)}, HTTPStatus.UNPROCESSABLE_ENTITY)
         except OSError as error:
             sentence = f"{self._subject.sidecar.name}: cannot be written: {error.strerror}"
             return _json({"sentence": sentence}, HTTPStatus.UNPROCESSABLE_ENTITY)
-
-    def _posted(self, name: str, body: bytes) -> PageResponse:
-        return self._posts[name](body) if name in self._posts else NOT_FOUND
 
     def _got(self, name: str) -> PageResponse:
         if name in self._gets:
@@ -128,11 +127,9 @@ class Editor:
         self._slow.end()
 
     def _look(self) -> None:
-        try:
+        # The preview says what is wrong.
+        with suppress(AssetFactoryError, OSError):
             self._quick.ask(work.look, self._subject.mesh, self._config, "-y")
-        except (AssetFactoryError, OSError):
-            # The preview says what is wrong.
-            return
 
     def _pictures(self, front: str) -> dict[str, SidePicture]:
         drawn = self._quick.ask(work.pictures_of, self._subject.mesh, self._config, front)

@@ -90,14 +90,11 @@ def _part(
 def _side(mesh: Mesh, box: FloatArray, joint: SceneJoint, axis: FloatArray, kind: PartKind) -> Side:
     """Return the side on which a part is seen best: where it slides, looks, or is turned."""
     off = box.mean(axis=0) - mesh.bounds.mean(axis=0)
-    if joint.kind == "prismatic":
-        direction = axis
-    elif kind in _HINGED:
-        direction = np.eye(3)[int((box[1] - box[0]).argmin())]
-    else:
-        direction = axis
-    if joint.kind != "prismatic" and direction @ off < 0.0:
-        direction = -direction
+    direction = axis
+    if not joint.slides:
+        if kind in _HINGED:
+            direction = np.eye(3)[int((box[1] - box[0]).argmin())]
+        direction = -direction if direction @ off < 0.0 else direction
     side = side_facing(direction)
     return Side.FRONT if side is Side.BOTTOM else side
 

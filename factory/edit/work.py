@@ -1,4 +1,7 @@
-"""Work on an edited mesh, in a child process: a file of anybody's may take any time."""
+"""Work on an edited mesh, in a child process: a file of anybody's may take any time.
+
+Whatever it raises is an AssetFactoryError that says why.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +22,6 @@ from ..config import BuildConfig
 from ..display.glb import glb_of, read_model, scene_from
 from ..display.made import scene_of_articulation, scene_of_mesh
 from ..errors import ConfigError, InputRejected
-from ..export.manifest import Manifest
 from ..intake.intake import Intake
 from ..intake.loading import load_mesh
 from ..intake.stated import Stated
@@ -170,13 +172,10 @@ def _found_in(asset: Path, intake: Intake) -> dict[str, Any]:
         scene = scene_from(read_model(asset / MODEL))
     except (OSError, ValueError):
         return {}
-    return _plain(found_parts(intake.mesh, scene, _kinds(manifest)))
-
-
-def _kinds(manifest: Manifest | None) -> dict[str, PartKind]:
     proposed = {} if manifest is None else manifest.proposed
-    known = set(PartKind)
-    return {name: PartKind(each.kind) for name, each in proposed.items() if each.kind in known}
+    told = {name: each.kind for name, each in proposed.items()}
+    kinds = {name: PartKind(kind) for name, kind in told.items() if kind in set(PartKind)}
+    return _plain(found_parts(intake.mesh, scene, kinds))
 
 
 def _plain(stated: Stated) -> dict[str, Any]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
-from ..articulation import Joint, Part
+from ..articulation import Joint, Part, Weights
 from ..asset import Hull, InnerSurface, Target
 from ..intake.intake import Provenance
 from ..manufacture.targets.standing import standing_place
@@ -61,23 +62,19 @@ def manifest_of(layout: Layout, provenance: Provenance) -> Manifest:
         links=tuple(_link(layout, part) for part in range(len(layout.links))),
         targets=tuple(_target(layout, target) for target in asset.targets),
         excluded_pairs=layout.excluded_pairs,
-        provenance=ManifestProvenance(
-            input=provenance.input,
-            digest=provenance.digest,
-            up=provenance.up,
-            up_source=provenance.up_source,
-            scale=magnitude(provenance.scale),
-            scale_source=provenance.scale_source,
-            density=provenance.density,
-            dropped_degenerate=provenance.dropped_degenerate,
-            dropped_non_finite=provenance.dropped_non_finite,
-            weights=articulation.weights,
-        ),
+        provenance=_provenance(provenance, articulation.weights),
         tools=tool_versions(),
         notes=(*provenance.notes, *articulation.notes, *layout.notes),
         invented=tuple(_surface(surface) for surface in asset.invented),
         proposers=tuple(sorted({p.source.proposer for p in articulation.parts if p.source})),
     )
+
+
+def _provenance(provenance: Provenance, weights: tuple[Weights, ...]) -> ManifestProvenance:
+    """Return where an asset came from, without what the manifest says itself."""
+    told = {**vars(provenance), "scale": magnitude(provenance.scale), "weights": weights}
+    names = (each.name for each in fields(ManifestProvenance))
+    return ManifestProvenance(**{name: told[name] for name in names})
 
 
 def tool_versions() -> dict[str, str | None]:

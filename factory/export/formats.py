@@ -20,21 +20,16 @@ from .usd import write_usd
 
 @dataclass(frozen=True)
 class Format:
-    """A description that is written of an asset.
+    """A description that is written of an asset whose meshes are laid out in the file's folder.
 
-    Attributes:
-        name: as ``--formats`` wants it.
-        file: in the bundle's folder.
-        write: writes it of an asset whose meshes are laid out in that folder.
-        needs: module without which it cannot be written.
-        comes_with: what installs that module.
+    ``needs`` is the module without which it cannot be; the extra of its name, as ``--formats`` has
+    it, installs that.
     """
 
     name: str
     file: str
     write: Callable[[Layout, Path], None]
     needs: str = ""
-    comes_with: str = ""
 
 
 def as_text(text: Callable[[Layout], str]) -> Callable[[Layout, Path], None]:
@@ -50,7 +45,7 @@ FORMATS = (
     Format("urdf", URDF, as_text(urdf_text)),
     Format("mjcf", MJCF, as_text(mjcf_text)),
     Format("sdf", "asset.sdf", as_text(sdf_text)),
-    Format("usd", "asset.usd", write_usd, "pxr", "asset-factory[usd]"),
+    Format("usd", "asset.usd", write_usd, "pxr"),
     Format("glb", "asset.glb", write_glb_asset),
 )
 
@@ -70,5 +65,5 @@ def formats_named(names: tuple[str, ...]) -> tuple[Format, ...]:
     for each in chosen:
         if each.needs and find_spec(each.needs) is None:
             lacking = f"{each.name} needs {each.needs}, which is not installed"
-            raise ConfigError(f"formats: {lacking}; pip install '{each.comes_with}'")
+            raise ConfigError(f"formats: {lacking}; pip install 'asset-factory[{each.name}]'")
     return chosen

@@ -15,7 +15,6 @@ from scipy.spatial.transform import Rotation
 
 from ..articulation import Articulation, Joint
 from ..display.gltf import Y_UP, Attribute, Buffer, gltf_materials, primitive
-from ..mesh import FloatArray
 from ..runtime.numbers import magnitude
 from .links import Layout, child_offset
 from .meshes import filled_normals
@@ -34,8 +33,9 @@ def write_glb_asset(layout: Layout, file: Path) -> None:
     number = {piece.name: index for index, piece in enumerate(pieces)}
     links = [_link(layout, part, buffer, number) for part in range(len(layout.links))]
     # The first node turns the asset upright; those of the links come after it, in order.
+    upright = [round(each, 9) + 0.0 for each in Rotation.from_matrix(Y_UP[:3, :3]).as_quat()]
     nodes: list[dict[str, Any]] = [
-        {"name": layout.asset.name, "rotation": _quaternion(Y_UP[:3, :3]), "children": [1]}
+        {"name": layout.asset.name, "rotation": upright, "children": [1]}
     ]
     meshes: list[dict[str, Any]] = []
     for joint in layout.asset.articulation.joints:
@@ -127,7 +127,3 @@ def _keys(articulation: Articulation, joint: Joint, buffer: Buffer) -> tuple[int
         offset = child_offset(articulation, joint.child)
         rows = (offset + values[:, None] * joint.axis).astype(np.float32)
     return buffer.keys(times.astype(np.float32)), buffer.keys(rows)
-
-
-def _quaternion(rotation: FloatArray) -> list[float]:
-    return [round(value, 9) + 0.0 for value in Rotation.from_matrix(rotation).as_quat()]

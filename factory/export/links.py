@@ -84,7 +84,7 @@ def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], .
     links = tuple(map(LinkFiles, names, visuals, hulls))
     resistances = joint_resistances(asset)
     notes = (*textures.notes, *resistance_notes(asset, resistances))
-    return Layout(asset, links, resistances, _pairs(asset, names, excluded_pairs), notes)
+    return Layout(asset, links, resistances, _sorted(excluded_pairs, names), notes)
 
 
 def child_offset(articulation: Articulation, part: int) -> FloatArray:
@@ -117,14 +117,12 @@ def _write_hulls(asset: Asset, part: int, folder: Path) -> tuple[Path, ...]:
     return tuple(files)
 
 
-def _pairs(
-    asset: Asset, names: tuple[str, ...], pairs: tuple[tuple[str, str], ...]
+def _sorted(
+    pairs: tuple[tuple[str, str], ...], names: tuple[str, ...]
 ) -> tuple[tuple[str, str], ...]:
-    link_of = {part.name: name for part, name in zip(asset.articulation.parts, names, strict=True)}
     for pair in pairs:
         for name in pair:
-            if name not in link_of:
-                known = sorted(link_of)
+            if name not in names:
+                known = sorted(names)
                 raise ValueError(f"excluded pair {pair}: no part {name!r}; there are {known}")
-    linked = ((link_of[first], link_of[second]) for first, second in pairs)
-    return tuple(sorted({(min(pair), max(pair)) for pair in linked}))
+    return tuple(sorted({(min(pair), max(pair)) for pair in pairs}))

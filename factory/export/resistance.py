@@ -120,7 +120,9 @@ def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
     friction = max(friction, HOLD_CLOSED * _gravity_opens(asset, carried, joint, closed))
     friction = min(friction, CHOSEN_RIM_FORCE_N * reach)
     most = MOST_RIM_FORCE_N * reach
-    friction = friction if _beyond_reason(joint, most) else min(joint.friction or 0.0, most)
+    # More than that is a lock rather than a friction.
+    if joint.friction is not None and joint.friction <= LOCKED * most:
+        friction = min(joint.friction, most)
     return Resistance(
         inertia=inertia,
         damping=_damping(joint, inertia, reach),
@@ -135,11 +137,6 @@ def _damping(joint: Joint, inertia: float, reach: float) -> float:
     speed = (joint.upper - joint.lower) / OPENING_TIME_S
     most = pull * reach / speed if speed > 0.0 else damping
     return min(damping, inertia / SHORTEST_TIME_S, most)
-
-
-def _beyond_reason(joint: Joint, most: float) -> bool:
-    """Return whether nothing usable was stated: nothing, or a lock rather than a friction."""
-    return joint.friction is None or joint.friction > LOCKED * most
 
 
 def _inertia_about(asset: Asset, part: int, joint: Joint) -> float:

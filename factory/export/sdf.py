@@ -11,7 +11,6 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ..articulation import Joint, JointKind
 from ..geometry.colors import srgb_of
-from ..mesh import FloatArray
 from ..runtime.numbers import magnitude
 from .links import EFFORT, INERTIA_CELLS, VELOCITY, Layout, child_offset, safe_tensor
 from .resistance import Resistance
@@ -28,7 +27,10 @@ def sdf_text(layout: Layout) -> str:
     root = Element("sdf", {"version": "1.11" if coupled else "1.9", "xmlns:drake": DRAKE})
     name = layout.asset.name
     model = SubElement(root, "model", name=name, canonical_link=layout.links[0].name)
-    model.append(_world_joint(layout))
+    # It holds the asset in place, as a URDF's root link is held by who loads it.
+    world = SubElement(model, "joint", name="world_joint", type="fixed")
+    SubElement(world, "parent").text = "world"
+    SubElement(world, "child").text = layout.links[0].name
     for part in range(len(layout.links)):
         model.append(_link(layout, part))
     for joint, resistance in zip(layout.asset.articulation.joints, layout.resistances, strict=True):
@@ -41,21 +43,14 @@ def sdf_text(layout: Layout) -> str:
     return xml_text(root)
 
 
-def _world_joint(layout: Layout) -> ElementTree.Element:
-    """Return what holds the asset in place, as a URDF's root link is held by who loads it."""
-    joint = Element("joint", name="world_joint", type="fixed")
-    SubElement(joint, "parent").text = "world"
-    SubElement(joint, "child").text = layout.links[0].name
-    return joint
-
-
 def _link(layout: Layout, part: int) -> ElementTree.Element:
     articulation = layout.asset.articulation
     files = layout.links[part]
     link = Element("link", name=files.name)
     joint = articulation.parent_joint(part)
     if joint is not None:
-        _pose(link, child_offset(articulation, part), layout.links[joint.parent].name)
+        pose = SubElement(link, "pose", relative_to=layout.links[joint.parent].name)
+        pose.text = f"{vector(child_offset(articulation, part))} 0 0 0"
     link.append(_inertial(layout, part))
     for piece in files.visuals:
         visual = SubElement(link, "visual", name=piece.name)
@@ -65,11 +60,6 @@ def _link(layout: Layout, part: int) -> ElementTree.Element:
         mesh = _mesh(SubElement(link, "collision", name=file.stem), file.as_posix())
         SubElement(mesh, "drake:declare_convex")
     return link
-
-
-def _pose(element: ElementTree.Element, position: FloatArray, relative_to: str) -> None:
-    pose = SubElement(element, "pose", relative_to=relative_to)
-    pose.text = f"{vector(position)} 0 0 0"
 
 
 def _mesh(parent: ElementTree.Element, file: str) -> ElementTree.Element:

@@ -47,7 +47,9 @@ def write_usd(layout: Layout, file: Path) -> None:
     paths = (f"/{name}/{Tf.MakeValidIdentifier(files.name)}" for files in layout.links)
     links = [_link(stage, path, layout, part, looks) for part, path in enumerate(paths)]
     _filter(layout, links)
-    _fasten(stage, f"/{name}/joints/world_joint", links[0])
+    UsdGeom.Scope.Define(stage, f"/{name}/joints")
+    held = UsdPhysics.FixedJoint.Define(stage, f"/{name}/joints/world_joint")
+    held.CreateBody1Rel().SetTargets([links[0].GetPath()])
     for joint, resistance in zip(layout.asset.articulation.joints, layout.resistances, strict=True):
         path = f"/{name}/joints/{Tf.MakeValidIdentifier(joint.name)}"
         _joint(stage, path, layout, joint, resistance, links)
@@ -139,14 +141,6 @@ def _filter(layout: Layout, links: list[Usd.Prim]) -> None:
     for first, second in layout.excluded_pairs:
         api = UsdPhysics.FilteredPairsAPI.Apply(of_name[first])
         api.CreateFilteredPairsRel().AddTarget(of_name[second].GetPath())
-
-
-def _fasten(stage: Usd.Stage, path: str, link: Usd.Prim) -> None:
-    from pxr import UsdGeom, UsdPhysics
-
-    UsdGeom.Scope.Define(stage, path.rpartition("/")[0])
-    joint = UsdPhysics.FixedJoint.Define(stage, path)
-    joint.CreateBody1Rel().SetTargets([link.GetPath()])
 
 
 def _joint(

@@ -11,6 +11,7 @@ import numpy as np
 from PIL import Image
 
 from ..asset import Asset
+from ..intake.images import encode_png
 from ..mesh import IntArray, Material, Mesh, Texture
 from .meshes import material_mtl, visual_obj
 from .text import write_text
@@ -64,10 +65,7 @@ def png_bytes(texture: Texture) -> bytes:
         image.load()
         if image.format == "PNG" and image.mode in PLAIN_MODES:
             return texture.data
-        transparent = image.mode in ("RGBA", "LA", "PA") or "transparency" in image.info
-        buffer = io.BytesIO()
-        image.convert("RGBA" if transparent else "RGB").save(buffer, format="PNG", compress_level=6)
-    return buffer.getvalue()
+        return encode_png(image)
 
 
 VISUAL_FOLDER = Path("meshes/visual")

@@ -57,7 +57,8 @@ def companions(source: Path, known: frozenset[str] = frozenset()) -> frozenset[s
     """
     root = source.parent
     beside = [path for path in sidecar_paths(source) if path.is_file()]
-    layers = sorted(_layers(root)) if is_usd(source) else []
+    beside_it = islice(filter(is_usd, root.rglob("*")), _MOST_LAYERS)
+    layers = sorted(beside_it) if is_usd(source) else []
     waiting = [source, *beside, *layers, *(root / name for name in known)]
     found = dict.fromkeys(map(Path, map(os.path.normpath, waiting)))
     folders = {root}
@@ -84,13 +85,6 @@ def companions(source: Path, known: frozenset[str] = frozenset()) -> frozenset[s
             found |= new
             waiting += new
     return frozenset(os.path.relpath(path, root) for path in found)
-
-
-def _layers(root: Path) -> Iterator[Path]:
-    for number, path in enumerate(path for path in root.rglob("*") if is_usd(path)):
-        if number >= _MOST_LAYERS:
-            return
-        yield path
 
 
 def _folders(data: bytes, root: Path) -> Iterator[Path]:

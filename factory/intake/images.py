@@ -5,6 +5,8 @@ from __future__ import annotations
 import io
 import warnings
 
+from PIL import Image
+
 from ..errors import InputRejected
 from ..mesh import Texture
 from .files import InputFiles
@@ -26,8 +28,6 @@ def load_texture(data: bytes, name: str, files: InputFiles) -> Texture | None:
     Raises:
         InputRejected: ``too_large``: more pixels than the limits of ``files`` allow.
     """
-    from PIL import Image
-
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         warnings.simplefilter("error", Image.DecompressionBombWarning)
@@ -50,12 +50,8 @@ def load_texture(data: bytes, name: str, files: InputFiles) -> Texture | None:
             return None
 
 
-def encode_png(image: object) -> bytes:
-    """Return a Pillow image as PNG, the same bytes for the same pixels."""
-    from PIL import Image
-
-    if not isinstance(image, Image.Image):
-        raise TypeError(f"encode_png: got {type(image).__name__}, want a Pillow image")
+def encode_png(image: Image.Image) -> bytes:
+    """Return an image as PNG, the same bytes for the same pixels."""
     has_alpha = image.mode in ("RGBA", "LA", "PA") or "transparency" in image.info
     buffer = io.BytesIO()
     image.convert("RGBA" if has_alpha else "RGB").save(buffer, format="PNG", compress_level=6)

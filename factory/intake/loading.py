@@ -12,9 +12,8 @@ from asset_factory.sim_checks.read.document import inside
 
 from ..config import IntakeConfig
 from ..errors import InputRejected
-from ..geometry.clean import clean
+from ..geometry.clean import Cleaned, clean
 from ..geometry.soup import Soup
-from ..mesh import IntArray, Mesh
 from .categories import category_of
 from .files import InputFiles
 from .formats.catalog import FORMATS, Reader, format_of
@@ -33,25 +32,14 @@ _LONGEST_NOTE = 400
 
 
 @dataclass(frozen=True)
-class Visual:
-    """One mesh file, cleaned, in its own frame and units.
+class Visual(Cleaned):
+    """One mesh file, cleaned, in its own frame and units, and the license that it states.
 
-    Attributes:
-        mesh: welded, textures kept.
-        source_faces: for each face of ``mesh`` its index in the file's own face order, shape
-            [face_count].
-        source_face_count: faces in the file.
-        dropped_degenerate, dropped_non_finite: faces that are missing, by reason.
-        digest: SHA-256 over the file and the files it refers to.
-        license: as stated in the file.
-        notes: what had to be left out, one sentence each.
+    ``digest`` is SHA-256 over the file and those that it refers to; ``notes`` say what was left
+    out.
     """
 
-    mesh: Mesh
-    source_faces: IntArray
     source_face_count: int
-    dropped_degenerate: int
-    dropped_non_finite: int
     digest: str
     license: str | None
     notes: tuple[str, ...]
@@ -154,13 +142,9 @@ def _load(path: Path, files: InputFiles) -> Visual:
         known = ", ".join(each.suffix for each in FORMATS)
         raise InputRejected("unsupported", f"{path.name}: want one of {known}")
     soup = _read(form.read, path, files)
-    cleaned = clean(soup, path.name)
     return Visual(
-        mesh=cleaned.mesh,
-        source_faces=cleaned.source_faces,
+        **vars(clean(soup, path.name)),
         source_face_count=len(soup.corners),
-        dropped_degenerate=cleaned.dropped_degenerate,
-        dropped_non_finite=cleaned.dropped_non_finite,
         digest=files.digest,
         license=soup.license,
         notes=_few(soup.notes),

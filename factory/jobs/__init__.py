@@ -18,14 +18,10 @@ __all__ = ["Budget", "Call", "Executor", "LocalExecutor", "run_builds"]
 
 
 def run_builds(
-    inputs: Sequence[Path],
-    output: Path,
-    config: BuildConfig,
-    workers: int = 1,
-    budget: Budget | None = None,
+    inputs: Sequence[Path], output: Path, config: BuildConfig, workers: int = 1
 ) -> Iterator[Result]:
     """Build every input on this machine; yield results as they come."""
     # Geometry libraries load only to build.
     from .job import Job
 
-    return Job(inputs, output, config, LocalExecutor(workers, config.retries), budget).run()
+    return Job(inputs, output, config, LocalExecutor(workers, config.retries)).run()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -61,16 +62,12 @@ def parse_since(text: str, now: float | None = None) -> float:
     Raises:
         ConfigError: it is none of these.
     """
-    try:
+    with suppress(ValueError):
         ago = float(text)
-    except ValueError:
-        ago = float("nan")
-    if ago >= 0.0:
-        return (time() if now is None else now) - ago
-    try:
+        if ago >= 0.0:
+            return (time() if now is None else now) - ago
+    with suppress(ValueError):
         return datetime.fromisoformat(text).timestamp()
-    except ValueError:
-        pass
     try:
         return Path(text).stat().st_mtime
     except OSError as error:

@@ -13,8 +13,7 @@ anew. Publishing
 is one rename from the staging folder, then one row: a reader sees a whole asset or none.
 """
 
-from ..runtime.store import write_json
 from .entry import Entry, Split, split_of
 from .registry import Registry
 
-__all__ = ["Entry", "Registry", "Split", "split_of", "write_json"]
+__all__ = ["Entry", "Registry", "Split", "split_of"]

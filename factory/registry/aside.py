@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -76,10 +77,8 @@ def superseded(root: Path) -> tuple[Entry, ...]:
     """Return the entries of superseded assets, by id; what cannot be read is left out."""
     found = []
     for folder in sorted((root / SUPERSEDED).glob("*")):
-        try:
+        with suppress(RegistryError, ValueError, KeyError):
             found.append(entry_from(read_report(folder).entry))
-        except (RegistryError, ValueError, KeyError):
-            continue
     return tuple(found)
 
 

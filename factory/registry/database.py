@@ -7,10 +7,12 @@ import os
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
+from dataclasses import fields
 from pathlib import Path
 
 from ..errors import RegistryError
 from ..runtime.layout import DATABASE
+from .entry import Entry
 
 #: Raised when a table's columns change; older databases are brought up to it, newer ones refused.
 SCHEMA_VERSION = 5
@@ -19,10 +21,7 @@ BUSY_TIMEOUT_S = 30.0
 CACHE_KIB = 65_536
 
 #: An entry's columns; tags have a table of their own.
-ENTRY_COLUMNS = (
-    *("id", "name", "category", "status", "reason", "parts", "joints", "hulls"),
-    *("key", "message", "license", "split", "solved"),
-)
+ENTRY_COLUMNS = tuple(each.name for each in fields(Entry) if each.name != "tags")
 #: ``gpu_ready`` is ``yes``, ``no`` or empty; ``digest`` the SHA-256 of the asset's report.json.
 COLUMNS = (*ENTRY_COLUMNS, "gpu_ready", "digest")
 # Without row ids every index ends with the id: what an index finds comes out sorted as lists are.

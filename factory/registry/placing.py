@@ -59,10 +59,8 @@ def sync_tree(folder: Path) -> None:
         folders.append(Path(parent))
     # A file system writes down together what is asked of it at the same time.
     with ThreadPoolExecutor(_AT_ONCE) as pool:
-        for _ in pool.map(_sync_file, files):
-            pass
-        for _ in pool.map(sync_folder, folders):
-            pass
+        list(pool.map(_sync_file, files))
+        list(pool.map(sync_folder, folders))
 
 
 def _sync_file(path: str) -> None:

@@ -103,27 +103,17 @@ def _keep_shown(bundle: Path) -> None:
 
 
 def refused(
-    origin: Source, rejection: InputRejected, stages: Stages, shown: Path | None = None
+    origin: Source, why: InputRejected | Unjudged, stages: Stages, shown: Path | None = None
 ) -> Product:
-    """Return the product of an input that could not become an asset; ``shown`` is kept of it."""
-    finding = Finding(
-        code=rejection.code,
-        severity=Severity.ERROR,
-        message=rejection.message,
-        value=rejection.value,
-        unit=rejection.unit,
-        limit=rejection.limit,
-    )
-    entry, told = without_asset(origin, finding, Status.REJECTED)
-    return _product(origin, entry, told, shown, stages)
-
-
-def stopped(
-    origin: Source, unjudged: Unjudged, stages: Stages, shown: Path | None = None
-) -> Product:
-    """Return the product of an input that got no verdict; ``shown`` is kept of it."""
-    entry, told = without_asset(origin, unjudged.finding, Status.UNJUDGED)
-    return _product(origin, entry, told, shown, stages)
+    """Return the product of an input that became no asset; ``shown`` is kept of it."""
+    if isinstance(why, Unjudged):
+        finding = why.finding
+    else:
+        told = (why.code, Severity.ERROR, why.message)
+        finding = Finding(*told, value=why.value, unit=why.unit, limit=why.limit)
+    status = Status.UNJUDGED if isinstance(why, Unjudged) else Status.REJECTED
+    entry, report = without_asset(origin, finding, status)
+    return _product(origin, entry, report, shown, stages)
 
 
 def without_asset(origin: Source, finding: Finding, status: Status) -> tuple[Entry, BuildReport]:

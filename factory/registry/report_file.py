@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +19,7 @@ from ..runtime.store import NOT_A_FILE, digest_bytes, folder_digests, write_json
 from .entry import Entry, lasting_data
 
 _MAX_BYTES = 256_000_000
-_HEX_DIGITS = 64
+_DIGEST = re.compile("[0-9a-f]{64}")
 
 
 @dataclass(frozen=True)
@@ -94,7 +95,9 @@ class StoredReport:
             ValueError: it has none, or they are no digests.
         """
         files = self.data.get("files")
-        if not isinstance(files, dict) or not all(_is_digest(digest) for digest in files.values()):
+        if not isinstance(files, dict) or not all(
+            isinstance(each, str) and _DIGEST.fullmatch(each) for each in files.values()
+        ):
             raise ValueError("its files are no digests")
         return files
 
@@ -130,12 +133,6 @@ def write_report(folder: Path, entry: Entry, told: BuildReport, files: Mapping[s
 def file_digests(folder: Path) -> dict[str, str]:
     """Return SHA-256 of every file of an asset but its report, by path, sorted."""
     return folder_digests(folder, without=(REPORT,))
-
-
-def _is_digest(text: object) -> bool:
-    return (
-        isinstance(text, str) and len(text) == _HEX_DIGITS and set(text) <= set("0123456789abcdef")
-    )
 
 
 def _no_number(name: str) -> float:

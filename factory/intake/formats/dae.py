@@ -27,7 +27,6 @@ from ..rejecting import rejecting
 if TYPE_CHECKING:
     import trimesh
 
-_RGB = 3
 _UNIT = re.compile(rb"<unit\b[^>]*\bmeter\s*=\s*[\"']([^\"']+)[\"']")
 
 
@@ -122,7 +121,7 @@ def _material(mesh: trimesh.Trimesh, key: str) -> Material:
     if image is not None:
         return Material(key, (1.0, 1.0, 1.0, 1.0), Texture(encode_png(image), ".png"))
     color = getattr(source, "main_color", None)
-    if color is None or len(color) < _RGB:
+    if color is None or len(color) < 3:
         return Material(key)
     r, g, b = (round(float(c) / 255.0, 6) for c in color[:3])
     return Material(key, (r, g, b, 1.0))

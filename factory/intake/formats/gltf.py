@@ -7,7 +7,7 @@ primitive by primitive, then in the order of the primitive's indices.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -48,7 +48,7 @@ def read_gltf(data: bytes, path: Path, files: InputFiles) -> Soup:
         InputRejected: ``unreadable``, ``unsupported``, ``too_large`` or ``external_reference``.
     """
     document = GltfDocument(data, path, files)
-    materials, notes = read_materials(document)
+    materials = read_materials(document)
     cache: dict[int, list[_Primitive]] = {}
     placed: list[tuple[_Primitive, FloatArray]] = []
     face_count = 0
@@ -56,14 +56,14 @@ def read_gltf(data: bytes, path: Path, files: InputFiles) -> Soup:
     for node, matrix in _instances(document):
         mesh = int(node["mesh"])
         if mesh not in cache:
-            cache[mesh] = _read_mesh(document, mesh, materials, face_count, notes)
+            cache[mesh] = _read_mesh(document, mesh, materials, face_count)
         if "skin" in node:
-            notes.append(f"A skin is not applied; mesh {mesh} stands in its rest pose.")
+            document.notes.append(f"A skin is not applied; mesh {mesh} stands in its rest pose.")
         face_count += sum(len(p.corners) for p in cache[mesh])
         require_at_most(every, face_count, files.limits.max_faces, "faces")
         placed.extend((primitive, matrix) for primitive in cache[mesh])
         require_at_most(every, len(placed), _MOST_PRIMITIVES, "primitives")
-    return _assemble(document, placed, [m.material for m in materials], notes)
+    return _assemble(document, placed, [m.material for m in materials])
 
 
 def _instances(document: GltfDocument) -> Iterator[tuple[dict[str, Any], FloatArray]]:
@@ -103,12 +103,9 @@ def _local_matrix(node: dict[str, Any]) -> FloatArray:
 
 
 def _read_mesh(
-    document: GltfDocument,
-    index: int,
-    materials: list[GltfMaterial],
-    face_count: int,
-    notes: list[str],
+    document: GltfDocument, index: int, materials: list[GltfMaterial], face_count: int
 ) -> list[_Primitive]:
+    notes = document.notes
     result: list[_Primitive] = []
     entries = document.get("meshes", index).get("primitives", [])
     require_at_most(f"{document.name}, mesh {index}", len(entries), _MOST_PRIMITIVES, "primitives")
@@ -194,10 +191,7 @@ def _tint(colors: FloatArray) -> tuple[float, ...]:
 
 
 def _assemble(
-    document: GltfDocument,
-    placed: list[tuple[_Primitive, FloatArray]],
-    materials: list[Material],
-    notes: list[str],
+    document: GltfDocument, placed: list[tuple[_Primitive, FloatArray]], materials: list[Material]
 ) -> Soup:
     stated = " ".join(str(document.json.get("asset", {}).get("copyright") or "").split())
     if not placed:
@@ -210,7 +204,7 @@ def _assemble(
     counts = [len(p.corners) for p, _ in placed]
     moved = [_move(p, matrix) for p, matrix in placed]
     if any(tint is not None for _, tint in looks):
-        notes.append("Vertex colours were averaged to one colour per primitive.")
+        document.notes.append("Vertex colours were averaged to one colour per primitive.")
     names = unique_names(materials[index].name if index >= 0 else "default" for index, _ in looks)
     return Soup(
         corners=np.concatenate([m.corners for m in moved]),
@@ -222,7 +216,7 @@ def _assemble(
             for (index, tint), name in zip(looks, names, strict=True)
         ),
         license=stated[:_LETTERS_OF_LICENSE] or None,
-        notes=tuple(dict.fromkeys(notes)),
+        notes=tuple(dict.fromkeys(document.notes)),
     )
 
 
@@ -245,12 +239,11 @@ def _move(primitive: _Primitive, matrix: FloatArray) -> _Primitive:
         if normals is not None:
             usable = np.isfinite(determinant) and determinant != 0.0
             normals = normals @ np.linalg.inv(linear) if usable else np.full_like(normals, np.nan)
-    return _Primitive(
+    return replace(
+        primitive,
         corners=corners[:, order],
         uv=None if primitive.uv is None else primitive.uv[:, order],
         normals=None if normals is None else normals[:, order],
-        material=primitive.material,
-        tint=primitive.tint,
     )
 
 
@@ -269,23 +262,16 @@ class GltfMaterial:
     uv_transform: FloatArray
 
 
-def read_materials(document: GltfDocument) -> tuple[list[GltfMaterial], list[str]]:
-    """Return all materials in order, and notes on textures that had to be left out."""
+def read_materials(document: GltfDocument) -> list[GltfMaterial]:
+    """Return all materials in order."""
     entries = document.items("materials")
     names = unique_names(str(entry.get("name", f"material_{i}")) for i, entry in enumerate(entries))
-    notes: list[str] = []
     textures: dict[int, Texture | None] = {}
-    return [
-        _material(document, e, n, textures, notes) for e, n in zip(entries, names, strict=True)
-    ], notes
+    return [_material(document, e, n, textures) for e, n in zip(entries, names, strict=True)]
 
 
 def _material(
-    document: GltfDocument,
-    entry: dict[str, Any],
-    name: str,
-    textures: dict[int, Texture | None],
-    notes: list[str],
+    document: GltfDocument, entry: dict[str, Any], name: str, textures: dict[int, Texture | None]
 ) -> GltfMaterial:
     glossy = entry.get("extensions", {}).get("KHR_materials_pbrSpecularGlossiness")
     if "pbrMetallicRoughness" not in entry and glossy is not None:
@@ -298,13 +284,13 @@ def _material(
     color = [min(max(float(c), 0.0), 1.0) for c in (factor or (1.0, 1.0, 1.0, 1.0))]
     if len(color) != 4 or not np.isfinite(color).all():
         wrong = f"Material {name} has the base colour {factor}, which is no RGBA"
-        notes.append(f"{wrong}; white was taken.")
+        document.notes.append(f"{wrong}; white was taken.")
         color = [1.0, 1.0, 1.0, 1.0]
     if entry.get("alphaMode", "OPAQUE") == "OPAQUE":
         color[3] = 1.0
     texture = None
     if reference is not None:
-        texture = _texture(document, int(reference["index"]), textures, notes)
+        texture = _texture(document, int(reference["index"]), textures)
     material = Material(name, (color[0], color[1], color[2], color[3]), texture)
     return GltfMaterial(material, *_coordinates(reference or {}))
 
@@ -324,28 +310,29 @@ def _coordinates(reference: dict[str, Any]) -> tuple[int, FloatArray]:
 
 
 def _texture(
-    document: GltfDocument, index: int, textures: dict[int, Texture | None], notes: list[str]
+    document: GltfDocument, index: int, textures: dict[int, Texture | None]
 ) -> Texture | None:
     entry = document.get("textures", index)
     webp = entry.get("extensions", {}).get("EXT_texture_webp", {})
     image = entry.get("source", webp.get("source"))
     if image is None:
         lacks = f"Texture {index} has no image in a format that is read"
-        notes.append(f"{lacks}; the plain base colour was kept.")
+        document.notes.append(f"{lacks}; the plain base colour was kept.")
         return None
     if image not in textures:
-        textures[image] = _image(document, int(image), notes)
+        textures[image] = _image(document, int(image))
     return textures[image]
 
 
-def _image(document: GltfDocument, index: int, notes: list[str]) -> Texture | None:
+def _image(document: GltfDocument, index: int) -> Texture | None:
     try:
         data = document.image_bytes(index)
     except FileNotFoundError:
-        notes.append(f"The file of image {index} is missing; the plain base colour was kept.")
+        missing = f"The file of image {index} is missing"
+        document.notes.append(f"{missing}; the plain base colour was kept.")
         return None
     texture = load_texture(data, f"image {index}", document.files)
     if texture is None:
         broken = f"Image {index} ({len(data)} bytes) cannot be decoded"
-        notes.append(f"{broken}; the plain base colour was kept.")
+        document.notes.append(f"{broken}; the plain base colour was kept.")
     return texture

@@ -49,6 +49,7 @@ class GltfDocument:
     def __init__(self, data: bytes, path: Path, files: InputFiles) -> None:
         self.name = path.name
         self.files = files
+        self.notes: list[str] = []
         self._folder = path.parent
         if data[:4] == b"glTF":
             text, self._glb_chunk = _split_glb(data, self.name)
@@ -113,15 +114,6 @@ class GltfDocument:
         data, offset, length, _ = self.view_bytes(image["bufferView"])
         return data[offset : offset + length]
 
-    def accessor_count(self, index: int) -> int:
-        """Return the number of elements; too many are refused before anything is allocated."""
-        count = int(self.get("accessors", index)["count"])
-        if count < 0:
-            raise unreadable(self.name, f"accessors[{index}] has count {count}")
-        most = 3 * self.files.limits.max_faces
-        require_at_most(f"{self.name}, accessors[{index}]", count, most, "elements")
-        return count
-
     def accessor(self, index: int) -> npt.NDArray[Any]:
         """Return an accessor's elements, [count, width]; normalised integers become floats."""
         if index not in self._accessors:
@@ -130,7 +122,12 @@ class GltfDocument:
 
     def _read_accessor(self, index: int) -> npt.NDArray[Any]:
         spec = self.get("accessors", index)
-        count = self.accessor_count(index)
+        count = int(spec["count"])
+        if count < 0:
+            raise unreadable(self.name, f"accessors[{index}] has count {count}")
+        # Too many are refused before anything is allocated.
+        most = 3 * self.files.limits.max_faces
+        require_at_most(f"{self.name}, accessors[{index}]", count, most, "elements")
         width = _WIDTHS[spec["type"]]
         self._numbers += count * width
         limit = _NUMBERS_PER_FACE * self.files.limits.max_faces

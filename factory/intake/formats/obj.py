@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import io
 from array import array
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -168,33 +170,6 @@ def _optional(values: array[float], indices: IntArray, width: int, name: str) ->
     return _gather(padded, np.where(indices < 0, blank, indices), width, name)
 
 
-@dataclass(frozen=True)
-class _Maps:
-    """Where a library's images are, and where to complain about them."""
-
-    folder: Path
-    files: InputFiles
-    notes: list[str]
-    known: dict[str, Texture | None] = field(default_factory=dict)
-
-    def load(self, reference: str) -> Texture | None:
-        if reference not in self.known:
-            self.known[reference] = self._read(reference)
-        return self.known[reference]
-
-    def _read(self, reference: str) -> Texture | None:
-        try:
-            data = self.files.read_reference(reference, self.folder)
-        except FileNotFoundError:
-            self.notes.append(f"The texture {reference} is missing; the plain colour was kept.")
-            return None
-        texture = load_texture(data, reference, self.files)
-        if texture is None:
-            broken = f"The texture {reference} ({len(data)} bytes) cannot be decoded"
-            self.notes.append(f"{broken}; the plain colour was kept.")
-        return texture
-
-
 def read_mtl(data: bytes, folder: Path, files: InputFiles, notes: list[str]) -> dict[str, Material]:
     """Return materials by name; a diffuse map replaces the diffuse colour, as in modelling tools.
 
@@ -204,7 +179,20 @@ def read_mtl(data: bytes, folder: Path, files: InputFiles, notes: list[str]) -> 
         InputRejected: ``external_reference`` or ``too_large`` for a map.
     """
     require_at_most("material library", len(data), _MAX_BYTES, "bytes")
-    maps = _Maps(folder, files, notes)
+
+    @cache
+    def texture(reference: str) -> Texture | None:
+        try:
+            data = files.read_reference(reference, folder)
+        except FileNotFoundError:
+            notes.append(f"The texture {reference} is missing; the plain colour was kept.")
+            return None
+        image = load_texture(data, reference, files)
+        if image is None:
+            broken = f"The texture {reference} ({len(data)} bytes) cannot be decoded"
+            notes.append(f"{broken}; the plain colour was kept.")
+        return image
+
     result: dict[str, Material] = {}
     name: str | None = None
     for line in data.decode("utf-8", "replace").splitlines():
@@ -214,11 +202,13 @@ def read_mtl(data: bytes, folder: Path, files: InputFiles, notes: list[str]) -> 
             name = rest
             result[name] = Material(name)
         elif name is not None:
-            result[name] = _changed(result[name], keyword.lower(), rest, maps)
+            result[name] = _changed(result[name], keyword.lower(), rest, texture)
     return result
 
 
-def _changed(material: Material, keyword: str, rest: str, maps: _Maps) -> Material:
+def _changed(
+    material: Material, keyword: str, rest: str, load: Callable[[str], Texture | None]
+) -> Material:
     red, green, blue, alpha = material.color
     if keyword == "kd" and material.texture is None:
         values = [_unit(word) for word in rest.split()[:3]]
@@ -229,7 +219,7 @@ def _changed(material: Material, keyword: str, rest: str, maps: _Maps) -> Materi
     elif keyword == "tr" and rest:
         alpha = 1.0 - _unit(rest.rsplit(maxsplit=1)[-1])
     elif keyword == "map_kd" and rest:
-        texture = maps.load(_without_options(rest))
+        texture = load(_without_options(rest))
         if texture is not None:
             return Material(material.name, (1.0, 1.0, 1.0, alpha), texture)
     return Material(material.name, (red, green, blue, alpha), material.texture)

@@ -13,7 +13,6 @@ from ..limits import require_at_most, unreadable
 
 #: Three coordinates for up to three vertices, four indices, and some blanks to spare.
 _WORDS_PER_FACE = 16
-_CORNERS_OF_TRIANGLE = 3
 
 
 def read_off(data: bytes, path: Path, files: InputFiles) -> Soup:
@@ -48,7 +47,7 @@ def read_off(data: bytes, path: Path, files: InputFiles) -> Soup:
         if len(polygon) != size:
             raise unreadable(name, f"a face announces {size} corners and lists {len(polygon)}")
         triangles.extend((polygon[0], polygon[k], polygon[k + 1]) for k in range(1, size - 1))
-    faces = np.array(triangles, dtype=np.int64).reshape(-1, _CORNERS_OF_TRIANGLE)
+    faces = np.array(triangles, dtype=np.int64).reshape(-1, 3)
     if len(faces) and not 0 <= faces.min() <= faces.max() < vertex_count:
         raise unreadable(name, f"a face uses a vertex outside 0..{vertex_count - 1}")
     return plain_soup(vertices[faces])

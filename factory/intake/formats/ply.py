@@ -337,11 +337,8 @@ def _coloured(
         colors = _columns(table, _RGB, rows)
         if colors is not None and len(colors):
             full = 255.0 if colors.max() > 1.0 else 1.0
-            red, green, blue = (round(float(c), 6) for c in _linear(colors / full).mean(axis=0))
+            linear = linear_of(np.clip(np.nan_to_num(colors / full), 0.0, 1.0))
+            red, green, blue = (round(float(c), 6) for c in linear.mean(axis=0))
             notes.append("The colours of vertices or faces were averaged to one colour.")
             return Material("default", (red, green, blue, 1.0))
     return Material("default")
-
-
-def _linear(srgb: FloatArray) -> FloatArray:
-    return linear_of(np.clip(np.nan_to_num(srgb), 0.0, 1.0))

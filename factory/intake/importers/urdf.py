@@ -199,7 +199,6 @@ def _mimic(element: ET.Element) -> Mimic | None:
 
 def _number(element: ET.Element | None, attribute: str) -> float | None:
     """Return a number that may be absent; one that cannot be read is as good as none."""
-    try:
+    with suppress(ValueError):
         return None if element is None else float(element.get(attribute, ""))
-    except ValueError:
-        return None
+    return None

@@ -22,7 +22,7 @@ from ...geometry.soup import plain_soup
 from ...mesh import FloatArray, IntArray, Mesh, concatenate
 from ...runtime.store import digest_bytes
 from ..annotation import Annotation
-from ..categories import guess_category, normalised
+from ..categories import category_of
 from ..files import InputFiles
 from ..intake import Intake, Provenance
 from ..licenses import require_allowed
@@ -59,7 +59,18 @@ def load_usd(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> In
         stage = ask_of(child, path.name, _read_leniently, path)
     mesh, annotation, transform = _annotated(stage, path.name, config.max_faces)
     require_sensible_size(path.name, mesh.bounds)
-    return _intake(path, mesh, annotation, transform, digest, sidecar.license)
+    provenance = Provenance(
+        input=well_formed(path.name),
+        digest=digest,
+        category=category_of(path, None),
+        up="z",
+        up_source="format",
+        scale=float(np.cbrt(np.linalg.det(transform[:3, :3]))),
+        scale_source="format",
+        license=sidecar.license,
+    )
+    faces: IntArray = np.arange(len(mesh.faces))
+    return Intake(safe_name(path), mesh, faces, transform, provenance, annotation)
 
 
 def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
@@ -136,26 +147,3 @@ def _is_collider(surface: PhysicsSurface) -> bool:
     """Return whether a surface lies in a group called after collisions, or is called so itself."""
     words = surface.path.lower().replace("/", "_").split("_")
     return not _COLLIDER_WORDS.isdisjoint(words)
-
-
-def _intake(
-    path: Path,
-    mesh: Mesh,
-    annotation: Annotation,
-    transform: FloatArray,
-    digest: str,
-    license: str | None,
-) -> Intake:
-    category = guess_category(path.stem, path.parent.name)
-    faces: IntArray = np.arange(len(mesh.faces))
-    provenance = Provenance(
-        input=well_formed(path.name),
-        digest=digest,
-        category=normalised(category) if category else None,
-        up="z",
-        up_source="format",
-        scale=float(np.cbrt(np.linalg.det(transform[:3, :3]))),
-        scale_source="format",
-        license=license,
-    )
-    return Intake(safe_name(path), mesh, faces, transform, provenance, annotation)

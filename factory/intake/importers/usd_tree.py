@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -28,15 +28,6 @@ CLOSE = 0.02
 """The same for their distance off the axis, as a share of that along it or of the joint's range."""
 
 
-@dataclass(frozen=True)
-class _Link:
-    """A moving joint between two groups of welded bodies, of its ``body0`` and ``body1``."""
-
-    joint: AnnotatedJoint
-    first: int
-    second: int
-
-
 def annotation_of(
     stage: PhysicsStage, pieces: Sequence[tuple[str, Mesh]], transform: FloatArray, file: str
 ) -> Annotation:
@@ -58,7 +49,9 @@ def annotation_of(
     index = {body: number for number, body in enumerate(bodies)}
     joints = [_joint_at_pose(joint, stage, index, transform) for joint in stage.joints]
     group = rigid_groups(len(bodies), [(j.parent, j.child) for j in joints if j.kind == "fixed"])
-    links = [_Link(j, group[j.parent], group[j.child]) for j in joints if j.kind != "fixed"]
+    # Moving joints between groups of welded bodies, those of their ``body0`` and ``body1``.
+    moving = (joint for joint in joints if joint.kind != "fixed")
+    links = [replace(j, parent=group[j.parent], child=group[j.child]) for j in moving]
     sizes = [len(mesh.faces) for _, mesh in pieces]
     face_group = np.repeat([group[index[body]] for body, _ in pieces], sizes)
     roots = {group[index[body]] for body in stage.roots if body in index}
@@ -147,11 +140,15 @@ def _value_at_pose(joint: PhysicsJoint, first: FloatArray, second: FloatArray) -
 
 
 def _by_rank(
-    links: list[_Link], group: list[int], roots: set[int], world: int | None, face_group: IntArray
+    links: list[AnnotatedJoint],
+    group: list[int],
+    roots: set[int],
+    world: int | None,
+    face_group: IntArray,
 ) -> list[int]:
     """Return the groups, best root first: world, articulation root, no ``body1``, then size."""
     faces = Counter(face_group.tolist())
-    moved = {link.second for link in links}
+    moved = {link.child for link in links}
 
     def rank(g: int) -> tuple[bool, bool, bool, int, int]:
         return g != world, g not in roots, g in moved, -faces[g], g
@@ -159,13 +156,15 @@ def _by_rank(
     return sorted(set(group), key=rank)
 
 
-def _hung(links: list[_Link], order: list[int], file: str) -> list[tuple[_Link | None, int, int]]:
+def _hung(
+    links: list[AnnotatedJoint], order: list[int], file: str
+) -> list[tuple[AnnotatedJoint | None, int, int]]:
     """Return joints with their parent's and child's group, from the root on; ``None``: fixed."""
     at: dict[int, list[int]] = {}
     for number, link in enumerate(links):
-        for end in (link.first, link.second):
+        for end in (link.parent, link.child):
             at.setdefault(end, []).append(number)
-    joints: list[tuple[_Link | None, int, int]] = []
+    joints: list[tuple[AnnotatedJoint | None, int, int]] = []
     reached: set[int] = set()
     used: set[int] = set()
     for start in order:
@@ -180,9 +179,9 @@ def _hung(links: list[_Link], order: list[int], file: str) -> list[tuple[_Link |
                 if number in used:
                     continue
                 link = links[number]
-                there = link.second if link.first == here else link.first
+                there = link.child if link.parent == here else link.parent
                 if there in reached:
-                    why = f"joint {link.joint.name!r} closes a loop; want one way to every body"
+                    why = f"joint {link.name!r} closes a loop; want one way to every body"
                     raise InputRejected("not_a_tree", f"{file}: {why}")
                 used.add(number)
                 reached.add(there)
@@ -192,10 +191,10 @@ def _hung(links: list[_Link], order: list[int], file: str) -> list[tuple[_Link |
 
 
 def _directed(
-    link: _Link | None, number: dict[int, int], parent: int, child: int
+    link: AnnotatedJoint | None, number: dict[int, int], parent: int, child: int
 ) -> AnnotatedJoint:
     """Return the joint between parts; seen from ``body1``, ``body0`` moves the other way round."""
     if link is None:
         return fixed(f"hold_{number[child]}", number[parent], number[child])
-    axis = -link.joint.axis if link.second == parent else link.joint.axis
-    return replace(link.joint, parent=number[parent], child=number[child], axis=axis)
+    axis = -link.axis if link.child == parent else link.axis
+    return replace(link, parent=number[parent], child=number[child], axis=axis)

@@ -122,7 +122,9 @@ class NodeSocket:
         self._own = NodeNetwork(config, weights)
         os.makedirs(Path(path).parent, mode=0o700, exist_ok=True)
         # Nodes that are one machine share its socket.
-        if not _somebody_listens(path):
+        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
+            somebody_listens = probe.connect_ex(path) == 0
+        if not somebody_listens:
             threading.Thread(
                 target=answer_all, args=(listening_socket(path), self._answer), daemon=True
             ).start()
@@ -141,8 +143,3 @@ class NodeSocket:
             return relayed
         except Exception as error:  # noqa: BLE001 - who asks will ask at home
             return refusal(error)
-
-
-def _somebody_listens(path: str) -> bool:
-    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
-        return probe.connect_ex(path) == 0

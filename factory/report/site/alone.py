@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from http import HTTPStatus
 from pathlib import Path, PurePosixPath
@@ -57,11 +58,9 @@ def _model(path: Path) -> bytes:
     if path.is_dir():
         raise InputRejected("missing_file", f"{path.name}: no {MODEL} or {URDF} in this folder")
     if path.suffix.lower() == ".glb":
-        try:
+        # A GLB without joints of ours is a mesh.
+        with suppress(OSError, ValueError):
             return read_model(path)
-        except (OSError, ValueError):
-            # A GLB without joints of ours is a mesh.
-            pass
     return glb_of(scene_of_file(path))
 
 

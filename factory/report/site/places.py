@@ -10,7 +10,7 @@ from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.measurements import MeasuredContact, MeasuredJoint, penetrations
 
 from ...display.pictures import Fault
-from ...display.scene import SceneGraph
+from ...display.scene import SceneGraph, SceneJoint
 
 #: Of a pair that is checked like any other.
 PLAIN = "plain"
@@ -42,9 +42,7 @@ class Places:
     """The poses and points of an asset's findings."""
 
     def __init__(self, scene: SceneGraph, measurements: Mapping[str, Any]) -> None:
-        self._upper = {joint.name: joint.upper for joint in scene.movable}
-        self._range = {joint.name: (joint.lower, joint.upper) for joint in scene.movable}
-        self._unit = {joint.name: "m" if joint.slides else "rad" for joint in scene.movable}
+        self._joints = {joint.name: joint for joint in scene.movable}
         self._measured = penetrations(measurements)
 
     def of(self, finding: Finding) -> Fault | None:
@@ -53,9 +51,8 @@ class Places:
         for values, contact in self._contacts(finding.joint):
             if wanted and wanted == frozenset(contact.links) and _tells(finding, contact):
                 return Fault(values, contact.point_m)
-        if finding.joint in self._range:
-            return Fault({finding.joint: self._value(finding)}, None)
-        return None
+        joint = self._joints.get(finding.joint or "")
+        return None if joint is None else Fault({joint.name: _value(finding, joint)}, None)
 
     def sweeps(self) -> dict[str, SweepTold]:
         """Return the measurements along each joint."""
@@ -91,7 +88,7 @@ class Places:
             for tried in measured.combinations:
                 yield tried.values, tried
             yield from (({}, contact) for contact in measured.rest)
-            zero = dict.fromkeys(self._range, 0.0)
+            zero = dict.fromkeys(self._joints, 0.0)
             yield from ((zero, contact) for contact in measured.zero or ())
 
     def _along(self, joint: MeasuredJoint) -> Iterator[tuple[Mapping[str, float], MeasuredContact]]:
@@ -102,16 +99,13 @@ class Places:
                 yield {joint.joint: pair.at, **opened}, pair
 
     def _opened(self, joints: Sequence[str]) -> dict[str, float]:
-        return {name: self._upper[name] for name in joints if name in self._upper}
+        return {name: self._joints[name].upper for name in joints if name in self._joints}
 
-    def _value(self, finding: Finding) -> float:
-        """Return the joint's value that a finding speaks of, else where it is open."""
-        assert finding.joint is not None  # noqa: S101 - asked only of joints that are there
-        low, high = self._range[finding.joint]
-        value = finding.value
-        if value is None or finding.unit != self._unit[finding.joint]:
-            return high
-        return value if low <= value <= high else high
+
+def _value(finding: Finding, joint: SceneJoint) -> float:
+    """Return the joint's value that a finding speaks of, else where it is open."""
+    told = finding.value if finding.unit == ("m" if joint.slides else "rad") else None
+    return joint.upper if told is None or not joint.lower <= told <= joint.upper else told
 
 
 def _tells(finding: Finding, contact: MeasuredContact) -> bool:

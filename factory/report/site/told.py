@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from itertools import groupby
 from pathlib import Path, PurePath
@@ -231,11 +232,8 @@ def _told(stored: StoredReport) -> BuildReport:
 
 def _model(folder: Path) -> bytes:
     """Return the model of an asset; of one that was published without, what its URDF shows."""
-    try:
+    with suppress(OSError, ValueError):
         return read_model(folder / MODEL)
-    except (OSError, ValueError):
-        pass
-    try:
+    with suppress(OSError, ValueError, InputRejected):
         return glb_of(scene_of_file(folder / URDF))
-    except (OSError, ValueError, InputRejected):
-        return b""
+    return b""
