@@ -201,7 +201,9 @@ class _Run:
     def _state(self, step: int) -> State:
         seconds = self._seconds + time.monotonic() - self._since
         descent = self._trainer.descent
-        return descent.state(step, self._recipe, self._best, self._data, seconds)
+        weights = descent.network.state_dict()
+        kept = (weights, descent.mean.weights, descent.optimiser.state_dict())
+        return State(step, *kept, self._best, self._recipe, self._data, seconds)
 
     def _about(self, step: int) -> dict[str, str]:
         config = self._config
