@@ -9,9 +9,10 @@ from itertools import product
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.geometry.triangles import doubled_normals
+from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 
-from .labelled import BoolArray, Labelled, joined, some
+from .labelled import Labelled, joined, some
 
 #: Gaps between quads that were one solid [m], drawn evenly over the orders of magnitude.
 SPLIT_M = (3e-5, 2e-3)
@@ -144,7 +145,7 @@ def facing(mesh: Labelled) -> IntArray:
 
     0 to 2 stand for -x, -y, -z, 3 to 5 for +x, +y, +z.
     """
-    crosses = mesh.crosses
+    crosses = doubled_normals(mesh.corners)
     axis = np.abs(crosses).argmax(axis=1)
     return np.asarray(axis + 3 * (crosses[np.arange(len(crosses)), axis] > 0.0), dtype=np.int64)
 
