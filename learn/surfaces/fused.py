@@ -34,12 +34,8 @@ def fused_like(
     """Return one closed surface around the whole object, labelled by the nearest part.
 
     Seams run along triangles of the skin, and vertices may be shared by more than two sheets where
-    surfaces touch. Parts and joints are the same, but for parts that nothing is seen of.
-
-    Args:
-        articulation: any with a surface, closed or not.
-        seed: of the sampled points, bumps and, where not given, the resolution.
-        resolution: cells along the longest side; by default as many as keep it fast.
+    surfaces touch. Parts and joints are the same, but for parts that nothing is seen of. There are
+    ``resolution`` cells along the longest side, by default as many as keep it fast.
 
     Raises:
         ValueError: what would be left out holds something that is seen, or is all that moves.
@@ -87,14 +83,9 @@ def skin(
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """Return vertices [m] and faces ``reach`` cells outside, and a point near each face.
 
-    Args:
-        points: on the surface [m], shape [point_count, 3]; several in every cell that it passes.
-        owner: part of each, shape [point_count].
-        cells: along the longest side.
-        reach: see above.
-        rng: of the bumps.
-        groove: cells deep that the skin is engraved where parts border on one another.
-        bumps: height of bumps, in units of ``reach``.
+    Of ``points`` on the surface [m], several lie in every cell that it passes; ``cells`` are along
+    the longest side. The skin is engraved ``groove`` cells deep where parts, the owners of points,
+    border on one another; ``bumps`` are so high in units of ``reach``.
     """
     low = points.min(axis=0)
     high = points.max(axis=0)
