@@ -127,8 +127,8 @@ def stretched(articulation: Articulation, factors: npt.ArrayLike) -> Articulatio
     joints = []
     for each in articulation.joints:
         along = 1.0 if each.turns else float(wanted[np.abs(each.axis).argmax()])
-        limits = {"lower": each.lower * along, "upper": each.upper * along}
-        joints.append(replace(each, origin=wanted * each.origin, **limits))
+        moved = replace(each, origin=wanted * each.origin)
+        joints.append(replace(moved, lower=each.lower * along, upper=each.upper * along))
     mesh = articulation.mesh.transformed(np.diag([*wanted, 1.0]))
     return replace(articulation, mesh=mesh, joints=tuple(joints))
 
