@@ -10,7 +10,7 @@ import numpy as np
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.edges import label_linked
 from asset_factory.factory.geometry.posing import face_parts
-from asset_factory.factory.geometry.triangles import areas_of
+from asset_factory.factory.geometry.triangles import areas_of, doubled_normals
 from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray, Material, Mesh
 
 #: A part keeps at least this share of its surface, whatever a pass drops.
@@ -83,6 +83,11 @@ class Labelled:
     def corners(self) -> FloatArray:
         """Return the corners of every face [m], shape [face_count, 3, 3]."""
         return np.asarray(self.vertices[self.faces])
+
+    @property
+    def crosses(self) -> FloatArray:
+        """Return the normal of every face, as long as twice its area [m2], [face_count, 3]."""
+        return doubled_normals(self.corners)
 
     @property
     def areas(self) -> FloatArray:

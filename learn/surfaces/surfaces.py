@@ -9,7 +9,6 @@ from itertools import product
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from asset_factory.factory.geometry.triangles import doubled_normals
 from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 
 from .labelled import Labelled, joined, some
@@ -145,7 +144,7 @@ def facing(mesh: Labelled) -> IntArray:
 
     0 to 2 stand for -x, -y, -z, 3 to 5 for +x, +y, +z.
     """
-    crosses = doubled_normals(mesh.corners)
+    crosses = mesh.crosses
     axis = np.abs(crosses).argmax(axis=1)
     return np.asarray(axis + 3 * (crosses[np.arange(len(crosses)), axis] > 0.0), dtype=np.int64)
 
