@@ -129,13 +129,12 @@ def _require_sound(command: Evaluate) -> None:
     for flag, given, choices in known:
         if given not in choices:
             raise ConfigError(f"{flag} must be one of {', '.join(choices)}, not {given!r}")
-    least = (("points", 1), ("seeds", 1), ("repeats", 1), ("workers", 1), ("first_seed", 0))
-    for name, lowest in least:
-        if (number := getattr(command, name)) < lowest:
+    least = {"points": 1, "seeds": 1, "repeats": 1, "workers": 1, "first_seed": 0, "limit": 1}
+    for name, lowest in least.items():
+        number = getattr(command, name)
+        if number is not None and number < lowest:
             flag = name.replace("_", "-")
             raise ConfigError(f"--{flag} must be at least {lowest}, not {number}")
-    if command.limit is not None and command.limit < 1:
-        raise ConfigError(f"--limit must be at least 1, not {command.limit}")
     if not command.timeout > 0.0:
         raise ConfigError(f"--timeout must be more than 0, not {command.timeout:g} s")
     if command.kind != "procedural" and command.data is None:

@@ -53,16 +53,9 @@ def prepare(
 
     Every object is read in a process that may crash, hang or run out of memory; that costs the
     object, which is passed over with its reason, and nothing else. Such accidents are tried again
-    by the next pass; refusals are kept.
-
-    Args:
-        kind: one of ``SOURCES``.
-        path: its folder.
-        cache: made if it is not there.
-        split: a text file with the names of the objects wanted; all of them if ``None``.
-        settings: of the reading.
-        workers: processes at once; as many as there are processors if ``None``.
-        on_progress: told how many objects are done, and how many there are.
+    by the next pass; refusals are kept. ``split`` is a text file with the names of the objects
+    wanted, all of them if ``None``; there are as many ``workers`` as processors if ``None``;
+    ``on_progress`` is told how many objects are done, and how many there are.
 
     Raises:
         ConfigError: no such kind, folder or split, a library is missing, or nothing found there.

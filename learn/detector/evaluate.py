@@ -21,7 +21,6 @@ FLOORS = (0.3, 0.4, 0.5, 0.6, 0.7)
 
 def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
     """Return by floor how many true parts are found and how many others are told."""
-    figures: dict[str, Any] = {}
     counts = {floor: np.zeros((OPENING, 4), np.int64) for floor in FLOORS}
     still = dict.fromkeys(FLOORS, 0)
     fronts = kinds = opening = quiet = 0
@@ -42,19 +41,20 @@ def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
             if not whole[0, 1]:
                 still[floor] += int(bool(found))
             counts[floor] += compared(found, table)
-    figures["objects"] = pool.made
-    figures["kind right"] = kinds / pool.made
-    figures["opens right"] = quiet / pool.made
-    figures["front right of those that open"] = fronts / max(opening, 1)
-    figures["of those that stay shut something is told"] = {
-        str(floor): f"{count} of {pool.made - opening}" for floor, count in still.items()
+    shut = pool.made - opening
+    figures: dict[str, Any] = {
+        "objects": pool.made,
+        "kind right": kinds / pool.made,
+        "opens right": quiet / pool.made,
+        "front right of those that open": fronts / max(opening, 1),
     }
+    told = {str(floor): f"{count} of {shut}" for floor, count in still.items()}
+    figures["of those that stay shut something is told"] = told
+    names = ("true", "found", "way right", "spurious")
     for floor, count in counts.items():
+        rows = zip(SORTS, count.tolist(), strict=False)
         figures[f"from {floor}"] = {
-            str(SORTS[sort]): dict(
-                zip(("true", "found", "way right", "spurious"), map(int, row), strict=True)
-            )
-            for sort, row in enumerate(count)
+            str(sort): dict(zip(names, row, strict=True)) for sort, row in rows
         }
     return figures
 
@@ -89,9 +89,6 @@ def compared(found: list[Found], table: FloatArray) -> Any:
 
 def _excused(part: Found, table: FloatArray) -> bool:
     """Tell whether a part is found where nothing is known."""
-    for row in table:
-        if row[9] > 0 and SIDES.index(part.side) == int(row[0]):
-            inner = float(shared_areas(part.box, row[None, 1:5])[0])
-            if inner >= 0.5 * float(np.prod(part.box[2:] - part.box[:2])):
-                return True
-    return False
+    half = 0.5 * float(np.prod(part.box[2:] - part.box[:2]))
+    there = (row for row in table if row[9] > 0 and SIDES.index(part.side) == int(row[0]))
+    return any(float(shared_areas(part.box, row[None, 1:5])[0]) >= half for row in there)

@@ -62,28 +62,30 @@ def show(batch: ObjectBatch, textures: Tensor, generator: Any) -> Shown:
 
     ``textures`` are uint8, [m, 3, size, size]; ``generator`` is on the batch's device.
     """
-    draw = Drawing(generator, batch.color.device)
+    count = len(batch.color)
+    draw = Drawing(generator, batch.color.device, count)
     color, depth, part, table, front = _placed(batch, draw)
-    count = len(color)
     seen = depth.flatten(0, 1) >= 0
     part = part.flatten(0, 1)
     height = heights_of(depth.flatten(0, 1), seen)
     made = (~batch.real).repeat_interleave(VIEWS)
     border = _borders(part)
-    height, light = _shaped(height, seen, border, made, draw, count)
+    height, light = _shaped(height, seen, border, made, draw)
     paint = color.flatten(0, 1).permute(0, 3, 1, 2).float() / 255.0
-    paint = _painted(paint, part, made, textures, draw, count)
-    paint = _lit(paint, height, light, border, made, draw, count)
+    paint = _painted(paint, part, made, textures, draw)
+    paint = _lit(paint, height, light, border, made, draw)
     cues = stacked_cues(paint, height, seen).unflatten(0, (count, VIEWS))
     return Shown(cues, part.reshape(count, VIEWS, CANVAS, CANVAS), table, front)
 
 
 class Drawing:
-    """Random numbers on a device."""
+    """Random numbers on a device, for so many objects."""
 
-    def __init__(self, generator: Any, device: Any) -> None:
+    def __init__(self, generator: Any, device: Any, count: int) -> None:
         self.generator = generator
         self.device = device
+        self.count = count
+        self.views = count * VIEWS
 
     def uniform(self, low: float, high: float, *shape: int) -> Tensor:
         """Return evenly drawn numbers."""
@@ -96,30 +98,30 @@ class Drawing:
 
     def happens(self, share: float, *shape: int) -> Tensor:
         """Return true with this probability."""
-        return torch.rand(shape, generator=self.generator, device=self.device) < share
+        return self.uniform(0.0, 1.0, *shape) < share
 
     def whole(self, high: int, *shape: int) -> Tensor:
         """Return whole numbers below ``high``."""
         return torch.randint(high, shape, generator=self.generator, device=self.device)
 
-    def each(self, count: int, low: float, high: float) -> Tensor:
+    def each(self, low: float, high: float) -> Tensor:
         """Return a number per object, the same for all its sides, [views of all, 1, 1]."""
-        return self.uniform(low, high, count).repeat_interleave(VIEWS)[:, None, None]
+        return self.uniform(low, high, self.count).repeat_interleave(VIEWS)[:, None, None]
 
-    def some(self, count: int, share: float) -> Tensor:
+    def some(self, share: float) -> Tensor:
         """Return a truth per object, [views of all, 1, 1]."""
-        return self.happens(share, count).repeat_interleave(VIEWS)[:, None, None]
+        return self.each(0.0, 1.0) < share
 
-    def wavy(self, flat: int, cells: int) -> Tensor:
+    def wavy(self, cells: int) -> Tensor:
         """Return smooth random fields of standard deviation 1/2 or so, [flat, rows, columns]."""
-        knots = self.normal(flat, 1, cells, cells)
+        knots = self.normal(self.views, 1, cells, cells)
         field = functional.interpolate(knots, (CANVAS, CANVAS), mode="bicubic", align_corners=False)
         return 0.6 * field[:, 0]
 
 
 def _placed(batch: ObjectBatch, draw: Drawing) -> tuple[Tensor, ...]:
     """Return objects stretched, mirrored and turned by quarters, with their tables."""
-    count = len(batch.color)
+    count = draw.count
     stretch = torch.exp(draw.uniform(-0.3, 0.3, count, 3))
     stretch = torch.where(batch.real[:, None], stretch**0.5, stretch)
     mirrored = draw.happens(0.5, count)
@@ -135,13 +137,10 @@ def _placed(batch: ObjectBatch, draw: Drawing) -> tuple[Tensor, ...]:
     behind = torch.stack([y, x, y, x, z], 1)
     steps = torch.arange(CANVAS, device=draw.device) + 0.5 - CANVAS / 2
     flip = torch.where(mirrored, -1.0, 1.0)[:, None, None]
-    columns = (steps / across[..., None] * flip + CANVAS / 2).floor().long()
-    rows = (steps / up[..., None] + CANVAS / 2).floor().long()
-    rows = rows[..., None]
-    columns = columns[:, :, None]
+    columns = (steps / across[..., None] * flip + CANVAS / 2).floor().long()[:, :, None]
+    rows = (steps / up[..., None] + CANVAS / 2).floor().long()[..., None]
     inside = (columns >= 0) & (columns < CANVAS) & (rows >= 0) & (rows < CANVAS)
-    index = rows.clamp(0, CANVAS - 1) * CANVAS + columns.clamp(0, CANVAS - 1)
-    index = index.flatten(2)
+    index = (rows.clamp(0, CANVAS - 1) * CANVAS + columns.clamp(0, CANVAS - 1)).flatten(2)
     shape = (count, VIEWS, CANVAS, CANVAS)
     depth = batch.depth.flatten(2).gather(2, index).view(shape)
     deep = (depth.float() * behind[..., None, None]).round()
@@ -178,15 +177,11 @@ def _moved(table: Tensor, across: Tensor, up: Tensor, mirrored: Tensor) -> Tenso
     table = table.clone()
     view = table[..., 0].long().clamp(min=0)
     middle = CANVAS / 2
-    sideways = across.gather(1, view)
-    upright = up.gather(1, view)
-    left = (table[..., 1] - middle) * sideways
-    right = (table[..., 3] - middle) * sideways
+    factors = torch.stack([across.gather(1, view), up.gather(1, view)] * 2, -1)
+    left, low, right, high = ((table[..., 1:5] - middle) * factors).unbind(-1)
     flip = mirrored[:, None]
-    table[..., 1] = torch.where(flip, -right, left) + middle
-    table[..., 3] = torch.where(flip, -left, right) + middle
-    table[..., 2] = (table[..., 2] - middle) * upright + middle
-    table[..., 4] = (table[..., 4] - middle) * upright + middle
+    ends = torch.where(flip, -right, left), low, torch.where(flip, -left, right), high
+    table[..., 1:5] = torch.stack(ends, -1) + middle
     way = table[..., 7]
     swapped = torch.where(way == 0, 1.0, torch.where(way == 1, 0.0, way))
     table[..., 7] = torch.where(flip, swapped, way)
@@ -211,11 +206,10 @@ def _top_turned(
         rows = table[chosen]
         above = rows[..., 0] == 4
         for _ in range(quarters):
-            left, low, right, high = (rows[..., k].clone() for k in (1, 2, 3, 4))
-            rows[..., 1] = torch.where(above, low, left)
-            rows[..., 2] = torch.where(above, CANVAS - right, low)
-            rows[..., 3] = torch.where(above, high, right)
-            rows[..., 4] = torch.where(above, CANVAS - left, high)
+            box = rows[..., 1:5]
+            left, low, right, high = box.unbind(-1)
+            turned = torch.stack([low, CANVAS - right, high, CANVAS - left], -1)
+            rows[..., 1:5] = torch.where(above[..., None], turned, box)
             way = rows[..., 7]
             following = torch.tensor([3.0, 2.0, 0.0, 1.0, 4.0, 5.0, -1.0], device=way.device)
             rows[..., 7] = torch.where(above, following[way.long()], way)
@@ -240,8 +234,8 @@ def _blurred(pictures: Tensor, sigma: Tensor) -> Tensor:
     kernel = kernel / kernel.sum(1, keepdim=True)
     count, channels = pictures.shape[:2]
     kernel = kernel.repeat_interleave(channels, 0)
-    flat = pictures.reshape(1, count * channels, CANVAS, CANVAS)
     groups = count * channels
+    flat = pictures.reshape(1, groups, CANVAS, CANVAS)
     pad = BLUR // 2
     flat = functional.pad(flat, (pad, pad, pad, pad), mode="replicate")
     flat = functional.conv2d(flat, kernel[:, None, None, :], groups=groups)
@@ -250,37 +244,36 @@ def _blurred(pictures: Tensor, sigma: Tensor) -> Tensor:
 
 
 def _shaped(
-    height: Tensor, seen: Tensor, border: Tensor, made: Tensor, draw: Drawing, count: int
+    height: Tensor, seen: Tensor, border: Tensor, made: Tensor, draw: Drawing
 ) -> tuple[Tensor, Tensor]:
     """Return surfaces with gaps closed, grooves, bumps and things stuck on, and brightness."""
-    flat = len(height)
     keep = made[:, None, None]
     height = torch.where(keep, closed(height[:, None], GAP)[:, 0], height)
-    deep = draw.each(count, 0.2, 2.5) * draw.some(count, 0.8)
-    wide = draw.some(count, 0.5)
+    deep = draw.each(0.2, 2.5) * draw.some(0.8)
+    wide = draw.some(0.5)
     groove = border.float()[:, None]
     groove = torch.where(wide[:, None], functional.max_pool2d(groove, 3, 1, 1), groove)[:, 0]
-    patchy = (1.0 + 0.8 * draw.wavy(flat, 12)).clamp(0.2, 1.5)
+    patchy = (1.0 + 0.8 * draw.wavy(12)).clamp(0.2, 1.5)
     height = height - torch.where(keep, deep * patchy * groove, 0.0)
-    stuck, light = _stuck(draw, count)
-    stuck = torch.where(keep, stuck, 0.3 * stuck * draw.some(count, 0.3))
+    stuck, light = _stuck(draw)
+    stuck = torch.where(keep, stuck, 0.3 * stuck * draw.some(0.3))
     light = torch.where(keep, light, 1.0)
     height = height + stuck
-    bumps = draw.each(count, 0.0, 0.4) * draw.some(count, 0.6) * draw.wavy(flat, 28)
-    bumps = bumps + draw.each(count, 0.0, 0.15) * draw.some(count, 0.4) * draw.normal(*height.shape)
-    sigma = torch.where(keep, draw.each(count, 0.3, 1.3), draw.each(count, 0.05, 0.7))
+    bumps = draw.each(0.0, 0.4) * draw.some(0.6) * draw.wavy(28)
+    bumps = bumps + draw.each(0.0, 0.15) * draw.some(0.4) * draw.normal(*height.shape)
+    sigma = torch.where(keep, draw.each(0.3, 1.3), draw.each(0.05, 0.7))
     height = _blurred((height + bumps)[:, None], sigma[:, 0, 0])[:, 0]
     lowest = torch.where(seen, height, 1e9).amin((1, 2), keepdim=True)
     return torch.where(seen, height, lowest - 4.0), light
 
 
-def _stuck(draw: Drawing, count: int) -> tuple[Tensor, Tensor]:
+def _stuck(draw: Drawing) -> tuple[Tensor, Tensor]:
     """Return heights [pixels] and brightness of boards, bands, frames and plates on each side."""
-    flat = count * VIEWS
+    flat = draw.views
     steps = torch.arange(CANVAS, device=draw.device, dtype=torch.float32)
     height = torch.zeros(flat, CANVAS, CANVAS, device=draw.device)
     light = torch.ones(flat, CANVAS, CANVAS, device=draw.device)
-    busy = draw.some(count, 0.6)
+    busy = draw.some(0.6)
     for _ in range(STUCK):
         there = draw.happens(0.3, flat)[:, None, None] & busy
         middle = draw.uniform(0.1, 0.9, flat, 2) * CANVAS
@@ -295,21 +288,20 @@ def _stuck(draw: Drawing, count: int) -> tuple[Tensor, Tensor]:
         tone = draw.uniform(0.5, 1.3, flat)[:, None, None]
         height = height + step * here
         light = light * torch.where(here & draw.happens(0.6, flat)[:, None, None], tone, 1.0)
-    planks = draw.some(count, 0.25)
-    apart = draw.each(count, 10.0, 50.0)
-    across = draw.some(count, 0.5)
-    phase = torch.where(across, steps[:, None], steps[None, :]) + draw.each(count, 0.0, 50.0)
-    line = planks & ((phase % apart) < draw.each(count, 0.8, 2.2))
-    painted = draw.some(count, 0.5)
-    height = height - line * draw.each(count, 0.2, 1.5)
-    return height, light * torch.where(line & painted, draw.each(count, 0.5, 0.9), 1.0)
+    planks = draw.some(0.25)
+    apart = draw.each(10.0, 50.0)
+    across = draw.some(0.5)
+    phase = torch.where(across, steps[:, None], steps[None, :]) + draw.each(0.0, 50.0)
+    line = planks & ((phase % apart) < draw.each(0.8, 2.2))
+    painted = draw.some(0.5)
+    height = height - line * draw.each(0.2, 1.5)
+    return height, light * torch.where(line & painted, draw.each(0.5, 0.9), 1.0)
 
 
-def _painted(
-    paint: Tensor, part: Tensor, made: Tensor, textures: Tensor, draw: Drawing, count: int
-) -> Tensor:
+def _painted(paint: Tensor, part: Tensor, made: Tensor, textures: Tensor, draw: Drawing) -> Tensor:
     """Return colours with textures, or one colour all over; real ones keep their own."""
-    flat = len(paint)
+    flat = draw.views
+    count = draw.count
     size = textures.shape[-1]
     whole = draw.whole(len(textures), count)[:, None].expand(-1, LOOKS)
     own = draw.whole(len(textures), count, LOOKS)
@@ -318,8 +310,8 @@ def _painted(
     chosen = torch.where(choice < 0.4, whole, torch.where(choice < 0.85, few, own))
     chosen = chosen.repeat_interleave(VIEWS, 0).gather(1, part.flatten(1).long())
     steps = torch.arange(CANVAS, device=draw.device, dtype=torch.float32)
-    scale = draw.each(count, 0.3, 2.0)
-    turned = draw.some(count, 0.5)
+    scale = draw.each(0.3, 2.0)
+    turned = draw.some(0.5)
     rows = (steps[:, None] * scale + draw.uniform(0.0, size, flat)[:, None, None]).long() % size
     columns = (steps[None, :] * scale + draw.uniform(0.0, size, flat)[:, None, None]).long() % size
     at = torch.where(turned, columns * size + rows, rows * size + columns)
@@ -330,47 +322,38 @@ def _painted(
     gray = draw.happens(0.5, count)[:, None]
     plain = torch.where(gray, plain[:, :1].expand(-1, 3), plain)
     plain = plain.repeat_interleave(VIEWS, 0)[:, :, None, None]
-    mode = draw.uniform(0.0, 1.0, count).repeat_interleave(VIEWS)[:, None, None, None]
+    mode = draw.each(0.0, 1.0)[:, None]
     base = torch.where(mode < 0.3, plain.expand_as(paint), paint)
     textured = torch.where(mode < 0.45, grain, (base * (0.4 + grain)).clamp(0.0, 1.0))
-    use = draw.some(count, 0.55)[:, None]
+    use = draw.some(0.55)[:, None]
     made_paint = torch.where(use, textured, base)
-    washed = draw.some(count, 0.15)[:, None] & ~made[:, None, None, None]
+    washed = draw.some(0.15)[:, None] & ~made[:, None, None, None]
     real_paint = torch.where(washed, plain.expand_as(paint), paint)
-    worn = draw.some(count, 0.15)[:, None]
+    worn = draw.some(0.15)[:, None]
     real_paint = torch.where(worn, (real_paint * (0.4 + grain)).clamp(0.0, 1.0), real_paint)
     return torch.where(made[:, None, None, None], made_paint, real_paint)
 
 
 def _lit(
-    paint: Tensor,
-    height: Tensor,
-    light: Tensor,
-    border: Tensor,
-    made: Tensor,
-    draw: Drawing,
-    count: int,
+    paint: Tensor, height: Tensor, light: Tensor, border: Tensor, made: Tensor, draw: Drawing
 ) -> Tensor:
     """Return colours with baked light, dark lines at seams, noise and another white balance."""
-    flat = len(paint)
-    keep = made[:, None, None]
-    dark = torch.where(draw.some(count, 0.7), draw.each(count, 0.3, 0.9), 1.0)
-    light = light * torch.where(keep & border, dark, 1.0)
+    dark = torch.where(draw.some(0.7), draw.each(0.3, 0.9), 1.0)
+    light = light * torch.where(made[:, None, None] & border, dark, 1.0)
     slope_up = functional.pad(height[:, 2:] - height[:, :-2], (0, 0, 1, 1)).clamp(-4, 4)
     slope_right = functional.pad(height[:, :, 2:] - height[:, :, :-2], (1, 1)).clamp(-4, 4)
-    baked = 1.0 + draw.each(count, -0.12, 0.12) * slope_up
-    baked = baked + draw.each(count, -0.12, 0.12) * slope_right
+    baked = 1.0 + draw.each(-0.12, 0.12) * slope_up
+    baked = baked + draw.each(-0.12, 0.12) * slope_right
     sunken = (closed(height[:, None], GAP)[:, 0] - height).clamp(0.0, 5.0)
-    baked = baked * (1.0 - draw.each(count, 0.0, 0.1) * sunken)
-    light = light * baked.clamp(0.3, 1.7) * (1.0 + 0.2 * draw.some(count, 0.6) * draw.wavy(flat, 5))
-    light = light * (1.0 + 0.06 * draw.some(count, 0.3) * draw.normal(*height.shape))
-    gain = draw.uniform(0.7, 1.3, count, 3).repeat_interleave(VIEWS, 0)[:, :, None, None]
-    shaded = draw.uniform(0.15, 1.2, flat)[:, None, None]
-    light = light * torch.where(draw.some(count, 0.4), shaded, 1.0)
+    baked = baked * (1.0 - draw.each(0.0, 0.1) * sunken)
+    light = light * baked.clamp(0.3, 1.7) * (1.0 + 0.2 * draw.some(0.6) * draw.wavy(5))
+    light = light * (1.0 + 0.06 * draw.some(0.3) * draw.normal(*height.shape))
+    gain = draw.uniform(0.7, 1.3, draw.count, 3).repeat_interleave(VIEWS, 0)[:, :, None, None]
+    shaded = draw.uniform(0.15, 1.2, draw.views)[:, None, None]
+    light = light * torch.where(draw.some(0.4), shaded, 1.0)
     paint = (paint * light[:, None] * gain).clamp(0.0, 1.0)
-    gamma = draw.each(count, 0.7, 1.4)[:, None]
+    gamma = draw.each(0.7, 1.4)[:, None]
     paint = paint.clamp(min=1e-4) ** gamma
-    faded = draw.each(count, 0.0, 1.0)[:, None] ** 3
+    faded = draw.each(0.0, 1.0)[:, None] ** 3
     paint = paint + faded * (paint.mean(1, keepdim=True) - paint)
-    sigma = draw.each(count, 0.05, 1.2)[:, 0, 0]
-    return _blurred(paint, sigma)
+    return _blurred(paint, draw.each(0.05, 1.2)[:, 0, 0])

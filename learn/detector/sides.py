@@ -41,7 +41,6 @@ CONTROLS = frozenset(
 )  # fmt: skip
 #: A part that stands open by less than this share of its range counts as closed.
 AJAR = 0.1
-UPRIGHT = tuple(side for side in SIDES if side is not Side.TOP)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,9 +102,6 @@ class WholeTruth:
     real: bool
 
 
-_Pictures = tuple[Canvases, npt.NDArray[np.uint8], dict[Side, Raster]]
-
-
 #: What opens so; whatever else turns about an upright edge is a door.
 _PANELS = dict.fromkeys(PanelWay, Sort.DOOR) | {
     PanelWay.OUT: Sort.DRAWER, PanelWay.BOTTOM: Sort.FLAP, PanelWay.TOP: Sort.FLAP,
@@ -127,15 +123,14 @@ def labelled_sides(
 
     Joints are opened by the shares ``opened`` of their ranges before the object is looked at.
     """
-    pictures = _pictures(articulation)
-    meanings = _meanings(articulation, pictures)
+    canvases, part = _pictures(articulation)
+    meanings = _meanings(articulation, part)
     shares = dict(opened or {})
     if shares:
         opening = (joint for joint in articulation.joints if joint.name in shares)
         values = {joint.name: shares[joint.name] * joint.upper for joint in opening}
         articulation = posed(articulation, values)
-        pictures = _pictures(articulation)
-    canvases, part, _ = pictures
+        canvases, part = _pictures(articulation)
     rows = []
     for joint in articulation.movable_joints:
         meaning = meanings.get(joint.child)
@@ -168,17 +163,15 @@ def _row(
     return [(view, *box, part + 1, SORTS.index(sort), WAYS.index(way), opened, ignored)]
 
 
-def _pictures(articulation: Articulation) -> _Pictures:
-    """Return how the sides look, the parts of their pixels, and where the pixels are."""
+def _pictures(articulation: Articulation) -> tuple[Canvases, npt.NDArray[np.uint8]]:
+    """Return how the sides look, and the parts of their pixels."""
     canvases = look_at(articulation.mesh)
     owner = np.append(np.minimum(face_parts(articulation) + 1, 255), 0)
-    rasters = {side: Raster.around(articulation.mesh, side, LONGEST) for side in SIDES}
-    return canvases, owner[canvases.face].astype(np.uint8), rasters
+    return canvases, owner[canvases.face].astype(np.uint8)
 
 
-def _meanings(articulation: Articulation, pictures: _Pictures) -> dict[int, _Meaning]:
+def _meanings(articulation: Articulation, part: npt.NDArray[np.uint8]) -> dict[int, _Meaning]:
     """Return what each moving part of a closed object is."""
-    _, part, rasters = pictures
     top_seen = int((part[-1] > 0).sum())
     found = {}
     for joint in articulation.movable_joints:
@@ -196,21 +189,18 @@ def _meanings(articulation: Articulation, pictures: _Pictures) -> dict[int, _Mea
         if level and (covers or named):
             faces = articulation.mesh.faces[articulation.parts[joint.child].faces]
             center = articulation.mesh.vertices[faces].mean(axis=(0, 1))
-            found[joint.child] = _Meaning(Sort.LID, _lid_ways(joint, center, counts))
+            across = joint.origin - center
+            across = across - (across @ joint.axis) * joint.axis
+            seen = (view for view in range(len(SIDES)) if counts[view])
+            ways = {view: way_toward(across, SIDES[view]) for view in seen}
+            found[joint.child] = _Meaning(Sort.LID, ways)
             continue
         view = int(np.argmax(counts[:4]))
-        side = UPRIGHT[view]
-        way = _way(part[view] == joint.child + 1, view, rasters[side], joint)
+        raster = Raster.around(articulation.mesh, SIDES[view], LONGEST)
+        way = _way(part[view] == joint.child + 1, raster, joint)
         if counts[view] and way is not None:
             found[joint.child] = _Meaning(_PANELS[way], {view: way})
     return found
-
-
-def _lid_ways(joint: Joint, center: FloatArray, counts: list[int]) -> dict[int, PanelWay]:
-    """Return by side where a lid is hinged: at its left, right, far or near edge."""
-    across = joint.origin - center
-    across = across - (across @ joint.axis) * joint.axis
-    return {view: way_toward(across, side) for view, side in enumerate(SIDES) if counts[view]}
 
 
 def way_toward(direction: FloatArray, side: Side) -> PanelWay:
@@ -227,7 +217,7 @@ def way_toward(direction: FloatArray, side: Side) -> PanelWay:
     return PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM
 
 
-def _way(mask: BoolArray, view: int, raster: Raster, joint: Joint) -> PanelWay | None:
+def _way(mask: BoolArray, raster: Raster, joint: Joint) -> PanelWay | None:
     """Return how a panel opens as seen on its side; ``None``: as none does."""
     right, up, away = raster.side.frame
     if joint.kind is JointKind.PRISMATIC:

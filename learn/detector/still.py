@@ -28,7 +28,8 @@ def _shelf(a: Assembly) -> None:
     width, depth, height = a.draws((0.4, 1.6), (0.2, 0.5), (0.5, 2.1))
     x, y, z = upto(width, depth, height)
     wall = a.draw(0.012, 0.04)
-    a.root.add(*(carcass(x, y, z, wall) if a.happens(0.7) else _posts(x, y, z, wall)))
+    posts = [box(about(wall / 2, u), about(wall / 2, v), z) for u, v in corners(x, y, wall / 2)]
+    a.root.add(*(carcass(x, y, z, wall) if a.happens(0.7) else posts))
     inner = within(x, wall)
     for level in shares(z, a.count(2, 6))[1:]:
         look = any_color(a) if a.happens(0.1) else None
@@ -39,10 +40,6 @@ def _shelf(a: Assembly) -> None:
     for level in shares(within(z, wall), 3):
         if a.happens(0.4):
             _books(a, inner, y, level)
-
-
-def _posts(x: Span, y: Span, z: Span, wide: float) -> list:  # type: ignore[type-arg]
-    return [box(about(wide / 2, u), about(wide / 2, v), z) for u, v in corners(x, y, wide / 2)]
 
 
 def _books(a: Assembly, x: Span, y: Span, level: Span) -> None:

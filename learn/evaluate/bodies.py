@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
-from asset_factory.factory.mesh import FloatArray, IntArray, Mesh, read_only
+from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray, Mesh, read_only
 from asset_factory.factory.models.particulate.prediction import MotionClass
-
-BoolArray = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -85,9 +83,7 @@ def bodies_of(articulation: Articulation) -> Bodies:
     parts = [index for index, part in enumerate(articulation.parts) if len(part.faces)]
     chains = [_chain(articulation, part) for part in parts]
     number = {part: body for body, part in enumerate(parts)}
-    labels = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
-    for body, part in enumerate(parts):
-        labels[articulation.parts[part].faces] = body
+    labels = np.searchsorted(parts, face_parts(articulation))
     parents = (
         -1 if above == part else number.get(above, -1)
         for part, (above, _) in zip(parts, chains, strict=True)

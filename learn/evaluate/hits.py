@@ -7,7 +7,7 @@ import numpy as np
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray
 
-from .bodies import Bodies, face_centres
+from .bodies import face_centres
 from .pairing import Pairing
 
 #: A match that covers a part by no more than this is of another part.
@@ -18,7 +18,7 @@ RIGHT_OFFSET = 0.05
 STRICT_OFFSET = 0.02
 
 
-def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
+def hits(pairing: Pairing) -> dict[str, tuple[float, ...]]:
     """Return 1 or 0 per true moving part, in the bodies' order; 0 unless found and moving.
 
     Returns:
@@ -29,15 +29,16 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
         2 % of the longest side of the true one; which way it points is not asked.
     """
     names = ("type_of_all", "axis_of_all", "place_of_all", "place_of_all_strict", "joint_right")
+    true = pairing.true
+    predicted = pairing.predicted
     found = {name: np.zeros(len(true)) for name in names}
-    size = float(true.articulation.mesh.extents.max())
-    for (real, guess), iou in zip(pairing.pairs, pairing.iou(), strict=True):
+    for (real, guess), iou in zip(pairing.pairs, pairing.iou, strict=True):
         if not true.moving[real] or not predicted.moving[guess] or iou <= FOUND_IOU:
             continue
         alike = true.kind(real) == predicted.kind(guess)
-        parallel = max(angles(true, predicted, real, guess), default=np.inf) < RIGHT_ANGLE_DEG
-        place = offset(true, predicted, real, guess)
-        share = np.inf if place is None else place / size
+        parallel = max(angles(pairing, real, guess), default=np.inf) < RIGHT_ANGLE_DEG
+        place = offset(pairing, real, guess)
+        share = np.inf if place is None else place / pairing.size
         found["type_of_all"][real] = alike
         found["axis_of_all"][real] = parallel
         found["place_of_all"][real] = share < RIGHT_OFFSET
@@ -49,24 +50,26 @@ def hits(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[f
     return {name: tuple(found[name][asked[name]].tolist()) for name in names}
 
 
-def angles(true: Bodies, predicted: Bodies, real: int, guess: int) -> list[float]:
+def angles(pairing: Pairing, real: int, guess: int) -> list[float]:
     """Return the angles between two bodies' axes, of turns and slides, either way [deg]."""
+    true = pairing.true
+    predicted = pairing.predicted
     both = (true.turn(real), predicted.turn(guess)), (true.slide(real), predicted.slide(guess))
     cosines = [abs(one.axis @ other.axis) for one, other in both if one and other]
     return [float(np.degrees(np.arccos(np.clip(each, 0.0, 1.0)))) for each in cosines]
 
 
-def offset(true: Bodies, predicted: Bodies, real: int, guess: int) -> float | None:
+def offset(pairing: Pairing, real: int, guess: int) -> float | None:
     """Return the distance of two turn axes [m], at the true one's point next to the part.
 
     ``None`` unless both turn.
     """
-    ours = true.turn(real)
-    theirs = predicted.turn(guess)
+    ours = pairing.true.turn(real)
+    theirs = pairing.predicted.turn(guess)
     if ours is None or theirs is None:
         return None
-    mesh = true.articulation.mesh
-    own = true.labels == real
+    mesh = pairing.true.articulation.mesh
+    own = pairing.true.labels == real
     middle: FloatArray = np.average(face_centres(mesh)[own], axis=0, weights=face_areas(mesh)[own])
     at = ours.origin + ours.axis * float(ours.axis @ (middle - ours.origin)) - theirs.origin
     return float(np.linalg.norm(at - theirs.axis * float(theirs.axis @ at)))

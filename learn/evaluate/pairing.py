@@ -16,30 +16,30 @@ class Pairing:
     """The assignment of bodies that maximises the sum of intersections over unions.
 
     Attributes:
+        true, predicted: two labellings of the same faces.
         shared: area in both a true and a predicted body [m2], shape [true_count, predicted_count].
-        true_area, predicted_area: of each body [m2].
         pairs: rows of (true, predicted) body that share something, ascending, shape [n, 2].
+        iou: intersection over union of each pair, shape [n].
     """
 
+    true: Bodies
+    predicted: Bodies
     shared: FloatArray
-    true_area: FloatArray
-    predicted_area: FloatArray
     pairs: IntArray
+    iou: FloatArray
 
     def __post_init__(self) -> None:
-        for name in ("shared", "true_area", "predicted_area"):
-            object.__setattr__(self, name, read_only(getattr(self, name)))
-        object.__setattr__(self, "pairs", read_only(self.pairs, np.int64))
+        for name, kind in (("shared", np.float64), ("pairs", np.int64), ("iou", np.float64)):
+            object.__setattr__(self, name, read_only(getattr(self, name), kind))
 
-    def iou(self) -> FloatArray:
-        """Return the intersection over union of each pair, shape [pair_count]."""
-        true, predicted = self.pairs.T
-        return np.asarray(_iou(self.shared, self.true_area, self.predicted_area)[true, predicted])
+    @property
+    def size(self) -> float:
+        """Return the longest side of the object [m]."""
+        return float(self.true.articulation.mesh.extents.max())
 
     def spread(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return a value per true and per predicted body for one per pair; 0 for the unmatched."""
-        of_true = np.zeros(len(self.true_area))
-        of_predicted = np.zeros(len(self.predicted_area))
+        of_true, of_predicted = (np.zeros(count) for count in self.shared.shape)
         of_true[self.pairs[:, 0]] = values
         of_predicted[self.pairs[:, 1]] = values
         return of_true, of_predicted
@@ -50,11 +50,12 @@ def paired(true: Bodies, predicted: Bodies, areas: FloatArray) -> Pairing:
     from scipy.optimize import linear_sum_assignment
 
     shared = shared_areas(true, predicted, areas)
-    true_area = shared.sum(axis=1)
-    predicted_area = shared.sum(axis=0)
-    rows, columns = linear_sum_assignment(-_iou(shared, true_area, predicted_area))
-    pairs = np.stack([rows, columns], axis=1)
-    return Pairing(shared, true_area, predicted_area, pairs[shared[rows, columns] > 0.0])
+    union = shared.sum(axis=1)[:, None] + shared.sum(axis=0)[None, :] - shared
+    iou = np.divide(shared, union, out=np.zeros_like(shared), where=union > 0.0)
+    rows, columns = linear_sum_assignment(-iou)
+    some = shared[rows, columns] > 0.0
+    pairs = np.stack([rows, columns], axis=1)[some]
+    return Pairing(true, predicted, shared, pairs, iou[rows, columns][some])
 
 
 def shared_areas(true: Bodies, predicted: Bodies, areas: FloatArray) -> FloatArray:
@@ -63,8 +64,3 @@ def shared_areas(true: Bodies, predicted: Bodies, areas: FloatArray) -> FloatArr
     cells = true.labels * shape[1] + predicted.labels
     shared = np.bincount(cells, weights=areas, minlength=shape[0] * shape[1])
     return np.asarray(shared.reshape(shape), dtype=np.float64)
-
-
-def _iou(shared: FloatArray, true_area: FloatArray, predicted_area: FloatArray) -> FloatArray:
-    union = true_area[:, None] + predicted_area[None, :] - shared
-    return np.divide(shared, union, out=np.zeros_like(shared), where=union > 0.0)

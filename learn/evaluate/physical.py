@@ -13,10 +13,10 @@ import numpy as np
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.triangles import face_areas
-from asset_factory.factory.mesh import FloatArray
+from asset_factory.factory.mesh import BoolArray, FloatArray
 from asset_factory.factory.models.particulate.prediction import MotionClass
 
-from .bodies import Bodies, BoolArray, bodies_of, face_centres
+from .bodies import Bodies, bodies_of, face_centres
 from .hits import FOUND_IOU, angles, hits, offset
 from .pairing import Pairing, paired, shared_areas
 from .score import Score
@@ -56,9 +56,8 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         )
     areas = face_areas(true.mesh)
     real, guess = (bodies_of(_without_needless_ends(each)) for each in (true, predicted))
-    pairing = paired(real, guess, areas)
-    guess = _with_aligned_turns(real, guess, pairing)
-    of_true, of_predicted = pairing.spread(pairing.iou())
+    pairing = _with_aligned_turns(paired(real, guess, areas))
+    of_true, of_predicted = pairing.spread(pairing.iou)
     values = {
         "part_miou": (of_true.mean() + of_predicted.mean()) / 2.0,
         "part_miou_true": of_true.mean(),
@@ -69,12 +68,11 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
         "predicted_moving": guess.moving.sum(),
     }
     for suffix, tolerance in (("", TOLERANCE), ("_strict", STRICT_TOLERANCE)):
-        moved = _motion_aware(real, guess, pairing, areas, tolerance)
+        moved = _motion_aware(pairing, areas, tolerance)
         values[f"articulated_iou{suffix}"] = _both_ways(moved, real.moving, guess.moving)
         everything = np.ones(len(real), bool), np.ones(len(guess), bool)
         values[f"articulated_iou_all{suffix}"] = _both_ways(moved, *everything)
-    errors = _joint_errors(real, guess, pairing, areas)
-    return Score(values, {**_shares(real, guess, pairing), **errors, **hits(real, guess, pairing)})
+    return Score(values, _shares(pairing) | _joint_errors(pairing, areas) | hits(pairing))
 
 
 def _without_needless_ends(articulation: Articulation) -> Articulation:
@@ -95,10 +93,14 @@ def _both_ways(of: tuple[FloatArray, FloatArray], true: BoolArray, predicted: Bo
 
 
 def _motion_aware(
-    true: Bodies, predicted: Bodies, pairing: Pairing, areas: FloatArray, tolerance: float
+    pairing: Pairing, areas: FloatArray, tolerance: float
 ) -> tuple[FloatArray, FloatArray]:
     """Return the mean over states of each body's intersection over union, true and predicted."""
-    size = float(true.articulation.mesh.extents.max())
+    true = pairing.true
+    predicted = pairing.predicted
+    farthest = tolerance * pairing.size
+    true_area = pairing.shared.sum(axis=1)
+    predicted_area = pairing.shared.sum(axis=0)
     closed = true.centres_at(0.0)
     total = np.zeros(len(pairing.pairs))
     for share in STATES:
@@ -106,26 +108,27 @@ def _motion_aware(
         guessed = predicted.centres_at(share)
         travel = np.zeros(len(true))
         np.maximum.at(travel, true.labels, np.linalg.norm(at - closed, axis=1))
-        allowed = np.where(
-            true.mobile, np.minimum(tolerance * size, TRAVEL_TOLERANCE * travel), tolerance * size
-        )
+        told = np.minimum(farthest, TRAVEL_TOLERANCE * travel)
+        allowed = np.where(true.mobile, told, farthest)
         right = np.linalg.norm(at - guessed, axis=1) <= allowed[true.labels]
         met = shared_areas(true, predicted, areas * right)
         for index, (real, guess) in enumerate(pairing.pairs):
             if true.moving[real] == predicted.moving[guess]:
-                both = pairing.true_area[real] + pairing.predicted_area[guess]
+                both = true_area[real] + predicted_area[guess]
                 total[index] += met[real, guess] / (both - met[real, guess])
     return pairing.spread(total / len(STATES))
 
 
-def _shares(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tuple[float, ...]]:
+def _shares(pairing: Pairing) -> dict[str, tuple[float, ...]]:
     """Return per moving part whether it was found, is right, was left fixed, is still."""
-    pairs = pairing.pairs
-    iou = pairing.iou()
-    good = (iou > FOUND_IOU) & true.moving[pairs[:, 0]] & predicted.moving[pairs[:, 1]]
+    true = pairing.true
+    predicted = pairing.predicted
+    shared = pairing.shared
+    real, guess = pairing.pairs.T
+    good = (pairing.iou > FOUND_IOU) & true.moving[real] & predicted.moving[guess]
     found, right = pairing.spread(good.astype(np.float64))
-    left = pairing.shared[:, ~predicted.mobile].sum(axis=1) > 0.5 * pairing.true_area
-    still = pairing.shared[~true.mobile].sum(axis=0) > 0.5 * pairing.predicted_area
+    left = shared[:, ~predicted.mobile].sum(axis=1) > 0.5 * shared.sum(axis=1)
+    still = shared[~true.mobile].sum(axis=0) > 0.5 * shared.sum(axis=0)
     return {
         "recall": tuple(found[true.moving]),
         "precision": tuple(right[predicted.moving]),
@@ -134,19 +137,17 @@ def _shares(true: Bodies, predicted: Bodies, pairing: Pairing) -> dict[str, tupl
     }
 
 
-def _joint_errors(
-    true: Bodies, predicted: Bodies, pairing: Pairing, areas: FloatArray
-) -> dict[str, tuple[float, ...]]:
+def _joint_errors(pairing: Pairing, areas: FloatArray) -> dict[str, tuple[float, ...]]:
     """Return per matched true moving part if its type is right; errors of axis and range."""
     names = (
         "type_accuracy", "axis_angle_deg", "axis_offset", "opens_right_way", "range_error_rad",
         "range_error_size",
     )  # fmt: skip
     errors: dict[str, list[float]] = {name: [] for name in names}
-    mesh = true.articulation.mesh
-    size = float(mesh.extents.max())
-    centres = face_centres(mesh)
-    for (real, guess), iou in zip(pairing.pairs, pairing.iou(), strict=True):
+    true = pairing.true
+    predicted = pairing.predicted
+    centres = face_centres(true.articulation.mesh)
+    for (real, guess), iou in zip(pairing.pairs, pairing.iou, strict=True):
         if not true.moving[real] or iou <= FOUND_IOU:
             continue
         errors["type_accuracy"].append(float(true.kind(real) == predicted.kind(guess)))
@@ -155,21 +156,18 @@ def _joint_errors(
         own = true.labels == real
         turns = true.turn(real), predicted.turn(guess)
         slides = true.slide(real), predicted.slide(guess)
-        between = angles(true, predicted, real, guess)
-        apart = offset(true, predicted, real, guess)
+        between = angles(pairing, real, guess)
+        apart = offset(pairing, real, guess)
         if between:
             errors["axis_angle_deg"].append(max(between))
         if turns[0] is not None and turns[1] is not None and apart is not None:
-            errors["axis_offset"].append(apart / size)
+            errors["axis_offset"].append(apart / pairing.size)
             if turns[0].kind is not JointKind.CONTINUOUS:
                 errors["range_error_rad"].append(abs(turns[0].range - turns[1].range))
         if slides[0] is not None and slides[1] is not None:
-            errors["range_error_size"].append(abs(slides[0].range - slides[1].range) / size)
-        if (
-            true.kind(real) is not MotionClass.REVOLUTE
-            or turns[0] is None
-            or turns[0].kind is JointKind.REVOLUTE
-        ):
+            errors["range_error_size"].append(abs(slides[0].range - slides[1].range) / pairing.size)
+        slid = true.kind(real) is not MotionClass.REVOLUTE
+        if slid or turns[0] is None or turns[0].kind is JointKind.REVOLUTE:
             ways = _opening(true, real, centres[own]), _opening(predicted, guess, centres[own])
             along = float((areas[own] * np.einsum("ij,ij->i", *ways)).sum())
             errors["opens_right_way"].append(float(along > 0.0))
@@ -182,18 +180,16 @@ def _opening(bodies: Bodies, body: int, points: FloatArray) -> FloatArray:
     return np.asarray(points @ change[:3, :3].T + change[:3, 3])
 
 
-def _with_aligned_turns(true: Bodies, predicted: Bodies, pairing: Pairing) -> Bodies:
+def _with_aligned_turns(pairing: Pairing) -> Pairing:
     """Turn axes of endless joints to match their true ones, as their sign means nothing."""
     flipped = set()
     for real, guess in pairing.pairs:
-        ours = true.turn(real)
-        theirs = predicted.turn(guess)
+        ours = pairing.true.turn(real)
+        theirs = pairing.predicted.turn(guess)
         if ours is None or theirs is None:
             continue
         if ours.kind is theirs.kind is JointKind.CONTINUOUS and ours.axis @ theirs.axis < 0.0:
             flipped.add(theirs.name)
-    if not flipped:
-        return predicted
-    whole = predicted.articulation
+    whole = pairing.predicted.articulation
     joints = tuple(replace(j, axis=-j.axis) if j.name in flipped else j for j in whole.joints)
-    return bodies_of(replace(whole, joints=joints))
+    return replace(pairing, predicted=bodies_of(replace(whole, joints=joints)))

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from asset_factory.factory.articulate.evidence.body import Body, body_of
+from asset_factory.factory.articulate.evidence.body import body_of
 from asset_factory.factory.articulate.evidence.candidates import (
     GUESSED,
     Candidates,
@@ -17,8 +17,7 @@ from asset_factory.factory.articulate.evidence.extent import single
 from asset_factory.factory.articulate.evidence.numbers import GUESS, measure
 from asset_factory.factory.articulate.evidence.setting import Setting, setting_of
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
-from asset_factory.factory.mesh import FloatArray
-from asset_factory.factory.models.particulate.surface import BoolArray
+from asset_factory.factory.mesh import BoolArray, FloatArray
 
 from .spoiling import spoilt
 from .truth import made_up_guess, truth_of
@@ -66,10 +65,8 @@ class MotionSample:
         keep = ~self.guessed
         numbers = self.numbers[keep].copy()
         numbers[:, -len(GUESS) :] = 0.0
-        return MotionSample(
-            self.name, numbers, self.guessed[keep], self.worth[keep], self.right[keep],
-            self.alike[np.ix_(keep, keep)], self.setting, self.range,
-        )  # fmt: skip
+        kept = {name: getattr(self, name)[keep] for name in ("guessed", "worth", "right")}
+        return replace(self, numbers=numbers, alike=self.alike[np.ix_(keep, keep)], **kept)
 
 
 def motion_samples(
@@ -89,7 +86,11 @@ def motion_samples(
         candidates = find_candidates(body, guess)
         numbers = measure(body, candidates, guess)
         worth, right = _judged(candidates, joint, middle, truth.size)
-        setting, true_range = _range(body, candidates, numbers, worth, right, joint)
+        best = int(np.argmax(worth))
+        reach = np.inf if joint.kind is JointKind.CONTINUOUS else joint.range
+        setting = None
+        if right[best]:
+            setting = setting_of(body, single(candidates, best), numbers[best])
         yield MotionSample(
             name=name,
             numbers=numbers.astype(np.float32),
@@ -98,7 +99,7 @@ def motion_samples(
             right=right,
             alike=_alike(candidates, truth.size),
             setting=setting,
-            range=true_range,
+            range=0.0 if setting is None else reach / setting.unit,
         )
 
 
@@ -126,19 +127,3 @@ def _alike(candidates: Candidates, size: float) -> BoolArray:
     offset = candidates.origin[None] - candidates.origin[:, None]
     apart = np.linalg.norm(np.cross(offset, candidates.axis[None]), axis=2)
     return np.asarray(alike & (candidates.slides[:, None] | (apart < RIGHT_PLACE * size)))
-
-
-def _range(
-    body: Body,
-    candidates: Candidates,
-    numbers: FloatArray,
-    worth: FloatArray,
-    right: BoolArray,
-    joint: Joint,
-) -> tuple[Setting | None, float]:
-    best = int(np.argmax(worth))
-    if not right[best]:
-        return None, 0.0
-    setting = setting_of(body, single(candidates, best), numbers[best])
-    endless = joint.kind is JointKind.CONTINUOUS
-    return setting, np.inf if endless else joint.range / setting.unit

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 
-from asset_factory.factory.articulation import Articulation, Joint
+from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.mesh import FloatArray
 
 from .details import lettered, without_handles, without_hidden, without_hidden_pieces
@@ -124,9 +124,13 @@ def stretched(articulation: Articulation, factors: npt.ArrayLike) -> Articulatio
         raise ValueError(f"factors are {wanted.tolist()}, want three above 0")
     if any(np.abs(joint.axis).max() < 1.0 - ALONG for joint in articulation.movable_joints):
         wanted = np.full(3, float(np.prod(wanted)) ** (1.0 / 3.0))
-    joints = tuple(_stretched(joint, wanted) for joint in articulation.joints)
+    joints = []
+    for each in articulation.joints:
+        along = 1.0 if each.turns else float(wanted[np.abs(each.axis).argmax()])
+        moved = replace(each, origin=wanted * each.origin)
+        joints.append(replace(moved, lower=each.lower * along, upper=each.upper * along))
     mesh = articulation.mesh.transformed(np.diag([*wanted, 1.0]))
-    return replace(articulation, mesh=mesh, joints=joints)
+    return replace(articulation, mesh=mesh, joints=tuple(joints))
 
 
 def mirrored(articulation: Articulation) -> Articulation:
@@ -138,9 +142,3 @@ def mirrored(articulation: Articulation) -> Articulation:
     )
     mesh = articulation.mesh.transformed(np.diag([*flip, 1.0]))
     return replace(articulation, mesh=mesh, joints=joints)
-
-
-def _stretched(joint: Joint, factors: FloatArray) -> Joint:
-    along = 1.0 if joint.turns else float(factors[np.abs(joint.axis).argmax()])
-    moved = replace(joint, origin=factors * joint.origin)
-    return replace(moved, lower=joint.lower * along, upper=joint.upper * along)

@@ -6,9 +6,9 @@ from itertools import product
 
 import numpy as np
 
-from asset_factory.factory.mesh import FloatArray
+from asset_factory.factory.mesh import BoolArray, FloatArray
 
-from .labelled import BoolArray, Labelled, joined
+from .labelled import Labelled, joined
 from .surfaces import boxes_among
 
 #: Points tried on the surface.

@@ -10,9 +10,9 @@ from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from asset_factory.factory.articulation import Articulation
-from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 
-from .labelled import BoolArray, Labelled
+from .labelled import Labelled
 
 #: Points on the original surface, from which the skin and its labels come; more for a finer skin.
 POINTS = 24000
@@ -34,12 +34,8 @@ def fused_like(
     """Return one closed surface around the whole object, labelled by the nearest part.
 
     Seams run along triangles of the skin, and vertices may be shared by more than two sheets where
-    surfaces touch. Parts and joints are the same, but for parts that nothing is seen of.
-
-    Args:
-        articulation: any with a surface, closed or not.
-        seed: of the sampled points, bumps and, where not given, the resolution.
-        resolution: cells along the longest side; by default as many as keep it fast.
+    surfaces touch. Parts and joints are the same, but for parts that nothing is seen of. There are
+    ``resolution`` cells along the longest side, by default as many as keep it fast.
 
     Raises:
         ValueError: what would be left out holds something that is seen, or is all that moves.
@@ -87,24 +83,23 @@ def skin(
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """Return vertices [m] and faces ``reach`` cells outside, and a point near each face.
 
-    Args:
-        points: on the surface [m], shape [point_count, 3]; several in every cell that it passes.
-        owner: part of each, shape [point_count].
-        cells: along the longest side.
-        reach: see above.
-        rng: of the bumps.
-        groove: cells deep that the skin is engraved where parts border on one another.
-        bumps: height of bumps, in units of ``reach``.
+    Of ``points`` on the surface [m], several lie in every cell that it passes; ``cells`` are along
+    the longest side. The skin is engraved ``groove`` cells deep where parts, the owners of points,
+    border on one another; ``bumps`` are so high in units of ``reach``.
     """
     low = points.min(axis=0)
     high = points.max(axis=0)
     cell = float((high - low).max()) / cells
     corner = low - MARGIN * cell
     shape = np.ceil((high - corner) / cell).astype(int) + MARGIN + 1
-    place = (points - corner) / cell
-    solid = _filled(_splatted(place, tuple(int(n) for n in shape)))
+    nearby = tuple(np.rint((points - corner) / cell).astype(np.int64).T)
+    surface = np.zeros(shape, dtype=bool)
+    surface[nearby] = True
+    solid = _filled(surface)
     if groove:
-        solid = _without_contacts(_engraved(solid, place, owner, groove))
+        part = np.full(shape, -1, dtype=np.int64)
+        part[nearby] = owner
+        solid = _without_contacts(_engraved(solid, part, groove))
     vertices, faces = _nets(solid)
     vertices = corner + cell * vertices
     # Drawn onto the level set around the points, which the grid knows only by the cell.
@@ -120,14 +115,6 @@ def skin(
     return _smoothed(drawn, faces, 0.5), faces, near[np.arange(len(faces)), choice]
 
 
-def _splatted(place: FloatArray, shape: tuple[int, ...]) -> BoolArray:
-    """Return which grid points have a surface point within half a cell in every direction."""
-    index = np.rint(place).astype(np.int64)
-    grid = np.zeros(shape, dtype=bool)
-    grid[tuple(index.T)] = True
-    return grid
-
-
 def _filled(occupied: BoolArray) -> BoolArray:
     """Fill everything that cannot be reached from outside; small holes are closed."""
     thick = ndimage.binary_dilation(occupied, AROUND)
@@ -138,11 +125,8 @@ def _filled(occupied: BoolArray) -> BoolArray:
     return _without_contacts(np.asarray(ndimage.binary_erosion(inside, AROUND) | occupied))
 
 
-def _engraved(solid: BoolArray, place: FloatArray, owner: IntArray, depth: int) -> BoolArray:
-    """Return the solid without its outer ``depth`` cells where two parts are near."""
-    index = np.rint(place).astype(np.int64)
-    part = np.full(solid.shape, -1, dtype=np.int64)
-    part[tuple(index.T)] = owner
+def _engraved(solid: BoolArray, part: IntArray, depth: int) -> BoolArray:
+    """Return the solid without its outer ``depth`` cells where two parts, not -1, are near."""
     high = ndimage.maximum_filter(part, size=3)
     low = -ndimage.maximum_filter(np.where(part >= 0, -part, -NOBODY), size=3)
     border = (high >= 0) & (low < NOBODY) & (low != high)

@@ -6,15 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.edges import label_linked
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.geometry.triangles import areas_of, doubled_normals
-from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh
-
-BoolArray = npt.NDArray[np.bool_]
+from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray, Material, Mesh
 
 #: A part keeps at least this share of its surface, whatever a pass drops.
 KEPT_SHARE = 0.15

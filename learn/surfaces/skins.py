@@ -94,7 +94,6 @@ def _skinned(
     count = int(min(wanted, MOST_POINTS))
     # A thick crowd of parts has more surface than points can cover at that fineness.
     chosen = int(chosen * np.sqrt(count / wanted))
-
     shares = (np.arange(count) + rng.random(count)) / count
     points, below, weights = original.sampled(shares, rng)
     groove = int(rng.integers(DEPTHS[0], DEPTHS[1] + 1)) if rng.random() < engraved else 0

@@ -9,9 +9,9 @@ from itertools import product
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 
-from .labelled import BoolArray, Labelled, joined, some
+from .labelled import Labelled, joined, some
 
 #: Gaps between quads that were one solid [m], drawn evenly over the orders of magnitude.
 SPLIT_M = (3e-5, 2e-3)

@@ -61,19 +61,6 @@ class Descent:
         self._clip = clip or math.inf
         self._missed = 0
 
-    def state(
-        self,
-        step: int,
-        recipe: str,
-        best: tuple[float, int] | None = None,
-        data: str = "",
-        seconds: float = 0.0,
-    ) -> State:
-        """Return everything there is after ``step`` steps."""
-        weights = self.network.state_dict()
-        optimiser = self.optimiser.state_dict()
-        return State(step, weights, self.mean.weights, optimiser, best, recipe, data, seconds)
-
     def restore(self, state: State, path: Path) -> None:
         """Go back to a stored state.
 

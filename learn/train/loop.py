@@ -20,7 +20,6 @@ from asset_factory.factory.models.network.shape import expected_tensors, paramet
 from asset_factory.factory.models.weights.safetensors import write_safetensors
 from asset_factory.factory.runtime.store import write_whole
 
-from ..samples.sample import Sample
 from .checkpoints import BEST, LAST, State, fill, read_state, read_weights, write_state
 from .curves import Curve, draw_curves, require_plotting
 from .data_loader import DataLoader
@@ -52,12 +51,9 @@ def run_training(
 ) -> bool:
     """Train a network, and leave everything about it in a folder; returns whether it is done.
 
-    Args:
-        config: of the run.
-        recipe: the TOML it was read from.
-        output: the folder: weights, checkpoints, curves, a card with figures, and the recipe.
-        resume: go on with the run that is there.
-        start: weights to begin with, for a run on other data.
+    That is weights, checkpoints, curves, a card with figures, and the ``recipe``: the TOML that
+    ``config`` was read from. ``resume`` goes on with the run that is there; ``start`` are weights
+    to begin with, for a run on other data.
 
     Raises:
         ConfigError: the folder holds a run and ``resume`` is not asked for, or the other way round;
@@ -84,12 +80,10 @@ class _Run:
         cache = Path(config.run.cache) if config.run.cache else output / "sampled"
         # The first process converts what needs it; the others then find it converted.
         with group.first_alone():
-            pools = find_pools(config.data, cache)
-            held_out = find_pools(config.held_out, cache)
-        self._pools = pools
-        self._held_out_pools = held_out
-        self._data = digest(pools)
-        self._held_out: list[Sample] = held_out_samples(config, held_out) if group.first else []
+            self._pools = find_pools(config.data, cache)
+            self._held_out_pools = find_pools(config.held_out, cache)
+        self._data = digest(self._pools)
+        self._held_out = held_out_samples(config, self._held_out_pools) if group.first else []
         self._trainer = Trainer(config, group)
         self._best: tuple[float, int] | None = None
         self._scores: Scores | None = None
@@ -201,7 +195,9 @@ class _Run:
     def _state(self, step: int) -> State:
         seconds = self._seconds + time.monotonic() - self._since
         descent = self._trainer.descent
-        return descent.state(step, self._recipe, self._best, self._data, seconds)
+        weights = descent.network.state_dict()
+        kept = (weights, descent.mean.weights, descent.optimiser.state_dict())
+        return State(step, *kept, self._best, self._recipe, self._data, seconds)
 
     def _about(self, step: int) -> dict[str, str]:
         config = self._config

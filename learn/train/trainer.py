@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from contextlib import AbstractContextManager
 from typing import Any
 
 import numpy as np
@@ -88,8 +87,9 @@ class Trainer:
         counts = Counts(*sums)
         self.descent.optimiser.zero_grad(set_to_none=True)
         values = torch.zeros(len(NAMES) + 1, device=group.device)
+        lowered = config.run.precision == "bfloat16" and group.device.startswith("cuda")
         for each in micro:
-            with self._precision():
+            with torch.autocast("cuda", torch.bfloat16, enabled=lowered):
                 answers, early = forward(self.network, each, config.loss)
             targets = targets_of(each, config.loss)
             found = losses(answers, early, each, targets, counts, config.loss)
@@ -101,13 +101,6 @@ class Trainer:
         norm = self.descent.step(step, rate)
         last = [torch.full_like(norm, rate), norm] if group.first else [torch.zeros_like(norm)] * 2
         return torch.cat([values, torch.stack(last)]), stops > 0
-
-    def _precision(self) -> AbstractContextManager[Any]:
-        lowered = self._config.run.precision == "bfloat16"
-        enabled = lowered and self._group.device.startswith("cuda")
-        autocast: AbstractContextManager[Any]
-        autocast = torch.autocast("cuda", torch.bfloat16, enabled=enabled)
-        return autocast
 
     def _seed_dropout(self, step: int) -> None:
         seed = np.random.SeedSequence([self._config.seed, _DROPOUT, step, self._group.rank])

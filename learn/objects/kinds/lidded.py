@@ -19,12 +19,6 @@ from ..kit.spans import Span, X, Y, Z, about, ends, mid, size, span, upto, withi
 from ..kit.styles import any_color, any_metal, any_style
 
 
-def _arched(x: Span, y: Span, z: float, thick: float, rise: float) -> Form:
-    """Return a solid lid with an arch along x."""
-    curve = arc((0.0, 0.0), 1.0, 0.0, np.pi, 11) * (size(y) / 2, rise) + (mid(y), z + thick)
-    return prism([*curve, (y[0], z), (y[1], z)], x, X)
-
-
 def _staves(x: Span, y: Span, z: float, board: float, rise: float) -> list[Form]:
     """Return an arched lid of two end plates, and staves along the arch between them."""
     half = size(y) / 2
@@ -50,7 +44,9 @@ def _lid(a: Assembly, name: str, x: Span, y: Span, z: float, look: Material) -> 
     lid = a.hinge(name, LEFT, (mid(x), y[1], level), upper, look=look)
     style = a.weighted({"arched": 0.17, "staves": 0.08, "flat": 0.53, "field": 0.22})
     if style == "arched":
-        lid.add(_arched(x, y, low, thick, a.draw(0.15, 0.6) * size(y) / 2))
+        rise = a.draw(0.15, 0.6) * size(y) / 2
+        arch = arc((0.0, 0.0), 1.0, 0.0, np.pi, 11) * (size(y) / 2, rise) + (mid(y), low + thick)
+        lid.add(prism([*arch, (y[0], low), (y[1], low)], x, X))
     elif style == "staves":
         lid.add(*_staves(x, y, low, min(thick, 0.02), a.draw(0.2, 0.5) * size(y) / 2))
     else:

@@ -49,11 +49,7 @@ class Leaf(NamedTuple):
 class Casework:
     """A case under construction, its outer spans [m] without fronts that lie on it.
 
-    Attributes:
-        prefix: of the names of its parts.
-        cells: that its front is divided into.
-        doors: what turns in it.
-        count: of the parts that move in it.
+    Its front is divided into ``cells``; ``doors`` are what turns, ``count`` is of all that moves.
     """
 
     a: Assembly
