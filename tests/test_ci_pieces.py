@@ -1,7 +1,5 @@
 """The GitHub Action and the pre-commit hook, run here as their runners run them."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

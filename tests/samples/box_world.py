@@ -1,7 +1,5 @@
 """Furniture made of boxes, as descriptions in memory: a sound cabinet and what breaks it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path

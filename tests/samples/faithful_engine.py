@@ -1,7 +1,5 @@
 """What an engine that holds exactly what the file says would report, and how to make it lie."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

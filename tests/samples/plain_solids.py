@@ -1,7 +1,5 @@
 """Boxes and cylinders as meshes of one material."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A carcass with a drawer above a door, of boxes, as URDF and MJCF; a good one and broken ones."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Small objects whose best places to hold are known by construction."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

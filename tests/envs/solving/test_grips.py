@@ -1,7 +1,5 @@
 """Where fingertips may press, and what is too deep in the hand."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Annotation -> Articulation: what normalisation changes, and that it says so."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Joints that follow others in a file still do in the asset, closed and at rest together."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Reports in the forms that other tools read: each holds every finding, and none breaks out."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

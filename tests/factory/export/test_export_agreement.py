@@ -1,7 +1,5 @@
 """URDF, MJCF and SDF say what the asset is, to whoever reads them and knows nothing of it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree

@@ -1,7 +1,5 @@
 """Inputs whose files lie in a package or a root are read, known again and told."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """A folder of hostile files is searched within bounds: of time, of memory, and of its root."""
 
-from __future__ import annotations
-
 import os
 import resource
 import socket

@@ -1,7 +1,5 @@
 """Each way an input can be unusable has its own code, and nothing else ever escapes."""
 
-from __future__ import annotations
-
 import json
 import struct
 import zlib

@@ -1,7 +1,5 @@
 """Inputs behind URLs: fetched once, whole, again where they changed; secrets stay unsaid."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

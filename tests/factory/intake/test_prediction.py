@@ -1,7 +1,5 @@
 """pred.npz -> Annotation."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

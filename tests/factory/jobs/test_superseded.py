@@ -1,7 +1,5 @@
 """One input has one current asset: a corrected sidecar leaves no twin that tasks draw."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path

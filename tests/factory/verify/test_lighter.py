@@ -1,7 +1,5 @@
 """An asset of too many hulls gets fewer, as many times as cutting apart makes several of one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import SimpleNamespace

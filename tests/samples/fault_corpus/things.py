@@ -3,8 +3,6 @@
 Written as URDF and MJCF.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What moves has to come near what carries it, somewhere on its way."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

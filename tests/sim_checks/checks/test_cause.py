@@ -1,7 +1,5 @@
 """Every cause is told from an asset broken that way, not from its sound or otherwise broken kin."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

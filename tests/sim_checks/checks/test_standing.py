@@ -1,7 +1,5 @@
 """What stands and what topples: closed forms, and MuJoCo with a free base as the witness."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace

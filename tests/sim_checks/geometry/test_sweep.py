@@ -1,7 +1,5 @@
 """The sweep along a joint is continuous: no pose is missed, and the worst place is found."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from box_world import box_hull

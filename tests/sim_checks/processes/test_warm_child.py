@@ -1,7 +1,5 @@
 """A child that is asked again and again, and whose every answer is as good as a new child's."""
 
-from __future__ import annotations
-
 import gc
 import os
 import signal

@@ -1,7 +1,5 @@
 """Descriptions are read where the world lays them out, and never beyond the folders allowed."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from pathlib import Path

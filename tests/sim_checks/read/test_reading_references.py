@@ -1,7 +1,5 @@
 """Engines are never told of files outside a description's folder, however hidden the reference."""
 
-from __future__ import annotations
-
 import os
 import sys
 

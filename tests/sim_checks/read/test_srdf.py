@@ -1,7 +1,5 @@
 """Pairs that an SRDF exempts are warned of, counted, and reject nothing."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """xacro files are expanded and checked as what they make; hostile ones reach nothing."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What people copy to have a night every night: systemd's units and Slurm's scripts, run."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

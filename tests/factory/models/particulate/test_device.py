@@ -1,7 +1,5 @@
 """The network runs on a GPU that is there and computes, else on the CPU; the user may say."""
 
-from __future__ import annotations
-
 from contextlib import nullcontext
 from types import SimpleNamespace
 
