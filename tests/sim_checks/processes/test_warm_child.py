@@ -16,7 +16,7 @@ from asset_factory.sim_checks.processes.isolation import Limits, WarmChild, run_
 from asset_factory.sim_checks.processes.scratch import scratch
 
 GENEROUS = cold.GENEROUS
-SEEN: list[int] = []
+SEEN = []
 
 
 def remember(value):
@@ -43,7 +43,7 @@ def hold(size):
     return os.getpid()
 
 
-HELD: list[bytes] = []
+HELD = []
 
 
 def burn(seconds):
