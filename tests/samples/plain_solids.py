@@ -22,6 +22,14 @@ def box(x: Span, y: Span, z: Span, material: Material) -> Mesh:
     return mesh_of(shapes.box(x, y, z), material)
 
 
+def sized_box(
+    size: Sequence[float], at: Sequence[float] = (0.0, 0.0, 0.0)
+) -> tuple[np.ndarray, np.ndarray]:
+    """The vertices and faces of a box of that size about a point [m]."""
+    made = trimesh.creation.box(size)
+    return np.asarray(made.vertices) + at, np.asarray(made.faces)
+
+
 def box_between(
     low: Sequence[float], high: Sequence[float], material: Material | None = None
 ) -> Mesh:
