@@ -1,6 +1,7 @@
 """Boxes and cylinders as meshes of one material."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import trimesh
@@ -36,6 +37,12 @@ def box_between(
     """A box of eight vertices and twelve faces between two corners [m]."""
     made = trimesh.creation.box(bounds=[low, high])
     return Mesh.from_triangles(made.vertices, made.faces, material)
+
+
+def signed_volume(mesh: Any) -> float:
+    """The volume of vertices and faces [m3]: positive where the faces look outwards."""
+    a, b, c = (mesh.vertices[mesh.faces[:, corner]] for corner in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
 
 def carcass(width: float, depth: float, height: float) -> list[Mesh]:
