@@ -1,7 +1,5 @@
 """The GitHub Action and the pre-commit hook, run here as their runners run them."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -28,7 +26,7 @@ URDF = f"""<robot name="r">
 
 
 @pytest.fixture
-def repository(tmp_path: Path) -> Path:
+def repository(tmp_path):
     """A folder of assets, one sound and one not, where ``factory`` is this checkout's."""
     for name, length in (("sound", "1"), ("broken", "2")):
         path = tmp_path / "assets" / f"{name}.urdf"
@@ -41,7 +39,7 @@ def repository(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def run(repository: Path, command: list[str], **env: str) -> subprocess.CompletedProcess[str]:
+def run(repository, command, **env):
     path = f"{repository / 'bin'}:{os.environ['PATH']}"
     return subprocess.run(
         command,
@@ -53,7 +51,7 @@ def run(repository: Path, command: list[str], **env: str) -> subprocess.Complete
     )
 
 
-def act(repository: Path, **inputs: str) -> subprocess.CompletedProcess[str]:
+def act(repository, **inputs):
     """Run the step of the Action that checks, its inputs filled in as GitHub does."""
     action = yaml.safe_load((ROOT / "action.yml").read_text())
     values = {name: each["default"] for name, each in action["inputs"].items()} | inputs
@@ -67,7 +65,7 @@ def act(repository: Path, **inputs: str) -> subprocess.CompletedProcess[str]:
     return run(repository, bash, GITHUB_STEP_SUMMARY=summary, **env)
 
 
-def test_the_action_annotates_and_fails_for_what_is_new_alone(repository: Path) -> None:
+def test_the_action_annotates_and_fails_for_what_is_new_alone(repository):
     done = act(repository, path="assets", sim="")
     assert done.returncode == 1, done.stderr
     assert done.stdout.startswith("::error file=assets/broken.urdf,line=4,title=axis_not_unit::")
@@ -79,7 +77,7 @@ def test_the_action_annotates_and_fails_for_what_is_new_alone(repository: Path) 
     assert act(repository, path="assets", sim="", baseline="known.json").returncode == 0
 
 
-def test_the_hook_takes_the_files_it_names(repository: Path) -> None:
+def test_the_hook_takes_the_files_it_names(repository):
     (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
     staged = ["assets/broken.urdf", "assets/sound.urdf", "package.xml", "notes.txt"]
     files = [each for each in staged if re.search(hook["files"], each)]

@@ -2,6 +2,7 @@
 
 import pytest
 from browser import CHROMIUM, SOFTWARE
+from s3_server import s3_server
 
 from asset_factory.factory.models.weights import pickled
 from asset_factory.sim_checks.processes.isolation import WarmChild
@@ -11,6 +12,12 @@ from asset_factory.sim_checks.processes.isolation import WarmChild
 def reading_child():
     with WarmChild() as child:
         yield child
+
+
+@pytest.fixture(scope="module")
+def server():
+    with s3_server() as address:
+        yield address
 
 
 @pytest.fixture

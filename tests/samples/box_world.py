@@ -1,12 +1,11 @@
 """Furniture made of boxes, as descriptions in memory: a sound cabinet and what breaks it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from fault_corpus.things import renewed
 
 from asset_factory.sim_checks.description import (
     DescribedShape,
@@ -107,17 +106,11 @@ def cabinet(defect: str = "none") -> Description:
 
 
 def with_joint(description: Description, name: str, **changes: object) -> Description:
-    joints = tuple(
-        replace(item, **changes) if item.name == name else item for item in description.joints
-    )  # type: ignore[arg-type]
-    return replace(description, joints=joints)
+    return replace(description, joints=renewed(description.joints, name, **changes))
 
 
 def with_link(description: Description, name: str, **changes: object) -> Description:
-    links = tuple(
-        replace(item, **changes) if item.name == name else item for item in description.links
-    )  # type: ignore[arg-type]
-    return replace(description, links=links)
+    return replace(description, links=renewed(description.links, name, **changes))
 
 
 def write_urdf(folder: Path, boxes: Mapping[str, Box], joints: str) -> Path:

@@ -1,7 +1,5 @@
 """A browser for tests of pages, and what they ask of every page."""
 
-from __future__ import annotations
-
 import os
 import shutil
 

@@ -1,7 +1,5 @@
 """Builds that die in a stage: the input's name says how."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Robots that succeed at once: episodes as recorded."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A mesh that is rejected as it is: nothing on it looks as if it opened."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from one_piece import plain_box

@@ -1,7 +1,5 @@
 """Small closed objects whose motions are known."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

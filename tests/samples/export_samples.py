@@ -1,7 +1,5 @@
 """Small assets made of boxes, for the export tests."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Sequence
 

@@ -1,10 +1,9 @@
 """What an engine that holds exactly what the file says would report, and how to make it lie."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
+from fault_corpus.things import renewed
 
 from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig
@@ -48,14 +47,10 @@ def found(description: Description, observation: Observation) -> list[str]:
 
 
 def with_link(observation: Observation, link: str, /, **changes: object) -> Observation:
-    links = tuple(
-        replace(li, **changes) if li.name == link else li for li in observation.model.links
-    )  # type: ignore[arg-type]
+    links = renewed(observation.model.links, link, **changes)
     return replace(observation, model=replace(observation.model, links=links))
 
 
 def with_joint(observation: Observation, joint: str, /, **changes: object) -> Observation:
-    joints = tuple(
-        replace(j, **changes) if j.name == joint else j for j in observation.model.joints
-    )  # type: ignore[arg-type]
+    joints = renewed(observation.model.joints, joint, **changes)
     return replace(observation, model=replace(observation.model, joints=joints))

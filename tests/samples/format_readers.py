@@ -3,8 +3,6 @@
 A reader is a function from a bundle's folder to a :class:`Read`; what is not installed is skipped.
 """
 
-from __future__ import annotations
-
 import json
 import struct
 from collections.abc import Callable

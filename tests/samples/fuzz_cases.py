@@ -1,7 +1,5 @@
 """What a fuzzer feeds to the readers: small sound inputs of every kind, as folders in memory."""
 
-from __future__ import annotations
-
 import importlib.util
 import io
 import json

@@ -1,7 +1,5 @@
 """Attacks by hand on mesh readers, on what meshes refer to, on names of files and on sidecars."""
 
-from __future__ import annotations
-
 import json
 import struct
 from collections.abc import Iterator, Mapping

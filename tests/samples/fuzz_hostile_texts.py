@@ -1,7 +1,5 @@
 """Attacks by hand on descriptions, annotations and checkpoints."""
 
-from __future__ import annotations
-
 import io
 import pickle
 import struct

@@ -1,7 +1,5 @@
 """Attacks by hand on USD: files elsewhere, prims that multiply, packages that are none."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Ways to damage a file: bytes, words, JSON, XML, archive members; repeatable by seed."""
 
-from __future__ import annotations
-
 import io
 import json
 import re

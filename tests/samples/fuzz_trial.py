@@ -1,7 +1,5 @@
 """One reading of one hostile folder, watched: what came of it, and what it touched."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import shutil

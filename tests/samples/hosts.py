@@ -1,7 +1,5 @@
 """Hosts on this machine: network namespaces with addresses of their own, that share no /tmp."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import signal

@@ -1,7 +1,5 @@
 """Inputs of every kind of which one file names another, each small and quickly built."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

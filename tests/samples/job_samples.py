@@ -1,7 +1,5 @@
 """Inputs that are built in no time, and an executor that needs no processes."""
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator

@@ -1,7 +1,5 @@
 """One-piece skins with labelled patches: a box whose front or top opens."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

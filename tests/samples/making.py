@@ -1,7 +1,5 @@
 """Environments as the tests make them, and what they do to them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

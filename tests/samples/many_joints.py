@@ -1,7 +1,5 @@
 """Descriptions of many joints: a chain, each link on the one before, and keys on one base."""
 
-from __future__ import annotations
-
 from box_world import body, described, joint
 
 from asset_factory.sim_checks.description import Description

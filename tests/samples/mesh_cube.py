@@ -1,7 +1,5 @@
 """A textured unit cube in every format, with corners of its own for every face."""
 
-from __future__ import annotations
-
 import io
 import json
 import struct

@@ -1,7 +1,5 @@
 """Low-poly furniture as artists model it: closed boxes that touch or overlap, nothing inside."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from plain_solids import box_between

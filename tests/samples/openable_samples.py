@@ -1,7 +1,5 @@
 """A registry of small cabinets, exported for the tests of the tasks."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,8 +1,7 @@
 """Boxes and cylinders as meshes of one material."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import trimesh
@@ -24,12 +23,26 @@ def box(x: Span, y: Span, z: Span, material: Material) -> Mesh:
     return mesh_of(shapes.box(x, y, z), material)
 
 
+def sized_box(
+    size: Sequence[float], at: Sequence[float] = (0.0, 0.0, 0.0)
+) -> tuple[np.ndarray, np.ndarray]:
+    """The vertices and faces of a box of that size about a point [m]."""
+    made = trimesh.creation.box(size)
+    return np.asarray(made.vertices) + at, np.asarray(made.faces)
+
+
 def box_between(
     low: Sequence[float], high: Sequence[float], material: Material | None = None
 ) -> Mesh:
     """A box of eight vertices and twelve faces between two corners [m]."""
     made = trimesh.creation.box(bounds=[low, high])
     return Mesh.from_triangles(made.vertices, made.faces, material)
+
+
+def signed_volume(mesh: Any) -> float:
+    """The volume of vertices and faces [m3]: positive where the faces look outwards."""
+    a, b, c = (mesh.vertices[mesh.faces[:, corner]] for corner in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
 
 def carcass(width: float, depth: float, height: float) -> list[Mesh]:

@@ -1,7 +1,5 @@
 """Small assets for the tests of the registry."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path

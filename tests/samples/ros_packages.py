@@ -1,7 +1,5 @@
 """Small packages laid out as those of the world are: a cabinet whose drawer slides, in boxes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import trimesh

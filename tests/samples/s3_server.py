@@ -1,7 +1,5 @@
 """A real S3 server on this machine, and a line to it that can be cut."""
 
-from __future__ import annotations
-
 import logging
 import os
 import socket

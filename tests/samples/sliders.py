@@ -1,7 +1,5 @@
 """Blocks that slide and push one another, moved by formulas: a world in which all is known."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.sim_checks.config import MotionConfig

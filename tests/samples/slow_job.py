@@ -3,8 +3,6 @@
 slow_job.py INPUTS OUTPUT [--wind-up] [--one] [--max-s SECONDS]
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A Slurm of one controller and two node daemons on this machine, without any rights."""
 
-from __future__ import annotations
-
 import getpass
 import os
 import shutil

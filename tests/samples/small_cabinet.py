@@ -1,12 +1,10 @@
 """A carcass with a drawer above a door, of boxes, as URDF and MJCF; a good one and broken ones."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 
-import numpy as np
-import trimesh
+from fault_corpus.exhibits import edited, mjcf, urdf
+from fault_corpus.things import Body, Move, Thing, at, box
 
 from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.report import Severity
@@ -29,9 +27,25 @@ PARTS: Mapping[str, Boxes] = {
 }
 MASSES = {"carcass": 20.0, "drawer": 3.0, "door": 2.0, "stopper": 1.0}
 ORIGINS = {"drawer": (-0.2, 0.0, 0.6), "door": (-0.223, -0.295, 0.2), "stopper": (-0.3, 0.0, 0.6)}
-SLIDE = 'axis xyz="-1 0 0"/><limit lower="0" upper="0.3" effort="50" velocity="2"/'
-SWING = 'axis xyz="0 0 1"/><limit lower="0" upper="1.57" effort="50" velocity="2"/'
-JOINTS = {"drawer": ("slide", "prismatic", SLIDE), "door": ("hinge", "revolute", SWING)}
+MOVES = {
+    "drawer": ("slide", "prismatic", (-1.0, 0.0, 0.0), 0.3),
+    "door": ("hinge", "revolute", (0.0, 0.0, 1.0), 1.57),
+    "stopper": ("stopper_joint", "fixed", (1.0, 0.0, 0.0), 0.0),
+}
+
+
+def cabinet(parts: Mapping[str, Boxes] = PARTS, *, joints: bool = True) -> Thing:
+    """The cabinet, with other parts or without what holds them."""
+    bodies = []
+    for name, boxes in parts.items():
+        pieces = tuple(box(*each) for each in boxes)
+        bodies.append(Body(name, pieces, at(*ORIGINS.get(name, (0, 0, 0))), MASSES[name]))
+    moves = [
+        Move(name, kind, "carcass", child, axis, 0.0, upper)
+        for child, (name, kind, axis, upper) in MOVES.items()
+        if child in parts and joints
+    ]
+    return Thing("cabinet", tuple(bodies), tuple(moves))
 
 
 def write_urdf(
@@ -41,41 +55,13 @@ def write_urdf(
     *,
     joints: bool = True,
 ) -> Path:
-    """A URDF with one OBJ per box; ``replace`` edits its text, and must find what it replaces."""
-    text = [_link(folder, name, boxes) for name, boxes in parts.items()]
-    for child in parts:
-        if child != "carcass" and joints:
-            name, kind, rest = JOINTS.get(child, (f"{child}_joint", "fixed", 'axis xyz="1 0 0"/'))
-            origin = _words(ORIGINS[child])
-            text.append(
-                f'<joint name="{name}" type="{kind}"><parent link="carcass"/>'
-                f'<child link="{child}"/>'
-                f'<origin xyz="{origin}"/><{rest}></joint>'
-            )
-    whole = "\n".join(['<robot name="cabinet">', *text, "</robot>"])
-    for old, new in (replace or {}).items():
-        if old not in whole:
-            raise ValueError(f"nothing to replace: {old}")
-        whole = whole.replace(old, new)
-    path = folder / "cabinet.urdf"
-    path.write_text(whole)
-    return path
+    """Write it as URDF; ``replace`` edits its text, and must find what it replaces."""
+    made = urdf(cabinet(parts, joints=joints))
+    return edited(made, *(replace or {}).items(), count=-1)(folder)
 
 
-def write_mjcf(folder: Path, drawer_size: float = 0.554, friction: float = 0.0) -> Path:
-    """The cabinet as MJCF box geoms, with the drawer's width [m] and friction [N] to choose."""
-    drawer = (((-0.015, 0.0, 0.5955), (0.37, drawer_size, 0.363)),)
-    carcass = _geoms("carcass", PARTS["carcass"])
-    text = f"""<mujoco><worldbody><body name="carcass">{carcass}
-        <body name="drawer" pos="{_words(ORIGINS["drawer"])}">{_geoms("drawer", drawer)}
-          <joint name="slide" type="slide" axis="-1 0 0" range="0 0.3" limited="true"
-            frictionloss="{friction}"/></body>
-        <body name="door" pos="{_words(ORIGINS["door"])}">{_geoms("door", PARTS["door"])}
-          <joint name="hinge" axis="0 0 1" range="0 90" limited="true"/></body></body></worldbody>
-        </mujoco>"""
-    path = folder / "cabinet.xml"
-    path.write_text(text)
-    return path
+def write_mjcf(folder: Path) -> Path:
+    return mjcf(cabinet())(folder)
 
 
 def write_lid(folder: Path) -> Path:
@@ -99,46 +85,3 @@ def codes(result: CheckResult, severity: Severity = Severity.ERROR) -> list[str]
 
 def motion_of(result: CheckResult, joint: str) -> dict[str, float]:
     return next(m for m in result.measurements["motion"]["joints"] if m["joint"] == joint)
-
-
-def _link(folder: Path, name: str, boxes: Boxes) -> str:
-    shapes = []
-    for i, (center, size) in enumerate(boxes):
-        mesh = trimesh.creation.box(extents=size)
-        mesh.vertices += np.array(center) - ORIGINS.get(name, (0.0, 0.0, 0.0))
-        mesh.export(folder / f"{name}_{i}.obj")
-        shapes.append(
-            f'<collision><geometry><mesh filename="{name}_{i}.obj"/></geometry></collision>'
-        )
-    center, (x, y, z) = _bounds(name, boxes)
-    mass = MASSES[name]
-    inertia = np.array([y * y + z * z, x * x + z * z, x * x + y * y]) * mass / 12.0
-    moments = " ".join(
-        f'{key}="{value!r}"'
-        for key, value in zip(("ixx", "iyy", "izz"), inertia.tolist(), strict=True)
-    )
-    return (
-        f'<link name="{name}"><inertial><origin xyz="{_words(center)}"/><mass value="{mass}"/>'
-        f'<inertia {moments} ixy="0" ixz="0" iyz="0"/></inertial>{"".join(shapes)}</link>'
-    )
-
-
-def _geoms(name: str, boxes: Boxes) -> str:
-    origin = np.array(ORIGINS.get(name, (0.0, 0.0, 0.0)))
-    return "".join(
-        f'<geom type="box" mass="{MASSES[name] / len(boxes)}" '
-        f'pos="{_words(np.array(center) - origin)}" '
-        f'size="{_words(np.array(size) / 2)}"/>'
-        for center, size in boxes
-    )
-
-
-def _bounds(name: str, boxes: Boxes) -> tuple[np.ndarray, np.ndarray]:
-    centers, sizes = (np.array([box[k] for box in boxes]) for k in (0, 1))
-    lower = (centers - sizes / 2).min(0)
-    upper = (centers + sizes / 2).max(0)
-    return (lower + upper) / 2 - ORIGINS.get(name, (0.0, 0.0, 0.0)), upper - lower
-
-
-def _words(values: object) -> str:
-    return " ".join(repr(float(v)) for v in np.asarray(values))

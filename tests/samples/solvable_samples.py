@@ -1,7 +1,5 @@
 """Small objects that a robot can open, and some that it cannot."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from openable_samples import FRONT, assemble, box

@@ -1,15 +1,14 @@
 """Small objects whose best places to hold are known by construction."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
 from plain_solids import box, cylinder
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.asset import Target
+from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody, Target
 from asset_factory.factory.manufacture.targets.find import find_targets
+from asset_factory.factory.manufacture.targets.handles import find_handle
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 
 PLAIN = Material("plain")
@@ -48,6 +47,17 @@ def world(
 
 def targets_of(articulation: Articulation) -> tuple[Target, ...]:
     return find_targets(articulation, [()] * len(articulation.parts))
+
+
+def asset_of(articulation: Articulation) -> Asset:
+    """An asset whose parts are each one hull."""
+    bodies = []
+    for part in range(len(articulation.parts)):
+        mesh = articulation.part_mesh(part)
+        inertial = Inertial(1.0, mesh.bounds.mean(axis=0), np.eye(3) * 0.01)
+        hull = Hull(mesh.vertices, mesh.faces)
+        bodies.append(PartBody((hull,), inertial, find_handle(articulation, part), "exact"))
+    return Asset("test", articulation, tuple(bodies), targets_of(articulation))
 
 
 def best(articulation: Articulation) -> Target:

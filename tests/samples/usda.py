@@ -1,7 +1,5 @@
 """USD assets as text: a cabinet with its door hinged at the left edge, and variations of it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 CUBE = (

@@ -60,13 +60,13 @@ def test_no_order_and_no_number_of_workers_changes_a_byte(tmp_path):
 def test_a_file_that_was_changed_is_judged_as_it_is_now(tmp_path):
     # Engines remember meshes by name, and MuJoCo by the second they were written in.
     path = write_urdf(tmp_path)
-    sound = trimesh.load(tmp_path / "drawer_0.obj")
+    sound = trimesh.load(tmp_path / "drawer_hull_0.obj")
     wide = sound.copy()
     wide.apply_scale((1.0, 1.1, 1.0))
     with Judge() as judge:
         for mesh, passes in ((sound, True), (wide, False), (sound, True)):
-            mesh.export(tmp_path / "drawer_0.obj")
-            os.utime(tmp_path / "drawer_0.obj", (1e9, 1e9))
+            mesh.export(tmp_path / "drawer_hull_0.obj")
+            os.utime(tmp_path / "drawer_hull_0.obj", (1e9, 1e9))
             report = judge.check(path, ENGINES)
             assert report.passed is passes
             engines = {finding.simulator for finding in report.errors if finding.code == "jammed"}

@@ -1,9 +1,5 @@
 """Where fingertips may press, and what is too deep in the hand."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 from making import UNWARNED
@@ -33,7 +29,7 @@ def clamshell():
 
 @pytest.fixture(scope="module")
 def world(tmp_path_factory):
-    registry: Path = write_registry(tmp_path_factory.mktemp("registry"), clamshell())
+    registry = write_registry(tmp_path_factory.mktemp("registry"), clamshell())
     environment = make_episodes(registry, "panda")
     environment.reset(seed=0)
     world = read_world(environment.unwrapped)

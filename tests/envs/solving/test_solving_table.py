@@ -1,7 +1,5 @@
 """The table of what a robot opened."""
 
-from __future__ import annotations
-
 from asset_factory.envs.solving import printing
 from asset_factory.factory.runtime.terminal import Terminal
 

@@ -1,4 +1,4 @@
-"""Every task: its spaces, its episodes, its state, and what it makes of a thousand random steps."""
+"""Every task: its spaces, its episodes, its state, and what it makes of random steps."""
 
 import numpy as np
 import pytest
@@ -74,12 +74,12 @@ def test_rewards_are_dense_between_nothing_and_one_and_highest_at_success(env):
 
 
 def test_random_steps_bring_no_nan(env):
-    _random_steps(env, 40)
-
-
-@pytest.mark.full
-def test_a_thousand_random_steps_bring_no_nan(env):
-    _random_steps(env, 1000)
+    env.reset(seed=4)
+    env.action_space.seed(0)
+    for step in range(40):
+        observation, reward, *_ = env.step(env.action_space.sample())
+        assert bool(np.isfinite(observation.numpy()).all()), step
+        assert bool(np.isfinite(reward.numpy()).all()), step
 
 
 @pytest.mark.parametrize("robot", ["panda", "fetch"])
@@ -93,15 +93,6 @@ def test_nothing_moves_by_itself_and_no_robot_starts_in_the_way(household, robot
             _, _, _, _, info = env.step(still)
         assert abs(float(info["open_fraction"])) < 0.02
     env.close()
-
-
-def _random_steps(env, count):
-    env.reset(seed=4)
-    env.action_space.seed(0)
-    for step in range(count):
-        observation, reward, *_ = env.step(env.action_space.sample())
-        assert bool(np.isfinite(observation.numpy()).all()), step
-        assert bool(np.isfinite(reward.numpy()).all()), step
 
 
 def _copied(value):

@@ -1,9 +1,5 @@
 """Annotation -> Articulation: what normalisation changes, and that it says so."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -14,14 +10,14 @@ from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import JointKind, rotation_about
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.annotation import AnnotatedJoint, Annotation
-from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.mesh import concatenate
 
 BODY = box((0, 0, 0), (1, 1, 1))
 FRONT = box((0, -0.1, 0), (1, 0, 1))
 
 
 def joint(kind, lower=0.0, upper=1.0, **changes):
-    values: dict[str, Any] = {
+    values = {
         "name": "j",
         "kind": kind,
         "parent": 0,
@@ -241,7 +237,7 @@ def test_scaling_and_turning_the_object_commutes_with_moving_it(angles, scale, s
     transform[:3, :3] = scale * x @ y @ z
     transform[:3, 3] = shift
     joints = [joint("revolute"), joint("prismatic", name="k", parent=1, child=2)]
-    meshes: list[Mesh | None] = [BODY, FRONT, box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))]
+    meshes = [BODY, FRONT, box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))]
     plain = build(meshes, joints)
     moved = build(meshes, joints, transform=transform)
     values = {"j": share, "k": share}

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from modelled_furniture import METAL, board
 from plain_solids import cylinder
+from target_worlds import world
 
 from asset_factory.factory.articulate.closing import with_closed_hinges
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
@@ -74,9 +75,6 @@ def test_a_part_that_closes_nothing_stays_as_it_is_drawn():
 def test_a_lever_is_not_taken_for_open_because_upright_it_would_be_smaller():
     column = cylinder(2, (0.0, 0.0), 0.04, (0.0, 0.3), METAL)
     lever = board((0.0, -0.02, 0.301), (0.4, 0.02, 0.32))
-    mesh = concatenate([column, lever])
-    own = np.arange(len(mesh.faces)) >= len(column.faces)
-    parts = (Part("body", np.flatnonzero(~own)), Part("lever", np.flatnonzero(own)))
     joint = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, -1, 0], [0.0, 0.0, 0.31], 0.0, 1.5)
-    whole = Articulation(mesh, parts, (joint,), "test")
+    whole = world([lever], joint, [column])
     assert with_closed_hinges(whole).joints == whole.joints

@@ -4,15 +4,10 @@ import numpy as np
 import pytest
 from plain_solids import box_between as box
 from plain_solids import carcass
+from test_geometric import articulate
 
-from asset_factory.factory.articulate.geometric import GeometricArticulator
 from asset_factory.factory.articulation import JointKind
-from asset_factory.factory.mesh import Mesh, concatenate
-
-
-def articulate(*meshes):
-    return GeometricArticulator().articulate(concatenate(list(meshes)))
-
+from asset_factory.factory.mesh import Mesh
 
 FRAME = [
     box((0.0, 0.0, 0.0), (0.06, 0.12, 2.1)),

@@ -3,10 +3,10 @@
 import numpy as np
 from plain_solids import box_between as box
 from plain_solids import carcass
+from test_geometric import articulate
 
-from asset_factory.factory.articulate.geometric import GeometricArticulator
 from asset_factory.factory.articulation import JointKind
-from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.mesh import Mesh
 
 
 def lathe(profile, center=(0.0, 0.0), axis=2):
@@ -31,10 +31,6 @@ def lathe(profile, center=(0.0, 0.0), axis=2):
     turned = vertices[:, {1: [1, 2, 0], 2: [0, 1, 2]}[axis]]
     turned[:, [other for other in range(3) if other != axis]] += center
     return Mesh.from_triangles(turned, np.concatenate(faces))
-
-
-def articulate(*meshes):
-    return GeometricArticulator().articulate(concatenate(list(meshes)))
 
 
 BOTTLE = lathe([(0.04, 0.0), (0.04, 0.2), (0.03, 0.22)])

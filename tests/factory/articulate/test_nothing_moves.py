@@ -1,7 +1,5 @@
 """Where nothing moves, the sentence says what was seen and what would help."""
 
-from __future__ import annotations
-
 import pytest
 
 from asset_factory.factory.articulate.stage import articulate

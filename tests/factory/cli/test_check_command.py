@@ -104,7 +104,7 @@ def test_many_files_are_judged_at_once_and_told_in_the_order_given(tmp_path, mon
     files = [write(tmp_path / f"{name}.urdf", 0.004) for name in names]
     both = threading.Barrier(2)
     second_done = threading.Event()
-    judges: set[int] = set()
+    judges = set()
     check = Judge.check
 
     def watched(judge, path, *rest):

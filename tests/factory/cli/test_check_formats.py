@@ -1,7 +1,5 @@
 """Reports in the forms that other tools read: each holds every finding, and none breaks out."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -20,7 +18,7 @@ HOSTILE = "a|b::error::%\n</failure>]]>\x1b\x00 `<b>`"
 
 
 @pytest.fixture
-def checked(tmp_path: Path) -> list[tuple[str, Report]]:
+def checked(tmp_path):
     path = write(tmp_path / "asset.urdf", -0.004)
     found = (
         Finding("friction_ignored", Severity.NOTE, "note", "sapien", joints=("slide",)),
@@ -31,7 +29,7 @@ def checked(tmp_path: Path) -> list[tuple[str, Report]]:
     return [(str(path), Report("asset.urdf", ("sapien",), found))]
 
 
-def test_sarif_names_code_level_file_and_line(checked: list[tuple[str, Report]]) -> None:
+def test_sarif_names_code_level_file_and_line(checked):
     (sarif,) = json.loads(FORMATS["sarif"](checked))["runs"]
     assert [each["level"] for each in sarif["results"]] == ["note", "warning", "error", "error"]
     assert {each["id"] for each in sarif["tool"]["driver"]["rules"]} == {
@@ -45,7 +43,7 @@ def test_sarif_names_code_level_file_and_line(checked: list[tuple[str, Report]])
     assert [each["region"]["startLine"] for each in places] == [3, 2, 3, 3]
 
 
-def test_junit_fails_by_code(checked: list[tuple[str, Report]]) -> None:
+def test_junit_fails_by_code(checked):
     (suite,) = defusedxml.ElementTree.fromstring(FORMATS["junit"](checked).encode())
     assert (suite.get("tests"), suite.get("failures")) == ("3", "1")
     failed = [case.get("name") for case in suite if case.find("failure") is not None]
@@ -56,9 +54,7 @@ def test_junit_fails_by_code(checked: list[tuple[str, Report]]) -> None:
     assert (suite.get("tests"), suite.get("failures")) == ("1", "0")
 
 
-def test_github_has_errors_first_and_no_command_of_a_stranger(
-    checked: list[tuple[str, Report]],
-) -> None:
+def test_github_has_errors_first_and_no_command_of_a_stranger(checked):
     *lines, total = as_github(checked).splitlines()
     assert [line.split(" ")[0] for line in lines] == ["::error", "::warning", "::notice"]
     assert "worse (2 of them, the worst)" in lines[0]
@@ -66,14 +62,14 @@ def test_github_has_errors_first_and_no_command_of_a_stranger(
     assert "1 file: 0 passed, 1 rejected" in total
 
 
-def test_markdown_is_a_table_that_nobody_breaks(checked: list[tuple[str, Report]]) -> None:
+def test_markdown_is_a_table_that_nobody_breaks(checked):
     rows = [line for line in FORMATS["markdown"](checked).splitlines() if line.startswith("| ")]
     assert len(rows) == 4
     assert all(row.replace("\\|", "").count("|") == 5 for row in rows)
     assert "<b>" not in "".join(rows).replace("\\<", "")
 
 
-def test_every_format_is_printed_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_format_is_printed_alone(tmp_path, capsys):
     path = write(tmp_path / "asset.urdf", -0.004)
     for form in FORMATS:
         assert run(["check", str(path), "--sim", "", "--strict", "--format", form]) == 1
@@ -89,7 +85,7 @@ def test_every_format_is_printed_alone(tmp_path: Path, capsys: pytest.CaptureFix
         assert run(["check", str(path), "--sim", "", "--format", wrong]) == 2
 
 
-def test_reports_keep_to_their_schema_and_codes_have_their_place(tmp_path: Path) -> None:
+def test_reports_keep_to_their_schema_and_codes_have_their_place(tmp_path):
     schema = json.loads((DOCS / "report.schema.json").read_text())
     validator = jsonschema.Draft202012Validator(schema)
     validator.check_schema(schema)

@@ -1,7 +1,5 @@
 """``factory edit`` finds the mesh of what it is given, or says what is missing."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -120,7 +120,7 @@ def test_the_doctor_prints_json_and_tells_whether_a_build_can_run(monkeypatch, c
 
 
 def test_the_doctor_tells_each_as_soon_as_it_is_tried(monkeypatch, capsys):
-    told: list[str] = []
+    told = []
 
     def slowly(_):
         for name in ("first", "second"):

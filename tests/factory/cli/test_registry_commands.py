@@ -133,7 +133,7 @@ def test_show_tells_size_joints_files_and_how_to_load_it(tmp_path, run):
     assert "asset.json, asset.urdf, asset.xml, meshes/ (" in out
     assert f"registry={str(root)!r}, asset='cabinet-1')" in out
     (loading,) = re.findall(r"in MuJoCo:\n(.*\n.*)\n", out)
-    loaded: dict = {}
+    loaded = {}
     exec(loading, loaded)  # noqa: S102 - the lines that people are told to run
     assert loaded["model"].njnt == 2
     changes = json.loads(run("show", "cab", "--output", root, "--json")[1])["changes"]

@@ -1,7 +1,5 @@
 """``factory report`` and ``factory view``."""
 
-from __future__ import annotations
-
 from shown_registry import bundle_in, make_registry
 
 from asset_factory.factory.cli.commands import run

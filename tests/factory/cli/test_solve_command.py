@@ -32,7 +32,7 @@ def output(tmp_path):
 @pytest.fixture
 def notes(monkeypatch):
     """What the registry was told, instead of a registry of built assets."""
-    told: dict[str, str] = {}
+    told = {}
     registry = SimpleNamespace(note=lambda asset, solved: told.update({asset: solved}))
     monkeypatch.setattr("asset_factory.factory.registry.Registry", lambda root: registry)
     return told

@@ -3,8 +3,6 @@
 Slow, and it needs Chromium: ``make site-test``.
 """
 
-from __future__ import annotations
-
 import json
 from contextlib import contextmanager
 from threading import Thread

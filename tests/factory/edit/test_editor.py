@@ -1,7 +1,5 @@
 """The editor answers its own page alone, reads strictly, and writes nothing but the sidecar."""
 
-from __future__ import annotations
-
 import http.client
 import json
 from threading import Thread

@@ -1,7 +1,5 @@
 """What an object's parts are, is stated as a person would, so that stating it finds them again."""
 
-from __future__ import annotations
-
 import pytest
 from msgspec import to_builtins
 from one_piece import doors, drawers, fridge

@@ -1,9 +1,6 @@
 """URDF, MJCF and SDF say what the asset is, to whoever reads them and knows nothing of it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -39,7 +36,7 @@ def said(request, tmp_path_factory):
     """What a file of the exported asset says."""
     pytest.importorskip("mujoco", reason="mujoco is not installed")
     bundle = export_bundle(lopsided_asset(), PROVENANCE, tmp_path_factory.mktemp("bundle"))
-    path: Path = getattr(bundle, request.param)
+    path = getattr(bundle, request.param)
     return read_here(path)
 
 

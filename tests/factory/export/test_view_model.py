@@ -1,7 +1,5 @@
 """What is shown of an asset stays with it, and with what was rejected."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from types import SimpleNamespace
 

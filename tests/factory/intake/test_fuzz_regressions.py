@@ -54,7 +54,7 @@ def refusal(path, config=None):
 
 def counted(monkeypatch, module, name):
     """The calls that a function of a module gets from now on."""
-    calls: list[object] = []
+    calls = []
     real = getattr(module, name)
 
     def count(*args):

@@ -1,9 +1,5 @@
 """Inputs whose files lie in a package or a root are read, known again and told."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 from ros_packages import PACKAGE, write_meshes, write_mjcf_package, write_package
 
@@ -17,11 +13,11 @@ from asset_factory.factory.intake.reads import ABSENT, unchanged
 from asset_factory.factory.intake.source import Source
 
 
-def source(path: Path, **settings: object) -> Source:
+def source(path, **settings):
     return Source(path, BuildConfig(intake=IntakeConfig(**settings)))
 
 
-def test_a_package_is_an_input_wherever_it_lies_and_known_by_all_its_files(tmp_path: Path) -> None:
+def test_a_package_is_an_input_wherever_it_lies_and_known_by_all_its_files(tmp_path):
     digests = []
     for place in ("here", "there/again"):
         path = write_package(tmp_path / place, "cabinet", "package://cabinet/meshes/")
@@ -39,7 +35,7 @@ def test_a_package_is_an_input_wherever_it_lies_and_known_by_all_its_files(tmp_p
     assert not unchanged(path, read.reads)
 
 
-def test_an_mjcf_of_a_package_is_an_input(tmp_path: Path) -> None:
+def test_an_mjcf_of_a_package_is_an_input(tmp_path):
     pytest.importorskip("mujoco")
     path = write_mjcf_package(tmp_path, 'meshdir="../meshes"', "", "../common/assets.xml")
     read = source(path)
@@ -47,7 +43,7 @@ def test_an_mjcf_of_a_package_is_an_input(tmp_path: Path) -> None:
     assert {"../meshes/drawer.obj", "../common/assets.xml"} <= set(read.reads)
 
 
-def test_a_refused_input_is_another_one_once_it_is_a_package(tmp_path: Path) -> None:
+def test_a_refused_input_is_another_one_once_it_is_a_package(tmp_path):
     path = write_package(tmp_path, "", "../meshes/")
     read = source(path)
     with pytest.raises(InputRejected, match="--root") as caught:
@@ -59,15 +55,15 @@ def test_a_refused_input_is_another_one_once_it_is_a_package(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("setting", ["roots", "given", "allow_outside"])
-def test_roots_let_an_input_read_elsewhere(tmp_path: Path, setting: str) -> None:
+def test_roots_let_an_input_read_elsewhere(tmp_path, setting):
     path = write_package(tmp_path, "", "../meshes/")
     value = True if setting == "allow_outside" else (str(tmp_path),)
     assert len(source(path, **{setting: value}).load().mesh.faces) == 24
 
 
 def test_roots_are_those_of_flags_of_the_ros_path_and_the_folders_of_inputs(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+    tmp_path, monkeypatch, capsys
+):
     folders = [tmp_path / name for name in ("given", "root", "ros")]
     for folder in folders:
         folder.mkdir()
@@ -86,7 +82,7 @@ def test_roots_are_those_of_flags_of_the_ros_path_and_the_folders_of_inputs(
         check(Check((path,), roots=RootFlags(root=(tmp_path / "nowhere",))))
 
 
-def test_a_xacro_file_is_an_input_by_all_that_it_includes_and_its_arguments(tmp_path: Path) -> None:
+def test_a_xacro_file_is_an_input_by_all_that_it_includes_and_its_arguments(tmp_path):
     pytest.importorskip("xacro")
     path = write_package(tmp_path, "cabinet", "package://cabinet/meshes/", "urdf/cabinet.xacro")
     namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'

@@ -1,7 +1,5 @@
 """A folder of hostile files is searched within bounds: of time, of memory, and of its root."""
 
-from __future__ import annotations
-
 import os
 import resource
 import socket
@@ -25,7 +23,7 @@ MOST_BYTES = 300 * 2**20
 
 def search(folder):
     """What is found, the memory that it took [bytes], and what was opened outside the folder."""
-    opened: list[str] = []
+    opened = []
 
     def hear(event, arguments):
         if event == "open" and isinstance(arguments[0], str) and "secret" in arguments[0]:

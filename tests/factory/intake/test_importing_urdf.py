@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from plain_solids import signed_volume
 from scipy.spatial.transform import Rotation
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
@@ -60,12 +61,6 @@ def bounds_of(articulation, name):
 AB = link("a") + link("b")
 
 
-def signed_volume(articulation, part):
-    mesh = articulation.part_mesh(part)
-    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
-    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
-
-
 def test_a_link_stands_where_its_joint_and_visual_origins_put_it(tmp_path):
     quarter = 'rpy="0 0 1.5707963267948966"'
     box = '<geometry><box size="2 1 1"/></geometry>'
@@ -83,7 +78,7 @@ def test_a_mirroring_mesh_scale_keeps_faces_outward(tmp_path):
     visual = '<visual><geometry><mesh filename="tetra.obj" scale="-2 1 1"/></geometry></visual>'
     result = lift(tmp_path, link("base", visual))
     np.testing.assert_allclose(result.mesh.bounds, [[-2.0, 0.0, 0.0], [0.0, 2.0, 3.0]])
-    assert signed_volume(result, 0) == pytest.approx(2.0)
+    assert signed_volume(result.part_mesh(0)) == pytest.approx(2.0)
 
 
 def test_commas_between_numbers_are_read_as_others_read_them_and_told(tmp_path):

@@ -4,17 +4,13 @@ import numpy as np
 import pytest
 import trimesh
 from mesh_cube import TEXTURED, WRITERS, cube, gltf_parts, pack_glb, png, write_glb, write_obj
+from plain_solids import signed_volume
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.intake.loading import load_mesh, load_visual
 
 LIMITS = IntakeConfig()
 PLACES = "property float x\nproperty float y\nproperty float z\n"
-
-
-def _volume(mesh):
-    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
-    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
 
 def _corners(mesh):
@@ -36,7 +32,7 @@ def test_cube_survives_in_file_order_and_seams_are_welded(form, tmp_path):
     shape = cube()
     assert visual.mesh.vertices.shape == (8, 3)
     np.testing.assert_allclose(_corners(visual.mesh), shape["positions"][shape["faces"]], atol=1e-7)
-    assert _volume(visual.mesh) == pytest.approx(1.0)
+    assert signed_volume(visual.mesh) == pytest.approx(1.0)
     assert visual.source_faces.tolist() == list(range(12))
     assert visual.source_face_count == 12
     components = trimesh.Trimesh(visual.mesh.vertices, visual.mesh.faces, process=False).body_count
@@ -85,13 +81,13 @@ def test_gltf_applies_nested_transforms_and_every_instance(tmp_path):
     np.testing.assert_allclose(boxes[0], [[10, 0, 0], [12, 2, 2]], atol=1e-6)
     np.testing.assert_allclose(boxes[1], [[9, 5, 0], [10, 6, 1]], atol=1e-6)
     np.testing.assert_allclose(boxes[2], [[-3, 0, 0], [-2, 1, 1]], atol=1e-6)
-    assert _volume(visual.mesh) == pytest.approx(8 + 1 + 1)
+    assert signed_volume(visual.mesh) == pytest.approx(8 + 1 + 1)
     assert len(visual.mesh.materials) == 1
 
 
 def test_gltf_mirrored_instance_still_faces_outward(tmp_path):
     mesh = _load(write_glb(tmp_path, nodes=[{"mesh": 0, "scale": [-1, 1, 1]}])).mesh
-    assert _volume(mesh) == pytest.approx(1.0)
+    assert signed_volume(mesh) == pytest.approx(1.0)
     np.testing.assert_allclose(mesh.corner_normals[:, 0], _normals(mesh), atol=1e-6)
 
 

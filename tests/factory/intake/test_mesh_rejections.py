@@ -1,11 +1,8 @@
 """Each way an input can be unusable has its own code, and nothing else ever escapes."""
 
-from __future__ import annotations
-
 import json
 import struct
 import zlib
-from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -292,7 +289,7 @@ def test_json_of_any_shape_is_read_or_rejected(data, tmp_path_factory):
         lambda inner: st.lists(inner, max_size=3) | st.dictionaries(words, inner, max_size=3),
         max_leaves=5,
     )
-    target: Any = document
+    target = document
     for _ in range(data.draw(st.integers(1, 5))):
         if not target:
             break

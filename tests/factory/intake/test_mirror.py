@@ -1,12 +1,10 @@
 """Inputs behind URLs: fetched once, whole, again where they changed; secrets stay unsaid."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
 import pytest
-from s3_server import BUCKET, KEY, SECRET, s3_server
+from s3_server import BUCKET, KEY, SECRET
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake import mirror as mirror_module
@@ -17,12 +15,6 @@ from asset_factory.factory.runtime.remote import is_url, located, shown, told
 fsspec = pytest.importorskip("fsspec")
 
 FILES = {"a.stl": b"solid a", "a.toml": b"license = 'CC0-1.0'", "chairs/b.glb": b"glTF", ".x": b""}
-
-
-@pytest.fixture(scope="module")
-def server():
-    with s3_server() as address:
-        yield address
 
 
 @pytest.fixture(params=["memory", "s3"])

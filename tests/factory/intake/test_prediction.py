@@ -1,9 +1,6 @@
 """pred.npz -> Annotation."""
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -22,7 +19,7 @@ def fields(**changes):
     axis = np.array([0.0, 0.0, 1.0])
     point = np.array([1.0, 2.0, 0.0])
     line = np.concatenate([axis, np.cross(axis, point)])
-    result: dict[str, Any] = {
+    result = {
         "face_part_ids": np.repeat(np.arange(4), 2),
         "motion_hierarchy": np.array([[0, 1], [0, 2], [0, 3]]),
         "is_part_revolute": np.array([False, True, False, True]),

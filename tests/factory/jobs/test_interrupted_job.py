@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from job_samples import MADE, job, made, pretend, write_inputs
+from waiting import alive, until
 
 from asset_factory.factory.jobs import job as job_module
 from asset_factory.factory.jobs.signals import Terminated, interruptible, undisturbed
@@ -27,23 +28,8 @@ def begun(folder, output, *flags):
     assert process.stdout is not None
     for _ in range(3):
         assert process.stdout.readline() == "passed\n"
-    wait_for(lambda: "zz_slow.stl" in made(folder))
+    until(lambda: "zz_slow.stl" in made(folder))
     return process
-
-
-def wait_for(condition):
-    end = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.02)
-
-
-def is_alive(process):
-    try:
-        status = Path(f"/proc/{process}/stat").read_text()
-    except OSError:
-        return False
-    return status.rsplit(")", 1)[1].split()[0] != "Z"
 
 
 def workers(folder):
@@ -59,7 +45,7 @@ def test_an_interrupted_job_has_registered_what_was_finished(number, code, tmp_p
         process.send_signal(number)
         assert process.wait(PATIENCE_S) == code
         assert process.stdout.read() == "interrupted 0\n"
-    assert not any(is_alive(worker) for worker in workers(tmp_path / "in"))
+    assert not any(alive(worker) for worker in workers(tmp_path / "in"))
     assert {entry.status for entry in Registry(tmp_path / "out").entries()} == {"passed"}
     assert len(Registry(tmp_path / "out").entries()) == 3
     for name in (".staging", ".claims"):
@@ -71,7 +57,7 @@ def test_the_first_ctrl_c_finishes_what_is_begun_and_the_second_stops(tmp_path):
         process.send_signal(signal.SIGINT)
         time.sleep(0.5)
         assert process.poll() is None
-        assert all(is_alive(worker) for worker in workers(tmp_path / "in"))
+        assert all(alive(worker) for worker in workers(tmp_path / "in"))
         process.send_signal(signal.SIGINT)
         assert process.wait(PATIENCE_S) == 130
     assert len(Registry(tmp_path / "out").entries()) == 3
@@ -110,7 +96,7 @@ def test_with_one_worker_ctrl_c_builds_what_is_begun_and_no_more(tmp_path):
     command = [sys.executable, str(SCRIPT), str(tmp_path / "in"), str(tmp_path / "out")]
     command = [*command, "--wind-up", "--one"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        wait_for(lambda: (tmp_path / "in" / MADE).exists() and made(tmp_path / "in"))
+        until(lambda: (tmp_path / "in" / MADE).exists() and made(tmp_path / "in"))
         process.send_signal(signal.SIGINT)
         assert process.stdout.read() == "passed\ninterrupted 2\n"
     assert made(tmp_path / "in") == ["nap_0.stl"]
@@ -120,7 +106,7 @@ def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(tmp_path,
     with begun(tmp_path / "in", tmp_path / "out") as process:
         process.kill()
         assert process.wait(PATIENCE_S) == -signal.SIGKILL
-    wait_for(lambda: not any(is_alive(worker) for worker in workers(tmp_path / "in")))
+    until(lambda: not any(alive(worker) for worker in workers(tmp_path / "in")))
     # What it had claimed is free again.
     (tmp_path / "in" / "zz_slow.stl").rename(tmp_path / "in" / "zz.stl")
     monkeypatch.setattr(job_module, "build_here", pretend)

@@ -192,7 +192,7 @@ def test_an_output_that_became_read_only_ends_the_job_but_what_is_known_is_told(
 
 def test_two_jobs_on_one_registry_make_each_asset_once(tmp_path):
     inputs = write_inputs(tmp_path / "in", 30)
-    results: dict[int, list[str]] = {}
+    results = {}
 
     def work(number):
         order = inputs if number else inputs[::-1]

@@ -4,8 +4,6 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 
@@ -15,7 +13,7 @@ from asset_factory.sim_checks.processes.isolation import Limits
 from asset_factory.sim_checks.processes.place import at
 
 GENEROUS = Limits(wall_s=60.0)
-CALLS: list[str] = []
+CALLS = []
 
 
 def behave(what):
@@ -118,7 +116,7 @@ def solids(_):
 
 def test_what_is_under_way_is_told_with_its_stage():
     executor = LocalExecutor(1)
-    seen: set[tuple[str, str]] = set()
+    seen = set()
     done = threading.Event()
 
     def look():
@@ -161,7 +159,7 @@ def test_closing_kills_what_is_under_way():
 
 def test_no_calls_no_processes_and_what_does_not_pickle_is_told():
     assert list(LocalExecutor(4).run(nap, (), GENEROUS)) == []
-    anonymous: Callable[..., Any] = lambda: None  # noqa: E731
+    anonymous = lambda: None  # noqa: E731
     ((_, outcome),) = LocalExecutor(1).run(anonymous, [Call("any", {})], GENEROUS)
     assert outcome.failure == "raised"
     assert "pickle" in outcome.detail.lower()

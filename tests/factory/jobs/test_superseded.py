@@ -1,10 +1,7 @@
 """One input has one current asset: a corrected sidecar leaves no twin that tasks draw."""
 
-from __future__ import annotations
-
 import json
 import shutil
-from pathlib import Path
 
 import trimesh
 from job_samples import job
@@ -15,9 +12,7 @@ from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.aside import superseded
 
 
-def built(
-    folder: Path, height: float, output: Path, size: float = 1.0
-) -> tuple[str, tuple[str, ...]]:
+def built(folder, height, output, size=1.0):
     """The id of the box in a folder, once it is built at a height, and what it replaced."""
     folder.mkdir(exist_ok=True)
     trimesh.creation.box((1.0, 1.0, size)).export(folder / "box.obj")
@@ -27,7 +22,7 @@ def built(
     return result.entry.id, result.replaced
 
 
-def test_a_corrected_sidecar_supersedes_and_one_put_back_comes_back(tmp_path, capsys) -> None:
+def test_a_corrected_sidecar_supersedes_and_one_put_back_comes_back(tmp_path, capsys):
     out = tmp_path / "out"
     wrong, _ = built(tmp_path / "in", 1.0, out)
     Registry(out).note(wrong, tags=("kept",))
@@ -45,7 +40,7 @@ def test_a_corrected_sidecar_supersedes_and_one_put_back_comes_back(tmp_path, ca
     assert Registry(out).entry(wrong).tags == ("kept",)
 
 
-def test_the_same_file_elsewhere_stays_what_it_was(tmp_path) -> None:
+def test_the_same_file_elsewhere_stays_what_it_was(tmp_path):
     out = tmp_path / "out"
     first, _ = built(tmp_path / "one", 1.0, out)
     assert built(tmp_path / "two", 1.0, out) == (first, ())
@@ -58,7 +53,7 @@ def test_the_same_file_elsewhere_stays_what_it_was(tmp_path) -> None:
     assert built(tmp_path / "two", 3.0, out)[1] == (second,)
 
 
-def test_another_mesh_in_its_place_is_another_input(tmp_path) -> None:
+def test_another_mesh_in_its_place_is_another_input(tmp_path):
     out = tmp_path / "out"
     first, _ = built(tmp_path / "in", 1.0, out)
     second, replaced = built(tmp_path / "in", 1.0, out, size=2.0)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-import trimesh
+from plain_solids import sized_box
 
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.decompose.convex import depth_below
@@ -11,8 +11,7 @@ from asset_factory.factory.manufacture.separate.separate import with_hulls
 
 
 def block(size, center=(0.0, 0.0, 0.0)):
-    made = trimesh.creation.box(size)
-    return Hull(np.asarray(made.vertices) + center, np.asarray(made.faces))
+    return Hull(*sized_box(size, center))
 
 
 PANEL = PartHulls((block((0.3, 0.3, 0.02)),), "exact", (), True)

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 import trimesh
+from held_parts import held
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.decompose.decompose import decompose, error_for
-from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5)
 
@@ -19,11 +19,8 @@ def box(size, at):
 
 def two_parts(fixed, moving, upper=0.2):
     """The second part slides along +x."""
-    mesh = concatenate([Mesh.from_triangles(each.vertices, each.faces) for each in (fixed, moving)])
-    count = len(fixed.faces)
-    parts = (Part("fixed", np.arange(count)), Part("moving", np.arange(count, len(mesh.faces))))
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [1, 0, 0], np.zeros(3), 0.0, upper)
-    return Articulation(mesh, parts, (slide,), "annotated")
+    return held([fixed], [moving], slide)
 
 
 def grooved():

@@ -6,6 +6,7 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plain_solids import box_between
+from plain_solids import sized_box as box
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.asset import Hull
@@ -25,11 +26,6 @@ from asset_factory.factory.manufacture.separate.clip import (
 from asset_factory.factory.mesh import Mesh, concatenate
 
 CONFIG = SeparateConfig()
-
-
-def box(size, center=(0, 0, 0)):
-    made = trimesh.creation.box(size)
-    return np.asarray(made.vertices) + center, np.asarray(made.faces)
 
 
 def hull(size, center=(0, 0, 0)):

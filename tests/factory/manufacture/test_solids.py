@@ -9,6 +9,7 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plain_solids import sized_box as box
 
 from asset_factory.factory.manufacture.decompose.openings import capped
 from asset_factory.factory.manufacture.decompose.simplify import simplified
@@ -22,11 +23,6 @@ from asset_factory.factory.manufacture.decompose.solids import (
 )
 
 Triangles = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
-
-
-def box(size, at=(0.0, 0.0, 0.0)):
-    made = trimesh.creation.box(size)
-    return np.array(made.vertices) + at, np.array(made.faces, dtype=np.int64)
 
 
 def together(*meshes):

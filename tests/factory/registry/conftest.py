@@ -1,7 +1,5 @@
 """The order of writes is tested, not what a disk keeps without power; so syncing is left out."""
 
-from __future__ import annotations
-
 import pytest
 from registry_samples import three_entries
 

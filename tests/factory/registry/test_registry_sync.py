@@ -8,7 +8,7 @@ import time
 import pytest
 from command_line import COMMAND
 from registry_samples import named, publish
-from s3_server import BUCKET, SECRET, Line, s3_server
+from s3_server import BUCKET, SECRET, Line
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.errors import ConfigError, RegistryError
@@ -20,12 +20,6 @@ from asset_factory.factory.runtime.store import digest_bytes
 
 fsspec = pytest.importorskip("fsspec")
 URL = f"s3://{BUCKET}/copy"
-
-
-@pytest.fixture(scope="module")
-def server():
-    with s3_server() as address:
-        yield address
 
 
 @pytest.fixture

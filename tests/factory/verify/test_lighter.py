@@ -1,7 +1,5 @@
 """An asset of too many hulls gets fewer, as many times as cutting apart makes several of one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -30,7 +28,7 @@ def drafted(monkeypatch, cut_off, refused_below=0, fat=0):
 
     Where hulls were joined it adds ``fat`` besides: what is coarser is more in the way.
     """
-    aims: list[int | None] = []
+    aims = []
 
     def made(self, plan, folder, done=0):
         aims.append(plan.fewer)
@@ -43,9 +41,9 @@ def drafted(monkeypatch, cut_off, refused_below=0, fat=0):
     monkeypatch.setattr(rounds, "dispensable_joints", lambda *asked: None)
     monkeypatch.setattr(rounds, "first_plan", lambda *asked: Plan())
     config = replace(BuildConfig(), hulls=HullsConfig(most=MOST))
-    nothing: Any = None
-    stages: Any = SimpleNamespace(config=config)
-    draft: Any = Rounds(nothing, nothing, Path(), nothing, stages).drafted()
+    nothing = None
+    stages = SimpleNamespace(config=config)
+    draft = Rounds(nothing, nothing, Path(), nothing, stages).drafted()
     return draft, aims
 
 

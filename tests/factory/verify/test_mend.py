@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import trimesh
+from plain_solids import sized_box as box
 from test_repair import contact, hard, joint, verdict
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
@@ -24,11 +24,6 @@ UP = (0.0, 0.0, 1.0)
 DOWN = (0.0, 0.0, -1.0)
 #: At the outer front edge of the door's end.
 EDGE = (-0.3, -0.225, 0.0)
-
-
-def box(size, at):
-    made = trimesh.creation.box(size).apply_translation(at)
-    return np.array(made.vertices), np.array(made.faces)
 
 
 def cabinet(axis=UP, origin=EDGE, upper=1.5, lower=0.0, kind=JointKind.REVOLUTE):

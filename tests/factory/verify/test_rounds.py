@@ -22,7 +22,7 @@ CONFIG = BuildConfig(articulator="geometric", simulators=())
 @pytest.fixture
 def guessed(monkeypatch):
     """The joints of the example, as guesses, the surest first."""
-    names: list[str] = []
+    names = []
     likeliest = standing.hypotheses
 
     def hypotheses(*asked):

@@ -1,7 +1,5 @@
 """Samples name the right candidates for any labels."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -9,6 +9,7 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plain_solids import box
+from plain_solids import signed_volume as volume
 from scipy.spatial import cKDTree
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
@@ -58,11 +59,6 @@ def solids(*spans, part=None):
         label[:, 0] = index if part is None else part[index]
         made.append(Labelled(mesh.vertices, mesh.faces, label))
     return joined(made)
-
-
-def volume(mesh):
-    a, b, c = mesh.corners.transpose(1, 0, 2)
-    return float(np.einsum("ij,ij->", np.cross(a, b), c)) / 6.0
 
 
 def component_count(mesh):

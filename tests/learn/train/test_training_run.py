@@ -28,6 +28,7 @@ from asset_factory.learn.train.checkpoints import fill, read_state, read_weights
 from asset_factory.learn.train.curves import read_curve
 from asset_factory.learn.train.matching import match
 from asset_factory.learn.train.recipes import load_train_config, parse_train_config
+from asset_factory.learn.train.trainer import Trainer
 
 SAME = ("curves.csv", "validation.csv", "model.safetensors")
 
@@ -67,6 +68,7 @@ def test_a_run_leaves_weights_that_load_and_figures(written):
     assert (about["features"], about["max_parts"], about["terms"], about["steps"]) == wanted
     card = json.loads((output / "card.json").read_text())
     assert card["samples"] == 72
+    assert card["sources"] == [{"kind": "sampled", "sampled": 6, "skipped": {}}]
     assert 0.0 <= card["held_out"]["part_iou"] <= 1.0
     curve = read_curve(output / "curves.csv")
     assert curve["step"] == list(range(1, 13))
@@ -101,8 +103,6 @@ def test_a_killed_run_goes_on_as_if_it_had_not_been(written, tmp_path):
 
 
 def test_asked_to_end_it_writes_a_checkpoint_and_goes_on_later(written, tmp_path, monkeypatch):
-    from asset_factory.learn.train.trainer import Trainer
-
     path, output = written
     step = Trainer.step
 
@@ -166,8 +166,6 @@ def test_damaged_checkpoints_are_refused(tmp_path):
 
 
 def test_weights_that_are_no_numbers_are_never_written(written, tmp_path, monkeypatch):
-    from asset_factory.learn.train.trainer import Trainer
-
     path, _ = written
     step = Trainer.step
 
@@ -224,8 +222,6 @@ def test_a_run_that_could_not_begin_leaves_none_to_go_on_with(written, tmp_path)
 def test_killed_before_its_first_checkpoint_a_tuned_run_goes_on_from_its_weights(
     written, tmp_path, monkeypatch
 ):
-    from asset_factory.learn.train.trainer import Trainer
-
     path, output = written
 
     def killed(self, number, batch, stop=False):
@@ -270,12 +266,6 @@ def test_a_full_disk_ends_the_run_with_a_sentence_and_leaves_what_was_there(
         train(Train(str(path), tmp_path / "run"))
     assert read_state(tmp_path / "run" / "last.pt").step == 3
     assert not list((tmp_path / "run").glob(".writing-*"))
-
-
-def test_the_card_names_the_sources(written):
-    _, output = written
-    card = json.loads((output / "card.json").read_text())
-    assert card["sources"] == [{"kind": "sampled", "sampled": 6, "skipped": {}}]
 
 
 @pytest.mark.full

@@ -1,7 +1,5 @@
 """What the judge does not see, and what one engine sees that is not there: each with the reason."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What only shows once a simulator holds the file: other loaders, other worlds, motion."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

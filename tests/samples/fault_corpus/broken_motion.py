@@ -1,7 +1,5 @@
 """Parts that penetrate each other, at rest or on their way."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Everything there is to see, in a fixed order."""
 
-from __future__ import annotations
-
 from . import broken_engines, broken_files, broken_lint, broken_motion
 from .exhibits import Exhibit, both
 from .good_things import GOOD

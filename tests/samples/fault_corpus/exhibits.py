@@ -1,7 +1,5 @@
 """What the fault corpus shows: a file, and what the judge must say of it."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Sound furniture and appliances: nothing about them rejects."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

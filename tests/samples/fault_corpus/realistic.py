@@ -1,7 +1,5 @@
 """Whole appliances from the factory's own generator, manufactured and exported as any asset is."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

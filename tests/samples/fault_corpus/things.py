@@ -3,11 +3,10 @@
 Written as URDF and MJCF.
 """
 
-from __future__ import annotations
-
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -75,16 +74,19 @@ def at(*origin: float) -> FloatArray:
     return frame
 
 
+def renewed(items: Iterable[Any], name: str, /, **changes: object) -> tuple[Any, ...]:
+    """The items, of which the one of that name is changed."""
+    return tuple(replace(item, **changes) if item.name == name else item for item in items)
+
+
 def with_body(thing: Thing, name: str, **changes: object) -> Thing:
     """The thing with one body changed."""
-    bodies = tuple(replace(body, **changes) if body.name == name else body for body in thing.bodies)  # type: ignore[arg-type]
-    return replace(thing, bodies=bodies)
+    return replace(thing, bodies=renewed(thing.bodies, name, **changes))
 
 
 def with_move(thing: Thing, name: str, **changes: object) -> Thing:
     """The thing with one joint changed."""
-    moves = tuple(replace(move, **changes) if move.name == name else move for move in thing.moves)  # type: ignore[arg-type]
-    return replace(thing, moves=moves)
+    return replace(thing, moves=renewed(thing.moves, name, **changes))
 
 
 def moved(thing: Thing, pose: FloatArray, scale: float = 1.0) -> Thing:

@@ -1,13 +1,11 @@
 """Every cause is told from an asset broken that way, not from its sound or otherwise broken kin."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from box_world import Box, body, box_shape, cabinet, described, joint, with_joint, with_link
+from box_world import body, box_shape, cabinet, described, joint, with_joint, with_link
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -34,7 +32,7 @@ def shown_as(description, name, visible):
 
 def room(way, back=-10.0):
     """A box that slides 0.5 m along x; a wall stands ``way`` off, perhaps another behind it."""
-    walls: list[Box] = [((0.2 + way, 0, 0), (0.2, 1, 1)), ((-0.2 + back, 0, 0), (0.2, 1, 1))]
+    walls = [((0.2 + way, 0, 0), (0.2, 1, 1)), ((-0.2 + back, 0, 0), (0.2, 1, 1))]
     box = body("box", [((0.0, 0.0, 0.0), (0.2, 0.2, 0.2))])
     slide = joint("slide", "prismatic", "walls", "box", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.5))
     return described([body("walls", walls), box], [slide])

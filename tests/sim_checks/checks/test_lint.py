@@ -1,6 +1,5 @@
 """The static lint where the fault corpus, one broken thing for each code, does not look."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -10,10 +9,9 @@ from scipy.spatial import ConvexHull
 
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
-from asset_factory.sim_checks.description import DescribedShape, Description, LinkInertia
+from asset_factory.sim_checks.description import DescribedShape, LinkInertia
 from asset_factory.sim_checks.report import Report, Severity
 
-Break = Callable[[Description], Description]
 HARD = Severity.ERROR
 SOFT = Severity.WARNING
 

@@ -111,7 +111,7 @@ class Barred(Sliders):
         super().__init__([2.0] * len(until))
         self._until = until
         self._unless = unless or {}
-        self._met: dict[tuple[str, str], Touch] = {}
+        self._met = {}
 
     def step(self, forces):
         before = self._q.copy()

@@ -1,7 +1,7 @@
 """What stands in a joint's way may make way for it, but only if it opens before it."""
 
 import pytest
-from box_world import Box, body, described, joint
+from box_world import body, described, joint
 from fault_corpus.broken_motion import deadlock
 from fault_corpus.exhibits import urdf
 
@@ -24,7 +24,7 @@ def gate(name, at, size, axis):
 
 def drawer(x=0.0, z=0.0):
     """Comes out along -y by 0.5 m; its front is at y = 0."""
-    boxes: list[Box] = [((x, 0.25, z), (0.4, 0.5, 0.2))]
+    boxes = [((x, 0.25, z), (0.4, 0.5, 0.2))]
     return body("drawer", boxes), joint(
         "drawer_slide", "prismatic", "base", "drawer", (0, 0, 0), OUT, (0.0, 0.5)
     )
@@ -114,7 +114,7 @@ def test_what_waits_for_a_door_that_never_opens_is_stuck_too():
 def test_doors_that_open_only_one_at_a_time_do_not_free_what_needs_both():
     """Each opens alone, but both end in one place: what is behind the two stays shut."""
     left = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (0.0, 0.0, 1.0))
-    boxes: list[Box] = [
+    boxes = [
         ((0.15, -0.05, 0), (0.28, 0.04, 0.4)),
         ((-0.45, -0.05, 1), (0.1, 0.04, 0.1)),
     ]

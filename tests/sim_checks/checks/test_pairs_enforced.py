@@ -17,7 +17,7 @@ FAR = 5.0
 #: Kind of pair -> where each link's cube stands along x [m], and the joints as (kind, parent,
 #: child). Of every world, the cubes of ``a`` and ``b``, and no others, overlap, by 10
 #: cm.
-WORLDS: dict[str, tuple[dict[str, float], list[tuple[str, str, str]]]] = {
+WORLDS = {
     "static_parent": ({"a": 0.0, "b": NEAR}, [("prismatic", "a", "b")]),
     "moving_parent": (
         {"base": FAR, "a": 0.0, "b": NEAR},

@@ -60,19 +60,7 @@ def test_a_part_wholly_inside_another_is_caught():
     assert (found.code, found.value) == ("rest_penetration", pytest.approx(500.0))
 
 
-def test_two_parts_that_only_meet_when_both_are_open_are_reported_softly():
-    left = body("left", [((-0.6, 0.0, 0.0), (0.2, 0.2, 0.2))])
-    right = body("right", [((0.6, 0.0, 0.0), (0.2, 0.2, 0.2))])
-    joints = [
-        joint("a", "prismatic", "base", "left", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.55)),
-        joint("b", "prismatic", "base", "right", (0, 0, 0), (-1.0, 0.0, 0.0), (0.0, 0.55)),
-    ]
-    result = check(described([BASE, left, right], joints))
-    assert codes(result) == ["joints_collide"]
-    assert hard(result) == []
-
-
-def test_two_parts_that_only_meet_when_both_are_half_open_are_reported_too():
+def test_two_parts_that_only_meet_when_both_are_half_open_are_reported():
     left = body("left", [((-1.0, 0.0, 0.0), (0.8, 0.8, 0.2))])
     front = body("front", [((0.0, -1.0, 0.0), (0.8, 0.8, 0.2))])
     joints = [

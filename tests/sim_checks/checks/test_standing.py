@@ -1,14 +1,12 @@
 """What stands and what topples: closed forms, and MuJoCo with a free base as the witness."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from box_world import Box, body, described, joint
+from box_world import body, described, joint
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,8 +17,8 @@ from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 
 #: 0.6 m wide, 0.4 m deep, 0.8 m high; the front looks along -y.
-CARCASS: Box = ((0.0, 0.0, 0.4), (0.6, 0.4, 0.8))
-DOOR: Box = ((0.0, -0.21, 0.4), (0.6, 0.02, 0.7))
+CARCASS = ((0.0, 0.0, 0.4), (0.6, 0.4, 0.8))
+DOOR = ((0.0, -0.21, 0.4), (0.6, 0.02, 0.7))
 HINGE = (-0.3, -0.2, 0.4)
 
 
@@ -128,7 +126,7 @@ def test_the_pull_that_tips_is_weight_times_margin_over_height(mass):
 
 
 def test_a_light_tall_thing_is_pulled_over_by_a_hand():
-    thin: Box = ((0.0, 0.0, 0.75), (0.3, 0.1, 1.5))
+    thin = ((0.0, 0.0, 0.75), (0.3, 0.1, 1.5))
     links = [
         weighing(body("tower", [thin]), 3.0),
         weighing(body("drawer", [((0, 0, 1.3), (0.2, 0.09, 0.1))]), 0.2),
@@ -230,7 +228,7 @@ def test_mujoco_with_a_free_base_falls_exactly_where_the_closed_form_says(door_m
 @pytest.mark.parametrize(("share", "falls"), [(0.97, False), (1.03, True)])
 def test_mujoco_is_pulled_over_by_exactly_the_tipping_force(share, falls):
     mujoco = pytest.importorskip("mujoco")
-    drawer: Box = ((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))
+    drawer = ((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))
     (row,) = judged(with_drawer(3.0, 0.2, drawer)).measurements["joints"]
     geoms = "".join(
         f'<geom type="box" mass="{mass}" pos="{_words(np.add(center, move))}" '

@@ -13,7 +13,7 @@ from asset_factory.sim_checks.checks.joint_sweep import JointCourse, Rest
 from asset_factory.sim_checks.checks.pairs import Pairs
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.description import JointLine, Mimic
+from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.coupled_path import CoupledPath
 from asset_factory.sim_checks.geometry.kinematics import build_tree
 from asset_factory.sim_checks.geometry.path import Path
@@ -204,7 +204,7 @@ def tangle(seed):
         body(name, [(generator.normal(size=3) * 0.4, generator.uniform(0.05, 0.5, size=3))])
         for name in names
     ]
-    lines: list[JointLine] = []
+    lines = []
     for i, name in enumerate(names[1:], 1):
         kind = ("revolute", "prismatic")[generator.integers(2)]
         parent = names[generator.integers(i)]

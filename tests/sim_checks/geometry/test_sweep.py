@@ -1,7 +1,5 @@
 """The sweep along a joint is continuous: no pose is missed, and the worst place is found."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from box_world import box_hull
@@ -123,7 +121,7 @@ def test_a_hull_far_from_everything_is_told_without_a_fine_look(monkeypatch):
     far = Collider(box_hull((5.0, 0.0, 0.0), (0.1, 0.1, 0.1)))
     close = Collider(box_hull((0.5, 0.0, 0.0), (0.1, 0.1, 0.1)))
     sweep = Sweep(SLIDE, [far, close], [Collider(box_hull((1.0, 0.0, 0.0), (0.1, 0.1, 0.1)))], 16)
-    looked: list[int] = []
+    looked = []
     swept = Sweep._swept
     monkeypatch.setattr(Sweep, "_swept", lambda self, i: looked.append(i) or swept(self, i))
     assert sweep.near(0.005).tolist() == [[False], [True]]

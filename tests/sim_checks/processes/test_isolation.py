@@ -4,11 +4,11 @@ import ctypes
 import os
 import subprocess
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from waiting import alive, until
 
 from asset_factory.sim_checks.processes.isolation import Limits, WarmChild, run_isolated
 
@@ -102,25 +102,12 @@ def test_an_answer_that_cannot_travel_is_told():
     assert "answer_with_a_closure" in run_isolated(answer_with_a_closure, limits=GENEROUS).detail
 
 
-def alive(pid):
-    try:
-        state = Path(f"/proc/{pid}/stat").read_text().split(")")[1].split()[0]
-    except OSError:
-        return False
-    return state != "Z"
-
-
 def wait_until_gone(pid):
-    deadline = time.monotonic() + 5.0
-    while alive(pid) and time.monotonic() < deadline:
-        time.sleep(0.02)
-    return not alive(pid)
+    until(lambda: not alive(pid), 5.0)
 
 
 def pid_in(note):
-    deadline = time.monotonic() + 60.0
-    while not (note.exists() and note.read_text().isdigit()) and time.monotonic() < deadline:
-        time.sleep(0.02)
+    until(lambda: note.exists() and note.read_text().isdigit())
     return int(note.read_text())
 
 
@@ -137,7 +124,7 @@ def abandoned(function, note):
 def test_whatever_a_killed_child_has_started_dies_too(function, tmp_path):
     outcome = abandoned(function, tmp_path / "pid")
     assert (outcome.failure, outcome.tries) == ("crashed", 1)
-    assert wait_until_gone(pid_in(tmp_path / "pid"))
+    wait_until_gone(pid_in(tmp_path / "pid"))
 
 
 def test_an_abandoned_child_is_not_asked_again():
@@ -155,7 +142,7 @@ def test_a_hang_takes_down_what_it_has_started(tmp_path):
     with WarmChild() as child:
         child.call(double, 1, limits=GENEROUS)
         child.call(start_grandchild, str(note), limits=Limits(wall_s=1.0))
-    assert wait_until_gone(pid_in(note))
+    wait_until_gone(pid_in(note))
 
 
 def test_nothing_survives_the_job(tmp_path):
@@ -165,7 +152,7 @@ def test_nothing_survives_the_job(tmp_path):
     pid = pid_in(note)
     job.kill()
     job.wait()
-    assert wait_until_gone(pid)
+    wait_until_gone(pid)
 
 
 def started_job(folder, module, work):
@@ -173,7 +160,7 @@ def started_job(folder, module, work):
     script = folder / "job.py"
     script.write_text(
         "import sys\n"
-        f"sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
+        f"sys.path[:0] = {sys.path!r}\n"
         f"import {module} as t\n"
         "if __name__ == '__main__':\n"
         f"    {work}\n"

@@ -1,10 +1,6 @@
 """Descriptions are read where the world lays them out, and never beyond the folders allowed."""
 
-from __future__ import annotations
-
 import os
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 from PIL import Image
@@ -17,8 +13,6 @@ from ros_packages import (
     write_package,
 )
 
-from asset_factory.sim_checks import Report
-from asset_factory.sim_checks.judge import Judge
 from asset_factory.sim_checks.read.gather import gather
 from asset_factory.sim_checks.read.roots import (
     MOST_LEVELS,
@@ -27,26 +21,24 @@ from asset_factory.sim_checks.read.roots import (
     ros_package_path,
 )
 
-Checked = Callable[..., Report]
-
 
 @pytest.fixture
-def checked(judge: Judge) -> Checked:
+def checked(judge):
     """Have a file judged that may be read from some roots too."""
     return lambda path, *roots, outside=False: judge.check(
         path, (), options=ReadOptions(roots, outside)
     )
 
 
-def codes(report: Report) -> list[str]:
+def codes(report):
     return [finding.code for finding in report.errors]
 
 
-def told(report: Report) -> list[str]:
+def told(report):
     return [finding.message for finding in report.findings if finding.code == "read_from_root"]
 
 
-def is_sound(report: Report) -> bool:
+def is_sound(report):
     """Tell whether the cabinet was read whole: its drawer passes 3 mm beside the shell."""
     sweeps = report.measurements["penetration"]["joints"] if report.passed else []
     return [round(sweep["clearance_mm"], 2) for sweep in sweeps] == [3.0]
@@ -64,9 +56,7 @@ def is_sound(report: Report) -> bool:
         "package://cabinet/robots/../meshes/",
     ],
 )
-def test_a_package_is_read_wherever_its_urdf_lies(
-    tmp_path: Path, checked: Checked, before: str
-) -> None:
+def test_a_package_is_read_wherever_its_urdf_lies(tmp_path, checked, before):
     """Named by its package.xml, though its folder is called otherwise."""
     folder = tmp_path / "cabinet-main"
     path = write_package(folder, "cabinet", before.format(root=folder), "robots/a/cabinet.urdf")
@@ -76,7 +66,7 @@ def test_a_package_is_read_wherever_its_urdf_lies(
     assert str(tmp_path) not in report.to_json()
 
 
-def test_what_lies_in_one_folder_is_read_in_place(tmp_path: Path, checked: Checked) -> None:
+def test_what_lies_in_one_folder_is_read_in_place(tmp_path, checked):
     path = write_package(tmp_path, "cabinet", "package://anything/meshes/", "cabinet.urdf")
     assert gather(path, tmp_path / "copy", OWN_PACKAGE).path == path
     report = checked(path)
@@ -84,15 +74,13 @@ def test_what_lies_in_one_folder_is_read_in_place(tmp_path: Path, checked: Check
     assert not told(report)
 
 
-def test_escaped_names_are_those_of_files(tmp_path: Path, checked: Checked) -> None:
+def test_escaped_names_are_those_of_files(tmp_path, checked):
     path = write_package(tmp_path, "", "my%20meshes/", "cabinet.urdf")
     (tmp_path / "meshes").rename(tmp_path / "my meshes")
     assert is_sound(checked(path))
 
 
-def test_a_package_is_looked_for_a_few_levels_up_and_no_further(
-    tmp_path: Path, checked: Checked
-) -> None:
+def test_a_package_is_looked_for_a_few_levels_up_and_no_further(tmp_path, checked):
     deep = "/".join("abcdefgh"[:MOST_LEVELS])
     named = ("cabinet", "package://cabinet/meshes/")
     assert is_sound(checked(write_package(tmp_path / "near", *named, f"{deep}/c.urdf")))
@@ -104,9 +92,7 @@ def test_a_package_is_looked_for_a_few_levels_up_and_no_further(
 
 
 @pytest.mark.parametrize("away", ["../meshes/", "{root}/meshes/", "file://{root}/meshes/"])
-def test_what_no_root_holds_is_refused_with_the_flag_that_helps(
-    tmp_path: Path, checked: Checked, away: str
-) -> None:
+def test_what_no_root_holds_is_refused_with_the_flag_that_helps(tmp_path, checked, away):
     path = write_package(tmp_path, "", away.format(root=tmp_path))
     report = checked(path)
     assert codes(report) == ["outside_folder"]
@@ -119,8 +105,8 @@ def test_what_no_root_holds_is_refused_with_the_flag_that_helps(
 
 
 def test_another_package_is_found_in_a_root_its_folders_and_the_ros_path(
-    tmp_path: Path, checked: Checked, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    tmp_path, checked, monkeypatch
+):
     """As in a workspace: in a root or a repository, by the folder's name or the package's."""
     path = write_package(tmp_path / "bringup", "bringup", "package://description/meshes/")
     assert codes(checked(path)) == ["missing_file"]
@@ -135,7 +121,7 @@ def test_another_package_is_found_in_a_root_its_folders_and_the_ros_path(
         assert is_sound(checked(path, *ros_package_path()))
 
 
-def test_materials_and_pictures_come_along(tmp_path: Path, checked: Checked) -> None:
+def test_materials_and_pictures_come_along(tmp_path, checked):
     path = write_package(tmp_path, "cabinet", "../meshes/")
     textures = tmp_path / "textures"
     textures.mkdir()
@@ -150,7 +136,7 @@ def test_materials_and_pictures_come_along(tmp_path: Path, checked: Checked) -> 
     assert is_sound(checked(path))
 
 
-def test_links_pipes_and_secrets_are_not_copied(tmp_path: Path, checked: Checked) -> None:
+def test_links_pipes_and_secrets_are_not_copied(tmp_path, checked):
     """A hostile package reaches nothing outside, by links, materials or devices."""
     secret = tmp_path / "secret.obj"
     write_meshes(tmp_path / "elsewhere")
@@ -176,7 +162,7 @@ def test_links_pipes_and_secrets_are_not_copied(tmp_path: Path, checked: Checked
     assert codes(checked(path)) == ["outside_folder"]
 
 
-def test_meshes_of_one_name_in_two_packages_stay_two(tmp_path: Path, checked: Checked) -> None:
+def test_meshes_of_one_name_in_two_packages_stay_two(tmp_path, checked):
     path = write_package(tmp_path / "one" / "pkg", "cabinet", "package://cabinet/meshes/")
     write_meshes(tmp_path / "other" / "pkg" / "meshes")
     other = f"file://{tmp_path}/other/pkg/meshes/drawer.obj"
@@ -198,8 +184,8 @@ def test_meshes_of_one_name_in_two_packages_stay_two(tmp_path: Path, checked: Ch
     ],
 )
 def test_an_mjcf_is_read_from_its_package_as_mujoco_reads_it(
-    tmp_path: Path, checked: Checked, compiler: str, before: str, include: str
-) -> None:
+    tmp_path, checked, compiler, before, include
+):
     mujoco = pytest.importorskip("mujoco")
     path = write_mjcf_package(tmp_path, compiler, before.format(root=tmp_path), include)
     report = checked(path)
@@ -213,9 +199,7 @@ def test_an_mjcf_is_read_from_its_package_as_mujoco_reads_it(
     assert is_sound(checked(path, tmp_path))
 
 
-def test_an_mjcf_that_attaches_another_model_keeps_the_files_of_both(
-    tmp_path: Path, checked: Checked
-) -> None:
+def test_an_mjcf_that_attaches_another_model_keeps_the_files_of_both(tmp_path, checked):
     pytest.importorskip("mujoco")
     inner = write_mjcf_package(tmp_path / "cabinet", 'meshdir="../meshes"', "")
     path = tmp_path / "kitchen" / "mjcf" / "kitchen.xml"

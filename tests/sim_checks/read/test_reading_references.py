@@ -1,7 +1,5 @@
 """Engines are never told of files outside a description's folder, however hidden the reference."""
 
-from __future__ import annotations
-
 import os
 import sys
 
@@ -170,7 +168,7 @@ def test_the_pictures_of_a_collada_file_are_looked_at_too(folder, element):
 def test_a_reader_of_meshes_opens_no_file_beside_it(folder, monkeypatch):
     (folder / "box.obj").write_text("mtllib all.mtl\n" + (folder / "box.obj").read_text())
     (folder / "all.mtl").write_text("newmtl a\nmap_Kd pixel.png\n")
-    opened: list[str] = []
+    opened = []
     listening = True
 
     def hear(event, words):

@@ -121,17 +121,6 @@ def test_primitives_have_their_sizes(tmp_path):
         assert closed.volume > 0
 
 
-def test_a_file_outside_the_folder_is_never_opened(tmp_path):
-    inner = tmp_path / "inner"
-    inner.mkdir()
-    trimesh.creation.box().export(tmp_path / "secret.stl")
-    (inner / "link.stl").symlink_to(tmp_path / "secret.stl")
-    there = f"{tmp_path}/secret.stl"
-    remote = "https://example.org/a.stl"
-    for reference in ("../secret.stl", there, f"file://{there}", "link.stl", remote):
-        assert code_of(urdf(inner, MESH.format(reference))) == "outside_folder"
-
-
 def test_entities_are_refused(tmp_path):
     path = tmp_path / "bomb.urdf"
     robot = '<robot name="&a;"><link name="base"/></robot>'

@@ -8,6 +8,7 @@ import pytest
 pytest.importorskip("pxr")
 import usda
 from export_samples import PROVENANCE, box, boxes_asset, cabinet
+from plain_solids import signed_volume
 
 from asset_factory.factory.articulation import Joint
 from asset_factory.factory.export import export_bundle
@@ -79,12 +80,6 @@ def test_units_and_the_up_axis_of_a_stage_are_heeded(tmp_path):
     assert not base.collisions
 
 
-def volume(shape):
-    """Return the signed volume of triangles [m3]: positive where they face outwards."""
-    a, b, c = (shape.vertices[shape.faces[:, corner]] for corner in range(3))
-    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
-
-
 def test_mirrored_and_left_handed_meshes_face_as_the_file_means_and_holes_are_none(tmp_path):
     size = (1.0, 0.6, 0.8)
     left = usda.mesh("left", size, 'uniform token orientation = "leftHanded"')
@@ -95,10 +90,10 @@ def test_mirrored_and_left_handed_meshes_face_as_the_file_means_and_holes_are_no
     path = usda.write(tmp_path, usda.stage(body))
     (base,) = read(path, tmp_path / "urdf").links
     shapes = {shape.name: shape for shape in base.visuals}
-    assert volume(shapes["mirrored"]) == pytest.approx(0.48, rel=1e-6)
+    assert signed_volume(shapes["mirrored"]) == pytest.approx(0.48, rel=1e-6)
     assert len(shapes["holed"].faces) == 8
     # The cube is written counter-clockwise, so a file that calls it left-handed has it inside out.
-    assert volume(shapes["left"]) == pytest.approx(-0.48, rel=1e-6)
+    assert signed_volume(shapes["left"]) == pytest.approx(-0.48, rel=1e-6)
 
 
 def test_a_joint_may_hold_something_inside_a_body_or_the_world_of_a_stage_with_y_up(tmp_path):

@@ -1,22 +1,17 @@
 """Pairs that an SRDF exempts are warned of, counted, and reject nothing."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 import trimesh
 from ros_packages import write_package
 
 from asset_factory.factory.cli.check import Check, run
 from asset_factory.factory.errors import ConfigError
-from asset_factory.sim_checks.judge import Judge
 from asset_factory.sim_checks.read.roots import ReadOptions
 
 SRDF = '<robot name="r"><disable_collisions link1="{}" link2="{}" reason="Adjacent"/></robot>'
 
 
-def overlapping(folder: Path) -> Path:
+def overlapping(folder):
     path = write_package(folder, "cabinet", "../meshes/")
     box = trimesh.creation.box((0.4, 0.3, 0.4))
     box.apply_translation((0.0, 0.147, 0.0))
@@ -24,7 +19,7 @@ def overlapping(folder: Path) -> Path:
     return path
 
 
-def test_exempt_pairs_are_told_and_reject_nothing(tmp_path: Path, judge: Judge) -> None:
+def test_exempt_pairs_are_told_and_reject_nothing(tmp_path, judge):
     path = overlapping(tmp_path)
     assert [finding.code for finding in judge.check(path, ()).errors] == ["rest_penetration"]
     path.with_suffix(".srdf").write_text(SRDF.format("drawer", "shell"))
@@ -40,7 +35,7 @@ def test_exempt_pairs_are_told_and_reject_nothing(tmp_path: Path, judge: Judge) 
     assert [finding.code for finding in judge.check(path, ()).errors] == ["invalid_xml"]
 
 
-def test_an_srdf_of_another_package_is_named(tmp_path: Path, judge: Judge) -> None:
+def test_an_srdf_of_another_package_is_named(tmp_path, judge):
     path = overlapping(tmp_path / "description")
     srdf = tmp_path / "moveit" / "config" / "arm.srdf"
     srdf.parent.mkdir(parents=True)

@@ -1,16 +1,11 @@
 """xacro files are expanded and checked as what they make; hostile ones reach nothing."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from ros_packages import MESHES, PACKAGE, SLIDE, link, write_meshes
 
-from asset_factory.sim_checks import Report
-from asset_factory.sim_checks.judge import Judge
 from asset_factory.sim_checks.read import xacro
 from asset_factory.sim_checks.read.roots import ReadOptions
 
@@ -26,7 +21,7 @@ MACROS = (
 )
 
 
-def write_xacro(folder: Path, body: str, name: str = "cabinet.urdf.xacro") -> Path:
+def write_xacro(folder, body, name="cabinet.urdf.xacro"):
     write_meshes(folder / "meshes")
     (folder / "package.xml").write_text(PACKAGE.format("cabinet"))
     (folder / "urdf").mkdir(exist_ok=True)
@@ -35,11 +30,11 @@ def write_xacro(folder: Path, body: str, name: str = "cabinet.urdf.xacro") -> Pa
     return path
 
 
-def codes(report: Report) -> list[str]:
+def codes(report):
     return [finding.code for finding in report.errors]
 
 
-def test_macros_includes_arguments_and_packages_are_expanded(tmp_path: Path, judge: Judge) -> None:
+def test_macros_includes_arguments_and_packages_are_expanded(tmp_path, judge):
     body = (
         '<xacro:include filename="$(find cabinet)/urdf/parts.xacro"/>'
         '<xacro:arg name="travel" default="0.1"/><xacro:property name="k" '
@@ -60,7 +55,7 @@ def test_macros_includes_arguments_and_packages_are_expanded(tmp_path: Path, jud
     assert longer.measurements["penetration"]["joints"][0]["upper"] == 0.3
 
 
-def test_a_urdf_with_macros_needs_no_other_name(tmp_path: Path, judge: Judge) -> None:
+def test_a_urdf_with_macros_needs_no_other_name(tmp_path, judge):
     links = "".join(link(name, f"../meshes/{name}.obj") for name in MESHES)
     path = write_xacro(tmp_path, f'<xacro:property name="a" value="1"/>{links}{SLIDE}', "a.urdf")
     assert codes(judge.check(path, ())) == []
@@ -81,7 +76,7 @@ def test_a_urdf_with_macros_needs_no_other_name(tmp_path: Path, judge: Judge) ->
         "<xacro:nothing/>",
     ],
 )
-def test_what_reaches_out_is_refused(tmp_path: Path, judge: Judge, inside: str) -> None:
+def test_what_reaches_out_is_refused(tmp_path, judge, inside):
     out = tmp_path / "out"
     out.mkdir()
     (out / "secret.xacro").write_text(ROBOT.format('<link name="secret"/>'))
@@ -93,7 +88,7 @@ def test_what_reaches_out_is_refused(tmp_path: Path, judge: Judge, inside: str) 
     assert report.measurements == {}
 
 
-def test_the_interpreter_itself_refuses_what_gets_past_the_expressions(tmp_path: Path) -> None:
+def test_the_interpreter_itself_refuses_what_gets_past_the_expressions(tmp_path):
     """As though a way round the first wall were known: the second one holds."""
     path = write_xacro(tmp_path, '<link name="a"/>')
     for act in ("os.system('true')", "open('/etc/passwd')", "open('x', 'w')", "os.fork()"):
@@ -107,22 +102,20 @@ def test_the_interpreter_itself_refuses_what_gets_past_the_expressions(tmp_path:
         assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 7, act
 
 
-def test_the_environment_stays_unseen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_environment_stays_unseen(tmp_path, monkeypatch):
     monkeypatch.setenv("TOKEN", "abc")
     path = write_xacro(tmp_path, '<link name="a$(optenv TOKEN none)"/>')
     document, _ = xacro.expand_xacro(path, ReadOptions())
     assert [item.get("name") for item in document] == ["anone"]
 
 
-def test_without_the_library_the_line_that_adds_it_is_told(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_the_library_the_line_that_adds_it_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr(xacro, "find_spec", lambda name: None)
     with pytest.raises(xacro.DescriptionError, match=r"pip install 'asset-factory\[xacro\]'"):
         xacro.expand_xacro(write_xacro(tmp_path, ""), ReadOptions())
 
 
-def test_arguments_are_written_as_ros_writes_them() -> None:
+def test_arguments_are_written_as_ros_writes_them():
     assert xacro.parse_arguments(("a:=1", "b:=x:=y")) == {"a": "1", "b": "x:=y"}
     with pytest.raises(ValueError, match="want name:=value"):
         xacro.parse_arguments(("a=1",))

@@ -81,21 +81,6 @@ def test_a_drawer_stuck_in_its_own_carcass_is_an_engine_s_blind_spot(
 
 
 @of_engines("mujoco")
-def test_a_drawer_wider_than_its_bay_is_jammed(tmp_path, judge, engine):
-    # 5 mm of overlap on each side.
-    result = judge(write_mjcf(tmp_path, drawer_size=0.574), engine)
-    assert "jammed" in codes(result)
-    assert motion_of(result, "slide")["reached"] < 0.5
-
-
-@of_engines("mujoco")
-def test_the_file_s_friction_is_overcome_by_the_drive_not_ignored(tmp_path, judge, engine):
-    result = judge(write_mjcf(tmp_path, friction=15.0), engine)
-    assert result.findings == ()
-    assert motion_of(result, "slide")["reached"] > 0.95
-
-
-@of_engines("mujoco")
 def test_a_door_in_front_of_the_drawer_is_a_dependency_not_a_jam(tmp_path, judge, engine):
     tall = (((-0.214, 0.0, 0.4), (0.018, 0.59, 0.78)),)
     wide_open = {'upper="1.57"': 'upper="2.6"'}
@@ -106,7 +91,7 @@ def test_a_door_in_front_of_the_drawer_is_a_dependency_not_a_jam(tmp_path, judge
 
 @of_engines("mujoco", "pybullet")
 def test_swapped_limits_are_lost_and_said_to_be(tmp_path, judge, engine):
-    swapped = {'lower="0" upper="0.3"': 'lower="0.3" upper="0"'}
+    swapped = {'lower="0.0" upper="0.3"': 'lower="0.3" upper="0"'}
     result = judge(write_urdf(tmp_path, replace=swapped), engine)
     assert codes(result).count("limit_mismatch") == 2
     assert engine == "pybullet" or "not_driven" in codes(result, Severity.NOTE)
@@ -140,7 +125,7 @@ def test_two_roots_may_kill_an_engine_and_not_the_judge(tmp_path, judge, engine,
 @of_engines("sapien", "pybullet")
 def test_a_mesh_that_vanishes_is_a_dropped_shape_or_does_not_load(tmp_path, engine):
     description = read_here(write_urdf(tmp_path))
-    (tmp_path / "drawer_0.obj").unlink()
+    (tmp_path / "drawer_hull_0.obj").unlink()
     result = judge_in_simulator(description, engine, CheckConfig())
     found = [item for item in result.findings if item.code in ("shape_dropped", "load_failed")]
     assert found

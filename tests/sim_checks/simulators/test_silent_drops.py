@@ -15,7 +15,7 @@ from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.simulators.catalog import simulator
 from asset_factory.sim_checks.simulators.simulator import LoadedJoint, Observation, PoseSample
 
-LIMITS = 'lower="0" upper="0.3"'
+LIMITS = 'lower="0.0" upper="0.3"'
 LIMIT = f'<limit {LIMITS} effort="50" velocity="2"/>'
 MASS = '<mass value="3.0"/>'
 END = 'upper="1.57" effort="50" velocity="2"/></joint>'

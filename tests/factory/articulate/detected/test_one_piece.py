@@ -65,7 +65,7 @@ def articulated(mesh):
 
 @cache
 def sample(name):
-    mesh: Mesh = one_piece.bumpy(getattr(one_piece, name)(edge=0.03))
+    mesh = one_piece.bumpy(getattr(one_piece, name)(edge=0.03))
     assert MeshOrigin.of(mesh).is_generated
     return mesh
 

@@ -1,7 +1,5 @@
 """The true axis is among the candidates, however the object is turned."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from evidence_worlds import apart, chest, cupboard, oven, partition

@@ -1,7 +1,5 @@
 """Frames follow the edges of things, however these are turned."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st

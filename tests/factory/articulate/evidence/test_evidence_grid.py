@@ -1,7 +1,5 @@
 """Through a wall is a hit; along it, away from it and beside it is not."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Doors open outwards on hinges, drawers slide out, knobs turn; what is alone stays put."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

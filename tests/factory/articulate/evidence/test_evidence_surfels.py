@@ -1,7 +1,5 @@
 """Surfels: even, oriented, always the same."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from asset_factory.factory.articulate.evidence.surfels import spread

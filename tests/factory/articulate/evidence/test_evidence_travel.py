@@ -1,7 +1,5 @@
 """Moving points here is what joints do elsewhere."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,16 +1,14 @@
 """What people copy to have a night every night: systemd's units and Slurm's scripts, run."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 from slurm_cluster import slurm_cluster
+from waiting import until
 
 EXAMPLES = Path(__file__).parents[4] / "examples" / "nightly"
 SOURCES = Path(__file__).parents[4] / "src"
@@ -104,13 +102,6 @@ def test_slurm_runs_a_night(cluster, home):
     said = (home / "said").read_text()
     assert "Night 0001: 0 of 0 inputs passed" in said
     assert (home / "assets" / "out" / "nights" / "0001" / "index.html").is_file()
-
-
-def until(true, seconds=40.0):
-    deadline = time.monotonic() + seconds
-    while not true() and time.monotonic() < deadline:
-        time.sleep(0.1)
-    assert true()
 
 
 def tell_to_stop(cluster):

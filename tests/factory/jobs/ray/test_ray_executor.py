@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 import ray_calls
+from waiting import until
 
 import asset_factory
 from asset_factory.factory.config import ParticulateConfig
@@ -166,14 +167,7 @@ def test_closing_the_stream_kills_what_is_under_way(cluster, tmp_path):
     ]
     stream = RayExecutor(address=cluster.address).run(ray_calls.slow_square, calls, LIMITS)
     next(stream)
-    wait_until(lambda: any(path.name.startswith("1-") for path in tmp_path.iterdir()))
+    until(lambda: any(path.name.startswith("1-") for path in tmp_path.iterdir()))
     pids = [int(path.name.split("-")[1]) for path in tmp_path.iterdir()]
     stream.close()
-    wait_until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in pids))
-
-
-def wait_until(true, seconds=30.0):
-    end = time.monotonic() + seconds
-    while not true():
-        assert time.monotonic() < end
-        time.sleep(0.05)
+    until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in pids))

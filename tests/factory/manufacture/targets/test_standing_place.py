@@ -5,20 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 from plain_solids import box
-from target_worlds import BAR, BODY, HINGE, PANEL, SLIDE, best, moved, world
+from target_worlds import BAR, BODY, HINGE, PANEL, SLIDE, asset_of, best, moved, world
 
-from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
+from asset_factory.factory.asset import Asset, Hull, PartBody
 from asset_factory.factory.manufacture.targets.standing import BASE_RADIUS_M, standing_place
-
-INERTIAL = Inertial(1.0, np.zeros(3), np.eye(3))
-
-
-def asset_of(articulation):
-    bodies = []
-    for part in range(len(articulation.parts)):
-        mesh = articulation.part_mesh(part)
-        bodies.append(PartBody((Hull(mesh.vertices, mesh.faces),), INERTIAL))
-    return Asset("test", articulation, tuple(bodies))
 
 
 def place_of(articulation):
@@ -68,6 +58,7 @@ def test_without_room_there_is_no_place():
     articulation = world([PANEL, *BAR], SLIDE, walls)
     # Solids of their own, so that the space between them is not taken for one of them.
     hulls = tuple(Hull(w.vertices, w.faces) for w in walls)
-    bodies = (PartBody(hulls, INERTIAL), asset_of(articulation).bodies[1])
+    plain = asset_of(articulation).bodies
+    bodies = (PartBody(hulls, plain[0].inertial), plain[1])
     asset = Asset("test", articulation, bodies)
     assert standing_place(asset, SLIDE, best(articulation)) is None

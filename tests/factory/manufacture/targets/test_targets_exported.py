@@ -6,29 +6,13 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from target_worlds import BAR, HINGE, PANEL, SLIDE, world
+from export_samples import PROVENANCE
+from target_worlds import BAR, HINGE, PANEL, SLIDE, asset_of, world
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.export.manifest import Manifest
-from asset_factory.factory.intake.intake import Provenance
-from asset_factory.factory.manufacture.targets.find import find_targets
-from asset_factory.factory.manufacture.targets.handles import find_handle
 from asset_factory.factory.mesh import concatenate
-
-PROVENANCE = Provenance(input="cabinet.glb", digest="0" * 64, category="cabinet", license="CC0-1.0")
-
-
-def asset_of(articulation):
-    bodies = []
-    for part in range(len(articulation.parts)):
-        mesh = articulation.part_mesh(part)
-        inertial = Inertial(1.0, mesh.bounds.mean(axis=0), np.eye(3) * 0.01)
-        hull = Hull(mesh.vertices, mesh.faces)
-        bodies.append(PartBody((hull,), inertial, find_handle(articulation, part), "exact"))
-    hulls = [() for _ in articulation.parts]
-    return Asset("test", articulation, tuple(bodies), find_targets(articulation, hulls))
 
 
 def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(tmp_path):

@@ -1,7 +1,5 @@
 """The network runs on a GPU that is there and computes, else on the CPU; the user may say."""
 
-from __future__ import annotations
-
 from contextlib import nullcontext
 from types import SimpleNamespace
 
@@ -22,7 +20,7 @@ def _forgotten():
 @pytest.mark.parametrize(
     ("works", "taken"), [(("cuda", "mps"), "cuda"), (("mps",), "mps"), ((), "cpu")]
 )
-def test_auto_takes_the_first_device_that_works(works, taken, monkeypatch, tmp_path) -> None:
+def test_auto_takes_the_first_device_that_works(works, taken, monkeypatch, tmp_path):
     monkeypatch.setattr(device, "GPU_FILES", (str(tmp_path),))
 
     def tried(function, name, limits):
@@ -38,12 +36,12 @@ def test_auto_takes_the_first_device_that_works(works, taken, monkeypatch, tmp_p
         input_config(InputFlags(device="gpu"))
 
 
-def test_without_a_gpu_torch_is_not_asked(monkeypatch) -> None:
+def test_without_a_gpu_torch_is_not_asked(monkeypatch):
     monkeypatch.setattr(device, "GPU_FILES", ())
     monkeypatch.setattr(device, "run_isolated", None)
     assert device.device_for("auto") == "cpu"
 
 
-def test_the_trial_itself_finds_no_gpu_where_torch_has_none() -> None:
+def test_the_trial_itself_finds_no_gpu_where_torch_has_none():
     torch = pytest.importorskip("torch")
     assert device.runs_on("cuda") is torch.cuda.is_available()

@@ -1,7 +1,5 @@
 """The server gives one page to this machine, and nothing else to anybody."""
 
-from __future__ import annotations
-
 import http.client
 from threading import Thread
 
