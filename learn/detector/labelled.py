@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Annotated
 
 import msgspec
-import numpy as np
 
-from asset_factory.factory.models.detector.canvas import SIDES, WAYS, PanelWay, Sort
+from asset_factory.factory.models.detector.canvas import WAYS, PanelWay, Sort
 from asset_factory.factory.views.raster import Side
 
 from .sides import way_toward
@@ -18,8 +17,6 @@ LABELS = Path(__file__).with_name("labels")
 #: The way of a part that may be hinged at either edge.
 EITHER = -1
 Share = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
-#: A row: side, box in shares of its picture, sort, way, ignored.
-Row = tuple[int, tuple[float, ...], Sort, int, bool]
 
 
 class LabelledPart(msgspec.Struct, forbid_unknown_fields=True):
@@ -40,11 +37,9 @@ class LabelledPart(msgspec.Struct, forbid_unknown_fields=True):
     hinge: str | None = None
     unsure: bool = False
 
-    def row(self) -> Row:
-        """Return it as numbers."""
-        return SIDES.index(self.side), self.box, self.sort, self._way(), self.unsure
-
-    def _way(self) -> int:
+    @property
+    def way(self) -> int:
+        """Return the number of the way in which its side shows it open; ``EITHER``: two may be."""
         if self.sort is Sort.DRAWER:
             return WAYS.index(PanelWay.OUT)
         if self.sort is Sort.CONTROL:
@@ -52,8 +47,7 @@ class LabelledPart(msgspec.Struct, forbid_unknown_fields=True):
         if self.hinge is None:
             return EITHER
         if self.sort is Sort.LID:
-            away = -Side(self.hinge).frame[2]
-            return WAYS.index(way_toward(np.asarray(away), self.side))
+            return WAYS.index(way_toward(-Side(self.hinge).frame[2], self.side))
         return WAYS.index(PanelWay(self.hinge))
 
 

@@ -14,21 +14,19 @@ import numpy as np
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.intake.load import load
-from asset_factory.factory.mesh import FloatArray, Mesh
+from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.detector.canvas import (
     CANVAS,
     LONGEST,
     SIDES,
     SORTS,
-    WAYS,
-    PanelWay,
     Sort,
     look_at,
 )
 from asset_factory.factory.views.raster import Side, side_facing
 
-from .labelled import EITHER, Row, labelled_objects
-from .sides import Instances, LabelledSides, way_toward
+from .labelled import LabelledObject, LabelledPart, labelled_objects
+from .sides import Instances, LabelledSides
 
 AXES = "xyz"
 #: A lid whose box is this wide covers the object from side to side.
@@ -62,42 +60,43 @@ def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObj
     could tell of, or that stand open, are left out, and, by ``held_out``, those that are kept for
     measuring, or those that are not.
     """
-    labels = _read(folder / "openings.json", {})
-    fronts = _read(folder / "fronts.json", {"front": {}, "open_as_given": []})
-    open_as_given = {each.split(" ")[0] for each in fronts["open_as_given"]}
     with (folder / "INVENTORY.csv").open(newline="") as rows:
-        inventory = list(csv.DictReader(rows))
-    for row in inventory:
-        name = Path(row["file"]).stem
-        if held_out is not None and is_held_out(name) is not held_out:
+        inventory = {Path(row["file"]).stem: row for row in csv.DictReader(rows)}
+    labels = labelled_objects()
+    if (folder / "openings.json").exists():
+        labels = _by_openings(folder, inventory) | labels
+    for name, row in inventory.items():
+        label = labels.get(name)
+        if label is None or (held_out is not None and is_held_out(name) is not held_out):
             continue
-        kind = row["kind"]
-        if (seen := labelled_objects().get(name)) is not None:
-            kind = seen.kind
-            opens = seen.opens
-            front = seen.front
-            rows_of = [each.row() for each in seen.parts]
-        else:
-            if row["opens"] not in ("yes", "no") or name in open_as_given:
-                continue
-            found = _front(fronts["front"].get(name, "-y"))
-            if found is None:
-                continue
-            front = found
-            opens = row["opens"] == "yes"
-            rows_of = _labelled(labels, name, front) if name in labels else []
-            if opens and name not in labels:
-                rows_of = [(view, WHOLE, Sort.OTHER, EITHER, True) for view in range(len(SIDES))]
         mesh = load(folder / row["file"], IntakeConfig()).mesh
         part = np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8)
-        sides = LabelledSides(look_at(mesh), part, _on_canvas(rows_of, mesh))
-        yield RealObject(name, kind, opens, SIDES.index(front), mesh, sides)
+        sides = LabelledSides(look_at(mesh), part, _on_canvas(label.parts, mesh))
+        front = SIDES.index(label.front)
+        yield RealObject(name, label.kind, label.opens, front, mesh, sides)
 
 
-def _read(path: Path, otherwise: dict[str, Any]) -> dict[str, Any]:
-    if not path.exists():
-        return otherwise
-    found: dict[str, Any] = json.loads(path.read_text())
+def _by_openings(
+    folder: Path, inventory: Mapping[str, Mapping[str, str]]
+) -> dict[str, LabelledObject]:
+    """Return what ``openings.json`` says; of what opens and has no entry nothing is known."""
+    openings = json.loads((folder / "openings.json").read_text())
+    fronts = json.loads((folder / "fronts.json").read_text())
+    open_as_given = {each.split(" ")[0] for each in fronts["open_as_given"]}
+    found = {}
+    for name, row in inventory.items():
+        front = _front(fronts["front"].get(name, "-y"))
+        if row["opens"] not in ("yes", "no") or name in open_as_given or front is None:
+            continue
+        opens = row["opens"] == "yes"
+        parts: list[LabelledPart] = []
+        if name in openings:
+            parts = [part for entry in openings[name] for part in _parts(entry, front)]
+            for entry in openings.get(f"{name}:optional", []):
+                parts += _unsure(entry, _sides_of(entry["plane"]))
+        elif opens:
+            parts = [LabelledPart(side, Sort.OTHER, WHOLE, unsure=True) for side in SIDES]
+        found[name] = LabelledObject(row["kind"], opens, front, tuple(parts))
     return found
 
 
@@ -110,29 +109,24 @@ def _front(text: str) -> Side | None:
     return side_facing(direction)
 
 
-def _labelled(labels: Mapping[str, Any], name: str, front: Side) -> list[Row]:
-    rows = [row for entry in labels[name] for row in _rows(entry, front)]
-    for entry in labels.get(f"{name}:optional", []):
-        rows += _ignored(entry, _sides_of(entry["plane"]))
-    return rows
-
-
 def _sides_of(plane: str) -> tuple[Side, ...]:
     return {
         "xz": (Side.FRONT, Side.BACK), "yz": (Side.LEFT, Side.RIGHT), "xy": (Side.TOP,)
     }[plane]  # fmt: skip
 
 
-def _on(side: Side, entry: Mapping[str, Any]) -> tuple[float, ...]:
+def _on(side: Side, entry: Mapping[str, Any]) -> tuple[float, float, float, float]:
     """Return an entry's box in shares of a side's picture."""
     u0, v0, u1, v1 = entry["box"]
-    right = side.frame[0]
-    if float(right.sum()) < 0.0:
-        u0, u1 = 1.0 - u1, 1.0 - u0
-    return u0, v0, u1, v1
+    return (1.0 - u1, v0, 1.0 - u0, v1) if _is_mirrored(side) else (u0, v0, u1, v1)
 
 
-def _rows(entry: Mapping[str, Any], front: Side) -> list[Row]:
+def _is_mirrored(side: Side) -> bool:
+    """Tell whether a side shows its axis the other way round."""
+    return float(side.frame[0].sum()) < 0.0
+
+
+def _parts(entry: Mapping[str, Any], front: Side) -> list[LabelledPart]:
     """Return what an entry means on each side; a panel is on the side where the front is."""
     sides = _sides_of(entry["plane"])
     axis = np.array(entry["axis"] or [0.0, 0.0, 0.0], dtype=np.float64)
@@ -142,90 +136,82 @@ def _rows(entry: Mapping[str, Any], front: Side) -> list[Row]:
     if not slides and axis[2] == 0.0 and float(axis @ normal) == 0.0:
         across = AXES[int(np.argmax(normal))]
         if Side.TOP in sides or any(across in spot for spot in hinges):
-            return _lid_rows(entry, sides, hinges)
+            return _lid_parts(entry["box"], sides, _hinge_side(hinges))
     side = side_facing(axis) if slides else front
     if side not in sides or side is Side.TOP or not (slides or hinges):
-        return _ignored(entry, sides)
+        return _unsure(entry, sides)
+    hinge = None
     if slides:
         sort = Sort.DRAWER
-        way = WAYS.index(PanelWay.OUT)
     elif abs(float(axis @ normal)) > 0.9:
         sort = Sort.CONTROL
-        way = WAYS.index(PanelWay.OTHER)
     elif abs(axis[2]) > 0.9:
         sort = Sort.DOOR
-        mirrored = float(side.frame[0].sum()) < 0.0
-        edges = (PanelWay.RIGHT, PanelWay.LEFT) if mirrored else (PanelWay.LEFT, PanelWay.RIGHT)
-        way = _edge(hinges, AXES[int(np.argmax(np.abs(side.frame[0])))], entry["box"][::2], edges)
+        edges = ("right", "left") if _is_mirrored(side) else ("left", "right")
+        letter = AXES[int(np.argmax(np.abs(side.frame[0])))]
+        hinge = _edge(hinges, letter, entry["box"][::2], edges)
     else:
         sort = Sort.FLAP
-        way = _edge(hinges, "z", entry["box"][1::2], (PanelWay.BOTTOM, PanelWay.TOP))
-    return [(SIDES.index(side), _on(side, entry), sort, way, False)]
+        hinge = _edge(hinges, "z", entry["box"][1::2], ("bottom", "top"))
+    return [LabelledPart(side, sort, _on(side, entry), hinge)]
 
 
 def _edge(
-    hinges: Sequence[Mapping[str, float]],
-    letter: str,
-    ends: Sequence[float],
-    edges: tuple[PanelWay, PanelWay],
-) -> int:
-    """Return the number of the edge, of the lower and the higher one along an axis, of a hinge."""
+    hinges: Sequence[Mapping[str, float]], letter: str, ends: Sequence[float], edges: Sequence[str]
+) -> str | None:
+    """Return the edge of a hinge, of the lower and the higher one along an axis."""
     low = {spot[letter] < sum(ends) / 2.0 for spot in hinges if letter in spot}
     if len(low) != 1:
-        return EITHER
-    return WAYS.index(edges[0] if low.pop() else edges[1])
-
-
-def _ignored(entry: Mapping[str, Any], sides: Sequence[Side]) -> list[Row]:
-    return [(SIDES.index(each), _on(each, entry), Sort.OTHER, EITHER, True) for each in sides]
-
-
-def _lid_rows(
-    entry: Mapping[str, Any], sides: Sequence[Side], hinges: Sequence[Mapping[str, float]]
-) -> list[Row]:
-    """Return a lid on all sides on which it must be seen."""
-    direction = _hinge_direction(hinges)
-    rows: list[Row] = []
-    box = entry["box"]
-    above = Side.TOP in sides
-    wide = box[2] - box[0] >= WIDE
-    for view, side in enumerate(SIDES):
-        way = EITHER if direction is None else WAYS.index(way_toward(direction, side))
-        if side in sides:
-            rows.append((view, _on(side, entry), Sort.LID, way, False))
-        elif above:
-            rows.append((view, WHOLE, Sort.OTHER, EITHER, True))
-        elif side is Side.TOP:
-            shown = box[0], 0.0, box[2], 1.0
-            if sides[0] in (Side.LEFT, Side.RIGHT):
-                shown = 0.0, box[0], 1.0, box[2]
-            rows.append((view, shown, Sort.LID, way, not wide))
-        else:
-            rows.append((view, (0.0, box[1], 1.0, box[3]), Sort.LID, way, not wide))
-    return rows
-
-
-def _hinge_direction(hinges: Sequence[Mapping[str, float]]) -> FloatArray | None:
-    """Return where the hinge is from the middle, level; ``None`` if that is not one place."""
-    found = set()
-    for spot in hinges:
-        for letter in "xy":
-            if letter in spot and abs(spot[letter] - 0.5) > 0.15:
-                found.add((letter, spot[letter] > 0.5))
-    if len(found) != 1:
         return None
-    letter, high = found.pop()
-    direction = np.zeros(3)
-    direction[AXES.index(letter)] = 1.0 if high else -1.0
-    return direction
+    return edges[0] if low.pop() else edges[1]
 
 
-def _on_canvas(rows: Sequence[Row], mesh: Mesh) -> Instances:
+def _unsure(entry: Mapping[str, Any], sides: Sequence[Side]) -> list[LabelledPart]:
+    return [LabelledPart(each, Sort.OTHER, _on(each, entry), unsure=True) for each in sides]
+
+
+def _lid_parts(
+    box: Sequence[float], sides: Sequence[Side], hinge: str | None
+) -> list[LabelledPart]:
+    """Return a lid on all sides on which it must be seen."""
+    left, low, right, high = box
+    wide = right - left >= WIDE
+    if Side.TOP in sides:
+        others = [LabelledPart(side, Sort.OTHER, WHOLE, unsure=True) for side in SIDES[:-1]]
+        return [*others, LabelledPart(Side.TOP, Sort.LID, (left, low, right, high), hinge)]
+    found = []
+    for side in SIDES:
+        shown = (0.0, low, 1.0, high)
+        if side in sides:
+            shown = _on(side, {"box": box})
+        elif side is Side.TOP:
+            across = sides[0] in (Side.LEFT, Side.RIGHT)
+            shown = (0.0, left, 1.0, right) if across else (left, 0.0, right, 1.0)
+        unsure = side not in sides and not wide
+        found.append(LabelledPart(side, Sort.LID, shown, hinge, unsure))
+    return found
+
+
+def _hinge_side(hinges: Sequence[Mapping[str, float]]) -> str | None:
+    """Return the side of the object at which a lid is hinged; ``None`` if that is not one."""
+    names = {"x": ("left", "right"), "y": ("front", "back")}
+    found = {
+        names[letter][spot[letter] > 0.5]
+        for spot in hinges
+        for letter in names
+        if letter in spot and abs(spot[letter] - 0.5) > 0.15
+    }
+    return found.pop() if len(found) == 1 else None
+
+
+def _on_canvas(parts: Sequence[LabelledPart], mesh: Mesh) -> Instances:
     sizes = mesh.extents / mesh.extents.max() * LONGEST
-    table = np.zeros((len(rows), 10))
-    for number, (view, box, sort, way, ignored) in enumerate(rows):
-        extents = np.abs(SIDES[view].frame[:2] @ sizes)
-        shares = np.array(box, dtype=np.float64).reshape(2, 2)
+    table = np.zeros((len(parts), 10))
+    for number, part in enumerate(parts):
+        extents = np.abs(part.side.frame[:2] @ sizes)
+        shares = np.array(part.box, dtype=np.float64).reshape(2, 2)
         corners = (CANVAS - extents) / 2.0 + shares * extents
-        table[number] = [view, *corners.ravel(), 0, SORTS.index(sort), way, 0, ignored]
+        sort = SORTS.index(part.sort)
+        view = SIDES.index(part.side)
+        table[number] = [view, *corners.ravel(), 0, sort, part.way, 0, part.unsure]
     return Instances.of(table)

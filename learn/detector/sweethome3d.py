@@ -21,7 +21,7 @@ import numpy as np
 
 from asset_factory.factory.runtime.terminal import say
 
-from .labelled import LabelledObject, labelled_objects
+from .labelled import labelled_objects
 
 #: Libraries by file, the beginning of their meshes' names, and their terms; the fifth one holds
 #: people only.
@@ -32,8 +32,6 @@ LIBRARIES = {
     "Scopia.sh3f": ("scopia", "CC-BY-3.0"),
 }
 CATALOGUE = "PluginFurnitureCatalog.properties"
-#: Pixels along a texture.
-TEXTURE = 512
 
 
 @dataclass(frozen=True)
@@ -63,7 +61,9 @@ def main() -> None:
                     label = labels.get(name)
                     if label is not None:
                         (options.out / f"{name}.glb").write_bytes(_glb(opened, model))
-                        table.writerow(_row(name, label, license, model.author))
+                        opens = "yes" if label.opens else "no"
+                        row = (f"{name}.glb", label.kind, opens, license, model.author)
+                        table.writerow(row)
     say(f"{options.out}: written")
 
 
@@ -75,10 +75,6 @@ def read_catalogue(text: str) -> Iterator[Furniture]:
     for each in entries.values():
         path = PurePosixPath(each["model"].lstrip("/"))
         yield Furniture(path, each.get("creator", ""), each.get("modelRotation"))
-
-
-def _row(name: str, label: LabelledObject, license: str, author: str) -> tuple[str, ...]:
-    return f"{name}.glb", label.kind, "yes" if label.opens else "no", license, author
 
 
 def _glb(library: zipfile.ZipFile, model: Furniture) -> bytes:
@@ -95,28 +91,9 @@ def _glb(library: zipfile.ZipFile, model: Furniture) -> bytes:
         if model.turn:
             turn[:3, :3] = np.array(model.turn.split(), dtype=np.float64).reshape(3, 3)
         scene.apply_transform(turn)
-        for geometry in scene.geometry.values():
-            _slim(geometry)
         kept = io.BytesIO()
         scene.export(kept, file_type="glb")
     return kept.getvalue()
-
-
-def _slim(geometry: object) -> None:
-    """Keep of a geometry's material the colour, in a texture of moderate size."""
-    visual = getattr(geometry, "visual", None)
-    material = getattr(visual, "material", None)
-    if visual is None or material is None:
-        return
-    slim = material.to_pbr()
-    slim.doubleSided = True
-    if slim.baseColorTexture is not None:
-        picture = slim.baseColorTexture
-        if picture.mode not in ("RGB", "RGBA"):
-            picture = picture.convert("RGB")
-        picture.thumbnail((TEXTURE, TEXTURE))
-        slim.baseColorTexture = picture
-    visual.material = slim
 
 
 if __name__ == "__main__":

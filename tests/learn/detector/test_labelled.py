@@ -24,10 +24,9 @@ def test_every_label_of_the_package_can_be_learned_from():
         assert each.kind in KINDS, name
         assert each.opens is bool(each.parts), name
         for part in each.parts:
-            _, box, _, way, _ = part.row()
-            assert box[0] < box[2], name
-            assert box[1] < box[3], name
-            assert EITHER <= way < len(WAYS), name
+            assert part.box[0] < part.box[2], name
+            assert part.box[1] < part.box[3], name
+            assert EITHER <= part.way < len(WAYS), name
 
 
 @pytest.mark.parametrize(
@@ -45,12 +44,11 @@ def test_every_label_of_the_package_can_be_learned_from():
     ],
 )
 def test_a_hinge_is_where_its_side_shows_it(side, sort, hinge, way):
-    part = LabelledPart(side, sort, SQUARE, hinge)
-    assert part.row() == (SIDES.index(side), SQUARE, sort, WAYS.index(way), False)
+    assert LabelledPart(side, sort, SQUARE, hinge).way == WAYS.index(way)
 
 
 def test_a_hinge_that_nobody_can_tell_may_be_at_either_edge():
-    assert LabelledPart(Side.FRONT, Sort.DOOR, SQUARE).row()[3] == EITHER
+    assert LabelledPart(Side.FRONT, Sort.DOOR, SQUARE).way == EITHER
 
 
 @pytest.fixture
