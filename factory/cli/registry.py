@@ -63,7 +63,7 @@ class Verify(Printed, OfRegistry):
     """Only these assets."""
 
     def run(self) -> int:
-        """Print what is not as it was published."""
+        """Print the files that differ from the published ones."""
         registry = Registry(self.output)
         ids = [registry.named(asset_id).id for asset_id in self.ids]
         problems = verify(registry, ids or None)
@@ -270,7 +270,7 @@ def size(number: float) -> str:
 
 
 def print_problems(problems: Sequence[Problem], assets: int) -> None:
-    """Print what is not as it was published."""
+    """Print the files that differ from the published ones."""
     for kind, _ in Counter(problem.kind for problem in problems).most_common():
         _lines(kind, [problem.message for problem in problems if problem.kind == kind])
     wrong = {problem.id for problem in problems}
@@ -278,7 +278,7 @@ def print_problems(problems: Sequence[Problem], assets: int) -> None:
 
 
 def print_freed(freed: Freed) -> None:
-    """Print what was removed."""
+    """Print the removed files."""
     table = Table("what", "files", "size")
     for name in ("staging", "unfinished", "cache"):
         removed = getattr(freed, name)

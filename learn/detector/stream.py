@@ -110,11 +110,10 @@ class Makers:
 
 
 def _views(memory: SharedMemory, slot: int) -> tuple[Any, Any, Any]:
-    start = slot * _BYTES
-    color = np.ndarray((*_SHAPE, 3), np.uint8, memory.buf, start)
-    depth = np.ndarray(_SHAPE, np.int16, memory.buf, start + _COLOR)
-    part = np.ndarray(_SHAPE, np.uint8, memory.buf, start + _COLOR + _DEPTH)
-    return color, depth, part
+    at = slot * _BYTES
+    color = np.ndarray((*_SHAPE, 3), np.uint8, memory.buf, at)
+    depth = np.ndarray(_SHAPE, np.int16, memory.buf, at + _COLOR)
+    return color, depth, np.ndarray(_SHAPE, np.uint8, memory.buf, at + _COLOR + _DEPTH)
 
 
 def make_into(name: str, free: Any, ready: Any, seed: int, number: int, one_piece: bool) -> None:
@@ -129,10 +128,9 @@ def make_into(name: str, free: Any, ready: Any, seed: int, number: int, one_piec
     while True:
         kind, sides = drawn(rng)
         slot = free.get()
-        color, depth, part = _views(memory, slot)
-        color[:] = sides.canvases.color
-        depth[:] = sides.canvases.depth
-        part[:] = sides.part
+        shown = (sides.canvases.color, sides.canvases.depth, sides.part)
+        for place, given in zip(_views(memory, slot), shown, strict=True):
+            place[:] = given
         table = sides.instances.table()
         moving = table[(table[:, 9] == 0.0) & (table[:, 6] < OPENING)]
         ready.put((slot, table, WholeTruth(kind_number(kind), bool(len(moving)), 0, False)))

@@ -7,24 +7,22 @@ a label (:mod:`.labelled`), and ``INVENTORY.csv`` with authors and terms.
 
 from __future__ import annotations
 
-import argparse
 import csv
 import io
 import re
 import tempfile
 import zipfile
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Collection
 from pathlib import Path, PurePosixPath
 
 import numpy as np
+import tyro
 
 from asset_factory.factory.runtime.terminal import say
 
 from .labelled import labelled_objects
 
-#: Libraries by file, the beginning of their meshes' names, and their terms; the fifth one holds
-#: people only.
+#: Beginning of meshes' names, and terms, by library; the fifth one holds people only.
 LIBRARIES = {
     "BlendSwap-CC-0.sh3f": ("blendswap0", "CC0-1.0"),
     "BlendSwap-CC-BY.sh3f": ("blendswapby", "CC-BY-3.0"),
@@ -34,67 +32,47 @@ LIBRARIES = {
 CATALOGUE = "PluginFurnitureCatalog.properties"
 
 
-@dataclass(frozen=True)
-class Furniture:
-    """One of a library: its OBJ's place in the file, its author, its turn to stand upright."""
-
-    path: PurePosixPath
-    author: str
-    turn: str | None
-
-
-def main() -> None:
-    """Run the command."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("libraries", type=Path)
-    parser.add_argument("out", type=Path)
-    options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
-    labels = labelled_objects()
-    with (options.out / "INVENTORY.csv").open("w", newline="") as file:
+def main(libraries: Path, out: Path, /) -> None:
+    """Write the labelled models of a folder of libraries, and their inventory."""
+    out.mkdir(parents=True, exist_ok=True)
+    with (out / "INVENTORY.csv").open("w", newline="") as file:
         table = csv.writer(file)
-        table.writerow(("file", "kind", "opens", "license", "author"))
+        table.writerow(("file", "license", "author"))
         for library, (prefix, license) in LIBRARIES.items():
-            with zipfile.ZipFile(options.libraries / library) as opened:
+            with zipfile.ZipFile(libraries / library) as opened:
                 for model in read_catalogue(opened.read(CATALOGUE).decode("latin-1")):
-                    name = f"{prefix}__{re.sub('[^A-Za-z0-9_]', '_', model.path.stem)}"
-                    label = labels.get(name)
-                    if label is not None:
-                        (options.out / f"{name}.glb").write_bytes(_glb(opened, model))
-                        opens = "yes" if label.opens else "no"
-                        row = (f"{name}.glb", label.kind, opens, license, model.author)
-                        table.writerow(row)
-    say(f"{options.out}: written")
+                    stem = re.sub("[^A-Za-z0-9_]", "_", PurePosixPath(model["model"]).stem)
+                    if (name := f"{prefix}__{stem}") in labelled_objects():
+                        (out / f"{name}.glb").write_bytes(_glb(opened, model))
+                        table.writerow((f"{name}.glb", license, model["creator"]))
+    say(f"{out}: written")
 
 
-def read_catalogue(text: str) -> Iterator[Furniture]:
-    """Yield the models of a library by the text of its catalogue: ``key#number=value`` lines."""
-    entries: dict[str, dict[str, str]] = {}
+def read_catalogue(text: str) -> Collection[dict[str, str]]:
+    """Return the models of a library by the text of its catalogue: ``key#number=value`` lines."""
+    models: dict[str, dict[str, str]] = {}
     for key, number, value in re.findall(r"^(\w+)#(\d+)=(.*)$", text, re.MULTILINE):
-        entries.setdefault(number, {})[key] = value.strip()
-    for each in entries.values():
-        path = PurePosixPath(each["model"].lstrip("/"))
-        yield Furniture(path, each.get("creator", ""), each.get("modelRotation"))
+        models.setdefault(number, {})[key] = value.strip()
+    return models.values()
 
 
-def _glb(library: zipfile.ZipFile, model: Furniture) -> bytes:
-    """Return a model of a library with its materials."""
+def _glb(library: zipfile.ZipFile, model: dict[str, str]) -> bytes:
+    """Return a model of a library, upright, with its materials."""
     import trimesh
 
+    place = PurePosixPath(model["model"].lstrip("/"))
     with tempfile.TemporaryDirectory() as folder:
-        beside = [n for n in library.namelist() if PurePosixPath(n).parent == model.path.parent]
-        for each in beside:
-            (Path(folder) / PurePosixPath(each).name).write_bytes(library.read(each))
-        path = Path(folder) / model.path.name
-        scene = trimesh.load_scene(path, process=False)
+        for each in map(PurePosixPath, library.namelist()):
+            if each.parent == place.parent:
+                (Path(folder) / each.name).write_bytes(library.read(str(each)))
+        scene = trimesh.load_scene(Path(folder) / place.name, process=False)
         turn = np.eye(4)
-        if model.turn:
-            turn[:3, :3] = np.array(model.turn.split(), dtype=np.float64).reshape(3, 3)
-        scene.apply_transform(turn)
+        if "modelRotation" in model:
+            turn[:3, :3] = np.array(model["modelRotation"].split(), float).reshape(3, 3)
         kept = io.BytesIO()
-        scene.export(kept, file_type="glb")
+        scene.apply_transform(turn).export(kept, file_type="glb")
     return kept.getvalue()
 
 
 if __name__ == "__main__":
-    main()
+    tyro.cli(main)

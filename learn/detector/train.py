@@ -102,9 +102,8 @@ def train(options: Any) -> None:
     _keep(kept, options.out)
     figures: dict[str, Any] = {"steps": steps, "batch": options.batch, "made": made.made}
     figures |= {"made one piece": one_piece.made}
-    for name, pool in zip(("held out", "held out, one piece"), held_out, strict=True):
-        if not pool.made:
-            continue
+    named = zip(("held out", "held out, one piece"), held_out, strict=True)
+    for name, pool in ((name, pool) for name, pool in named if pool.made):
         figures[name] = evaluate(kept, pool)
         say("\n".join(f"{name}: {key}: {value}" for key, value in figures[name].items()))
     (options.out / "figures.json").write_text(json.dumps(figures, indent=1))
@@ -187,13 +186,8 @@ def _packed(path: Path, device: Any) -> tuple[tuple[Pool, ...], tuple[Pool, ...]
     """Return real, real one-piece and described objects; held-out real and one-piece ones."""
     packed = list(read_pack(path))
     pools = []
-    for wanted in (
-        (False, True, False),
-        (False, True, True),
-        (False, False, False),
-        (True, True, False),
-        (True, True, True),
-    ):
+    kinds = ((False, True, False), (False, True, True), (False, False, False))
+    for wanted in (*kinds, (True, True, False), (True, True, True)):
         chosen = [e for e in packed if (e.held_out, e.truth.real, e.one_piece) == wanted]
         pool = Pool(len(chosen), device)
         for each in chosen:

@@ -11,6 +11,8 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.posing import closed, face_parts, turned
 from asset_factory.factory.mesh import FloatArray
 
+from ..joints import way_down
+
 #: How wrong made-up guesses are: of the axis [rad], of its place as a share of the longest side.
 ANGLE_SPREAD = np.radians(15.0)
 PLACE_SPREAD = 0.1
@@ -42,22 +44,11 @@ def truth_of(articulation: Articulation, yaw: float) -> Truth:
     parents = [-1]
     joints = {}
     for part in solid[1:]:
-        parent, movable = _way_down(shut, part)
+        parent, movable = way_down(shut, part)
         parents.append(number.get(parent, 0))
         if len(movable) == 1:
             joints[number[part]] = movable[0]
     return Truth(Partition(shut.mesh, labels, np.array(parents)), joints)
-
-
-def _way_down(articulation: Articulation, part: int) -> tuple[int, list[Joint]]:
-    """Return the nearest part with faces that a part hangs on, and movable joints between."""
-    found = []
-    while (joint := articulation.parent_joint(part)) is not None:
-        found += [joint] if joint.movable else []
-        part = joint.parent
-        if len(articulation.parts[part].faces):
-            break
-    return part, found
 
 
 def made_up_guess(joint: Joint, middle: FloatArray, size: float, rng: np.random.Generator) -> Guess:

@@ -8,20 +8,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from asset_factory.factory.articulation import Articulation, JointKind
-
+from ..joints import value_at
 from .catalog import CATEGORIES, make_object
 from .mixture import CHARACTERS, in_character
 from .sample_files import write_sample
-
-
-def opening(articulation: Articulation, share: float) -> dict[str, float]:
-    """Return joint values at a share of every way from closed; endless ones turn to pi."""
-    values = {}
-    for joint in articulation.movable_joints:
-        closed = 0.0 if joint.kind is JointKind.CONTINUOUS else joint.lower
-        values[joint.name] = closed + share * (joint.upper - closed)
-    return values
 
 
 def main() -> None:
@@ -44,7 +34,8 @@ def main() -> None:
         parser.error(f"--seed must be at least 0, not {given.seed}")
     made = make_object(given.category, given.seed)
     articulation, _ = in_character(made, given.character, given.seed)
-    write_sample(articulation, given.folder, opening(articulation, given.open))
+    values = {j.name: value_at(j, given.open) for j in articulation.movable_joints}
+    write_sample(articulation, given.folder, values)
 
 
 if __name__ == "__main__":

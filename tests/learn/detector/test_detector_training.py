@@ -1,7 +1,6 @@
 """What the detector learns from: sides with their truth, and looks that keep it true."""
 
 import json
-from argparse import Namespace
 
 import numpy as np
 import pytest
@@ -154,8 +153,7 @@ def test_a_pack_keeps_objects_and_labels(tmp_path):
     textures = tmp_path / "textures"
     textures.mkdir()
     Image.new("RGB", (8, 8), (10, 200, 30)).save(textures / "green.jpg")
-    options = {"out": tmp_path / "pack.zip", "real": [real], "textures": textures}
-    write_pack(Namespace(**options, described=None, one_piece=1, workers=1))
+    write_pack(tmp_path / "pack.zip", (real,), textures, one_piece=1, workers=1)
     packed, fused = read_pack(tmp_path / "pack.zip")
     assert not packed.one_piece
     assert fused.one_piece
