@@ -10,6 +10,7 @@ pytest.importorskip("torch")
 
 from asset_factory.factory.articulate.detected.agreement import SIGNS, agreement_of
 from asset_factory.factory.articulate.rigid import RigidArticulator
+from asset_factory.factory.models.detector.canvas import CANVAS
 from asset_factory.factory.part import PartKind
 from asset_factory.learn.detector.sides import Instances, labelled_sides
 from asset_factory.learn.fit.agreement import LabelledMesh, fit_agreement, rate_parts
@@ -30,6 +31,18 @@ def test_a_true_door_is_right_and_one_where_nothing_opens_is_not():
     shut = LabelledMesh(made.mesh, Instances.of(np.zeros((0, 10))))
     rated = rate_parts(Says(proposed), [shut])
     assert {row[-1] for row in (*rated["proposed"], *rated["panel"])} == {0.0}
+
+
+def test_where_nobody_knows_what_opens_nothing_counts():
+    made = make_object("fridge", 4)
+    unknown = np.zeros((5, 10))
+    unknown[:, 0] = range(5)
+    # Boxes that the detector believes may reach beyond the picture.
+    unknown[:, 1:3] = -CANVAS
+    unknown[:, 3:5] = 2 * CANVAS
+    unknown[:, 9] = 1.0
+    rated = rate_parts(RigidArticulator(), [LabelledMesh(made.mesh, Instances.of(unknown))])
+    assert rated == {name: [] for name in SIGNS}
 
 
 def test_every_sign_is_rated_and_panels_that_are_seen_are_right():
