@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import tyro
 
@@ -116,11 +116,7 @@ def run(command: Build) -> int:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)
     summary = Summary(tuple(results), JobState.INTERRUPTED if stopped else job.state, left)
-    try:
-        write_json(command.output / SUMMARY, summary.to_dict())
-    except OSError as error:
-        where = command.output / SUMMARY
-        raise RegistryError(f"{where}: cannot be written: {error.strerror}") from error
+    _write_summary(command.output / SUMMARY, summary.to_dict())
     if summary.state is JobState.INTERRUPTED:
         done = f"what was finished is registered, {left} inputs are left"
         complain(f"factory: interrupted; {done}; the same command goes on with them")
@@ -147,6 +143,14 @@ def _show(summary: Summary, command: Build) -> None:
         if summary.left:
             left = f"{summary.left} inputs are left ({summary.state.replace('_', ' ')})"
             say(f"{left}; the same command goes on with them.")
+
+
+def _write_summary(path: Path, summary: dict[str, Any]) -> None:
+    """Write ``summary.json``. Raises RegistryError: the output cannot be written."""
+    try:
+        write_json(path, summary)
+    except OSError as error:
+        raise RegistryError(f"{path}: cannot be written: {error.strerror}") from error
 
 
 def wanted_inputs(command: Build) -> tuple[Path, ...]:

@@ -272,8 +272,8 @@ def in_own_process(
 ) -> T | None:
     """Call a function of a file in a child process, within the limits on one asset.
 
-    Returns what it returned, and raises what it raised; ``None`` where no answer came, which is
-    said.
+    Returns what it returned; ``None`` where no answer came, which is said.
+    Raises AssetFactoryError: what it raised.
     """
     from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
@@ -321,11 +321,12 @@ def require_maniskill(purpose: str, *modules: str) -> None:
 
 def require_page(port: int) -> None:
     """Raise ConfigError where no page can be served: no such port, or a library is missing."""
-    from ..jobs.pages import require_libraries
+    from ..jobs.pages import missing_library
 
     if not 0 <= port < 2**16:
         raise ConfigError(f"--port must be 0 to 65535, not {port}")
-    require_libraries()
+    if (missing := missing_library()) is not None:
+        raise ConfigError(missing)
 
 
 def check_effort(command: Any, counts: Sequence[str]) -> None:

@@ -48,13 +48,13 @@ def write_report(registry: Registry, workers: int | None) -> Path:
 
     try:
         with console.counted("drawing pages") as progress:
-            index, failed = draw_pages(registry, workers or processors(), progress)
+            drawn = draw_pages(registry, workers or processors(), progress)
     except OSError as error:
         where = error.filename or registry.root
         raise RegistryError(f"{where}: the report cannot be written: {error.strerror}") from error
-    for sentence in failed:
+    for sentence in drawn.failed:
         complain(f"factory: no page of {sentence}")
-    return index
+    return drawn.index
 
 
 def report_after(output: Path, workers: int | None) -> Path | None:

@@ -66,9 +66,9 @@ def run(command: Solve) -> int:
     _require_sound(command)
     registry = Registry(command.output)
     assets = _wanted(read_registry(command.output), command)
-    records: dict[str, SolveRecord] = {
-        each.id: read_record(command.output, each.id, each.digest) for each in assets.values()
-    }
+    records: dict[str, SolveRecord] = {}
+    for asset in assets.values():
+        records[asset.id] = read_record(command.output, asset.id, asset.digest)
     progress = Progress()
     for robot in ROBOTS if command.robot == "any" else (command.robot,):
         missing = [
@@ -106,15 +106,15 @@ def run(command: Solve) -> int:
 
 
 def _require_sound(command: Solve) -> None:
-    from ..jobs.pages import require_libraries
+    from ..jobs.pages import missing_library
 
     if command.robot not in (*ROBOTS, "any"):
         known = ", ".join((*ROBOTS, "any"))
         raise ConfigError(f"--robot: no robot {command.robot!r}; want one of {known}")
     check_effort(command, ("workers", "tries"))
     require_maniskill("solving wants")
-    if command.video:
-        require_libraries("--video: ")
+    if command.video and (missing := missing_library()) is not None:
+        raise ConfigError(f"--video: {missing}")
 
 
 def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, RegisteredAsset]:

@@ -18,10 +18,14 @@ __all__ = ["Budget", "Call", "Executor", "LocalExecutor", "run_builds"]
 
 
 def run_builds(
-    inputs: Sequence[Path], output: Path, config: BuildConfig, workers: int = 1
+    inputs: Sequence[Path],
+    output: Path,
+    config: BuildConfig,
+    workers: int = 1,
+    budget: Budget | None = None,
 ) -> Iterator[Result]:
     """Build every input on this machine; yield results as they come."""
     # Geometry libraries load only to build.
     from .job import Job
 
-    return Job(inputs, output, config, LocalExecutor(workers, config.retries)).run()
+    return Job(inputs, output, config, LocalExecutor(workers, config.retries), budget).run()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -62,12 +61,16 @@ def parse_since(text: str, now: float | None = None) -> float:
     Raises:
         ConfigError: it is none of these.
     """
-    with suppress(ValueError):
+    try:
         ago = float(text)
-        if ago >= 0.0:
-            return (time() if now is None else now) - ago
-    with suppress(ValueError):
+    except ValueError:
+        ago = float("nan")
+    if ago >= 0.0:
+        return (time() if now is None else now) - ago
+    try:
         return datetime.fromisoformat(text).timestamp()
+    except ValueError:
+        pass
     try:
         return Path(text).stat().st_mtime
     except OSError as error:

@@ -7,7 +7,6 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
-from itertools import islice
 from queue import SimpleQueue
 from threading import Event, Thread
 from typing import Any, Generic, TypeVar
@@ -24,22 +23,25 @@ from .executor import AHEAD, Call, UnderWay
 
 T = TypeVar("T")
 
-#: Calls after which a worker is replaced, and the memory that has it replaced at once [bytes].
-CALLS = 50
-RESIDENT_BYTES = 2 * 1024**3
-
 
 @dataclass(frozen=True)
 class LocalExecutor:
     """Worker processes on this machine, kept from call to call.
 
-    ``retries`` are further tries of a call that crashed, hung or ran out of memory, each in a new
-    process. After so many ``calls`` a worker is replaced: native libraries leak with every input.
+    Attributes:
+        workers: calls under way at once.
+        retries: further tries of a call that crashed, hung or ran out of memory, each in a new
+            process.
+        calls: after so many a worker is replaced by a new one: native libraries leak a little with
+            every input.
+        resident_bytes: a worker that holds more memory than this after a call is replaced at once
+            [bytes].
     """
 
     workers: int
     retries: int = 1
-    calls: int = CALLS
+    calls: int = 50
+    resident_bytes: int = 2 * 1024**3
     _pools: list[_WorkerPool[Any]] = field(default_factory=list, compare=False, repr=False)
 
     def under_way(self) -> tuple[UnderWay, ...]:
@@ -58,12 +60,17 @@ class LocalExecutor:
         pool: _WorkerPool[T] = _WorkerPool(self, function, limits)
         self._pools[:] = [pool]
         waiting = iter(calls)
+        ends = False
         under_way = 0
         try:
             while True:
-                for call in islice(waiting, AHEAD * self.workers - under_way):
-                    pool.ask(call)
-                    under_way += 1
+                while not ends and under_way < AHEAD * self.workers:
+                    call = next(waiting, None)
+                    if call is None:
+                        ends = True
+                    else:
+                        pool.ask(call)
+                        under_way += 1
                 if not under_way:
                     return
                 answered = pool.answer()
@@ -80,7 +87,9 @@ class _WorkerPool(Generic[T]):
     def __init__(self, executor: LocalExecutor, function: Callable[..., T], limits: Limits) -> None:
         self._function = function
         self._limits = limits
-        self._executor = executor
+        self._retries = executor.retries
+        self._most = executor.workers
+        self._settings = (executor.calls, executor.resident_bytes)
         self._todo: SimpleQueue[Call | None] = SimpleQueue()
         self._done: SimpleQueue[tuple[Call, Outcome[T]]] = SimpleQueue()
         self._dismissed = Event()
@@ -88,8 +97,8 @@ class _WorkerPool(Generic[T]):
         self._making: dict[WarmChild, str] = {}
 
     def ask(self, call: Call) -> None:
-        if len(self._members) < self._executor.workers:
-            child = WarmChild(self._executor.calls, RESIDENT_BYTES)
+        if len(self._members) < self._most:
+            child = WarmChild(*self._settings)
             name = f"build-{len(self._members)}"
             thread = Thread(target=self._serve, args=(child,), name=name, daemon=True)
             self._members.append((thread, child))
@@ -122,13 +131,16 @@ class _WorkerPool(Generic[T]):
             yield UnderWay(name, child.place)
 
     def _tried(self, child: WarmChild, call: Call) -> Outcome[T]:
+        def wanted() -> bool:
+            return call.wanted() and not self._dismissed.is_set()
+
         return tried(
             child,
             partial(self._function, **call.arguments),
             self._limits,
-            retries=self._executor.retries,
+            retries=self._retries,
             until=call.until,
-            wanted=lambda: call.wanted() and not self._dismissed.is_set(),
+            wanted=wanted,
         )
 
 

@@ -38,9 +38,14 @@ def free_memory(proc: Path = PROC, groups: Path = GROUPS) -> int | None:
 
     ``None`` where nothing says.
     """
-    machine = _named(proc / "meminfo", "MemAvailable:")
-    of_machine = () if machine is None else (1024 * machine,)
-    return min((*of_machine, *_of_groups(proc, groups)), default=None)
+    return min((*_of_machine(proc), *_of_groups(proc, groups)), default=None)
+
+
+def _of_machine(proc: Path) -> Iterator[int]:
+    with suppress(OSError, ValueError, IndexError):
+        for line in (proc / "meminfo").read_text().splitlines():
+            if line.startswith("MemAvailable:"):
+                yield 1024 * int(line.split()[1])
 
 
 def _of_groups(proc: Path, groups: Path) -> Iterator[int]:
@@ -72,17 +77,16 @@ def _left(group: Path, limit: str, used: str, unused: str) -> Iterator[int]:
         if most < NO_LIMIT:
             taken = int((group / used).read_text())
             # Files that were read are counted, and given up when memory runs short.
-            yield max(0, most - taken + (_named(group / "memory.stat", unused) or 0))
+            yield max(0, most - taken + _named(group / "memory.stat", unused))
 
 
-def _named(file: Path, name: str) -> int | None:
-    """Return the number after a name that begins a line."""
-    with suppress(OSError, ValueError, IndexError):
+def _named(file: Path, name: str) -> int:
+    with suppress(OSError, ValueError):
         for line in file.read_text().splitlines():
             words = line.split()
             if words[0] == name:
                 return int(words[1])
-    return None
+    return 0
 
 
 def _gib(number: int) -> str:

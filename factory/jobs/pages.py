@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -19,17 +20,32 @@ LIMITS = Limits(wall_s=180.0)
 LIBRARIES = ("embreex", "jinja2", "PIL")
 
 
-def require_libraries(flag: str = "") -> None:
-    """Raise ConfigError, ``flag`` before it, for what the report needs and is not installed."""
+@dataclass(frozen=True)
+class PagesDrawn:
+    """The pages drawn.
+
+    Attributes:
+        index: the first page.
+        drawn: pages that were written.
+        failed: assets whose page could not be drawn, each with the reason.
+    """
+
+    index: Path
+    drawn: int
+    failed: tuple[str, ...] = ()
+
+
+def missing_library() -> str | None:
+    """Return what the report needs and is not installed, as a sentence."""
     for library in LIBRARIES:
         if find_spec(library) is None:
-            needed = f"the report needs {library}: pip install 'asset-factory[build]'"
-            raise ConfigError(f"{flag}{needed}")
+            return f"the report needs {library}: pip install 'asset-factory[build]'"
+    return None
 
 
 def draw_pages(
     registry: Registry, workers: int, progress: Callable[[int, int], None] | None = None
-) -> tuple[Path, list[str]]:
+) -> PagesDrawn:
     """Write or renew the site of a registry, which others may use meanwhile.
 
     ``progress`` is told how many pages are done, of how many.
@@ -38,7 +54,9 @@ def draw_pages(
         ConfigError: a library is missing.
         OSError: the site cannot be written.
     """
-    require_libraries()
+    missing = missing_library()
+    if missing is not None:
+        raise ConfigError(missing)
     old = tuple(stale(registry))
     calls = [Call(entry.id, {"root": registry.root, "entry": entry}) for entry in old]
     failed = []
@@ -50,4 +68,5 @@ def draw_pages(
             failed.append(f"{call.name}: {outcome.detail}")
         if progress is not None:
             progress(done, len(calls))
-    return write_index(registry), sorted(failed)
+    index = write_index(registry)
+    return PagesDrawn(index, len(calls) - len(failed), tuple(sorted(failed)))

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any, NoReturn
+from typing import NoReturn
 
 ENDING = (signal.SIGINT, signal.SIGTERM)
 
@@ -30,9 +30,17 @@ def interruptible(first: Callable[[], None] | None = None) -> Iterator[None]:
         if first is not None:
             first()
 
-    interrupted = signal.getsignal(signal.SIGINT) if first is None else begun
-    with _handled({signal.SIGTERM: _terminated, signal.SIGINT: interrupted}):
+    before = {
+        signal.SIGTERM: signal.signal(signal.SIGTERM, _terminated),
+        signal.SIGINT: signal.getsignal(signal.SIGINT),
+    }
+    if first is not None:
+        signal.signal(signal.SIGINT, begun)
+    try:
         yield
+    finally:
+        for ending, handler in before.items():
+            signal.signal(ending, handler)
 
 
 @contextmanager
@@ -42,23 +50,16 @@ def undisturbed() -> Iterator[None]:
         yield
         return
     came: list[int] = []
-    try:
-        with _handled(dict.fromkeys(ENDING, lambda number, _: came.append(number))):
-            yield
-    finally:
-        if came:
-            signal.raise_signal(signal.Signals(came[0]))
-
-
-@contextmanager
-def _handled(handlers: Mapping[signal.Signals, Any]) -> Iterator[None]:
-    """Have signals handled so within this, and as before afterwards."""
-    before = {ending: signal.signal(ending, handler) for ending, handler in handlers.items()}
+    before = {
+        ending: signal.signal(ending, lambda number, _: came.append(number)) for ending in ENDING
+    }
     try:
         yield
     finally:
         for ending, handler in before.items():
             signal.signal(ending, handler)
+        if came:
+            signal.raise_signal(signal.Signals(came[0]))
 
 
 def _terminated(number: int, frame: FrameType | None) -> NoReturn:

@@ -6,7 +6,7 @@ import json
 import os
 import platform
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
@@ -40,8 +40,10 @@ def read_journal(path: Path) -> tuple[NightResult, ...]:
     """Return all whole lines of a journal, in their order; empty if there is none."""
     attempts = []
     for line in path.read_bytes().splitlines() if path.is_file() else ():
-        with suppress(ValueError, AttributeError, TypeError):
+        try:
             attempts.append(attempt_from(json.loads(line)))
+        except (ValueError, AttributeError, TypeError):
+            continue
     return tuple(attempts)
 
 

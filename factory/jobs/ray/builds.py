@@ -14,6 +14,14 @@ from .inputs import Inputs
 from .network import Asked
 from .weights import Checkpoints
 
+#: Arguments of :func:`~..worker.build_here`.
+STAGING = "staging"
+CACHE = "cache"
+ADDRESS = "address"
+SOURCE = "source"
+PLACE = "place"
+WEIGHTS = "weights"
+
 
 def ray_executor(
     config: BuildConfig, *, workers: int | None = None, address: str = LOCAL, exchange: str = ""
@@ -27,16 +35,15 @@ def ray_executor(
     network = config.particulate
     named = (network.checkpoint, network.features)
     learned = entry_of(config.articulator).asks_network
-    # The words are arguments of :func:`~..worker.build_here`.
     return RayExecutor(
         workers=workers,
         address=address,
         retries=config.retries,
         modules=modules_for(config),
-        exchange=Exchange("staging", exchange, absent=("cache",)),
-        network=Asked(network, "address") if learned else None,
-        inputs=Inputs("source", "place", files_of) if exchange else None,
-        weights=Checkpoints("weights", named) if exchange and learned else None,
+        exchange=Exchange(STAGING, exchange, absent=(CACHE,)),
+        network=Asked(network, ADDRESS) if learned else None,
+        inputs=Inputs(SOURCE, PLACE, files_of) if exchange else None,
+        weights=Checkpoints(WEIGHTS, named) if exchange and learned else None,
     )
 
 

@@ -7,19 +7,17 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from itertools import islice
 from typing import Any, Generic, TypeVar
 
 from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome
 
 from ..executor import AHEAD, Call
-from ..local import CALLS, RESIDENT_BYTES
 from .alike import LEAST_FREE, difference, looking_first, versions
 from .cluster import LOCAL, ClusterLost, connected
 from .exchange import FULL, Exchange, Transfer
 from .inputs import Inputs, PackedInput
 from .network import Asked, Networks
-from .nodes import FULL_S, Nodes
+from .nodes import FULL_S, Nodes, say
 from .weights import Checkpoints, sent_weights
 from .worker import Order, WorkerSettings
 
@@ -29,8 +27,6 @@ T = TypeVar("T")
 LOOK_S = 2.0
 #: How long an answer that is there may take to be fetched [s].
 FETCH_S = 120.0
-#: How often a call may be lost with its node, or with Ray's process, and is made again elsewhere.
-LOSSES = 3
 
 
 @dataclass(frozen=True)
@@ -42,21 +38,35 @@ class RayExecutor:
             it grows.
         address: ``local`` for a cluster of this machine's own; ``auto`` or ``host:port`` for one
             that runs.
-        retries, modules: as :class:`.worker.WorkerSettings` has them.
+        processors: that one call takes.
+        memory_bytes: that one call takes, by which Ray places it [bytes]; 0: Ray does not look.
+        retries, calls, resident_bytes: as :class:`~.local.LocalExecutor`.
+        losses: how often a call may be lost with its node, or with Ray's process, and is made again
+            elsewhere.
+        modules: what every child needs, imported once per process of Ray's.
         exchange: how folders that calls fill come back; ``None`` where calls fill none.
         network: that calls ask; ``None`` where they ask none, or each its own.
-        inputs, weights: how they are sent along, which takes an exchange by URL; ``None`` where
-            nodes see them.
+        inputs: how they are sent along; ``None`` where nodes see them. Takes an exchange by URL.
+        weights: checkpoints that are sent along; ``None`` where nodes see them. As above.
+        least_free: a node with less room for temporary files is given no work for a while [bytes].
+        say: told, in a sentence, of each node that is given no work, and why.
     """
 
     workers: int | None = None
     address: str = LOCAL
+    processors: float = 1.0
+    memory_bytes: int = 0
     retries: int = 1
+    calls: int = 50
+    resident_bytes: int = 2 * 1024**3
+    losses: int = 3
     modules: tuple[str, ...] = ()
     exchange: Exchange | None = None
     network: Asked | None = None
     inputs: Inputs | None = None
     weights: Checkpoints | None = None
+    least_free: int = LEAST_FREE
+    say: Callable[[str], None] = say
 
     def run(
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits
@@ -70,11 +80,15 @@ class RayExecutor:
         with connected(self.address, self.workers) as ray:
             tasks: _Tasks[T] = _Tasks(self, ray, function, limits)
             waiting = iter(calls)
+            ends = False
             try:
                 while True:
                     tasks.look()
-                    for call in islice(waiting, max(0, tasks.most() - len(tasks))):
-                        tasks.start(_Task(call))
+                    while not ends and len(tasks) < tasks.most():
+                        call = next(waiting, None)
+                        ends = call is None
+                        if call is not None:
+                            tasks.start(_Task(call))
                     if not len(tasks):
                         return
                     tasks.drop_unwanted()
@@ -107,9 +121,15 @@ class _Tasks(Generic[T]):
         self._ray = ray
         self._function = function
         self._limits = limits
+        room: dict[str, Any] = {"num_cpus": executor.processors, "max_retries": 0}
+        if executor.memory_bytes:
+            room["memory"] = executor.memory_bytes
         self._work = ray.remote(looking_first())
-        self._nodes = Nodes(ray)
-        self._settings = WorkerSettings(executor.retries, CALLS, RESIDENT_BYTES, executor.modules)
+        self._room_of_one = room
+        self._nodes = Nodes(ray, executor.say)
+        self._settings = WorkerSettings(
+            executor.retries, executor.calls, executor.resident_bytes, executor.modules
+        )
         self._under_way: dict[Any, _Task] = {}
         self._failed: list[tuple[Call, Outcome[T]]] = []
         self._weights = sent_weights(ray, executor.weights)
@@ -126,7 +146,8 @@ class _Tasks(Generic[T]):
         if time.monotonic() - self._looked <= LOOK_S:
             return
         self._looked = time.monotonic()
-        self._room = max(1, int(self._asked(self._ray.cluster_resources).get("CPU", 0.0)))
+        processors = self._asked(self._ray.cluster_resources).get("CPU", 0.0)
+        self._room = max(1, int(processors / self._executor.processors))
         self._asked(self._nodes.require_fit)
         self._asked(self._nodes.hang_up)
         if self._networks is not None:
@@ -167,8 +188,8 @@ class _Tasks(Generic[T]):
     def _handed_over(self, order: Order, node: str, data: bytes) -> Any:
         """Return Ray's reference to a call that was handed over."""
         packed = self._ray.cloudpickle.dumps(order)
-        placed = self._work.options(num_cpus=1, max_retries=0, **self._nodes.options(node))
-        return placed.remote(packed, versions(), LEAST_FREE, data, self._weights)
+        placed = self._work.options(**self._room_of_one, **self._nodes.options(node))
+        return placed.remote(packed, versions(), self._executor.least_free, data, self._weights)
 
     def drop_unwanted(self) -> None:
         """Have Ray begin none of the calls that nobody wants any more; those that run go on."""
@@ -226,7 +247,7 @@ class _Tasks(Generic[T]):
         self._dropped(task)
         if task.node:
             self._nodes.died(task.node, task.call.name)
-        if task.number < LOSSES:
+        if task.number < self._executor.losses:
             node = self._asked(self._nodes.next)
             self.start(replace(task, number=task.number + 1, node=node))
             return None
@@ -262,8 +283,8 @@ class _Tasks(Generic[T]):
             self._nodes.set_aside(node, f"it has {difference(versions(), answer)}{same}")
         else:
             room = f"{answer / 1e6:.0f} MB are free for temporary files"
-            few = answer < LEAST_FREE
-            want = f"want {LEAST_FREE / 1e6:.0f}" if few else "too few for an input"
+            few = answer < self._executor.least_free
+            want = f"want {self._executor.least_free / 1e6:.0f}" if few else "too few for an input"
             self._nodes.set_aside(node, f"{room}, {want}", FULL_S)
         self.start(replace(task, node=""))
 

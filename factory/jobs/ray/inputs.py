@@ -5,12 +5,13 @@ from __future__ import annotations
 import errno
 import hashlib
 import io
+import shutil
 import tarfile
+import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from asset_factory.sim_checks.processes.scratch import scratch
@@ -52,12 +53,11 @@ class SentInput:
         """
         if hashlib.sha256(data).hexdigest() != self.digest:
             raise ExchangeError("an input is not the one that was sent: its digest is another")
-        with TemporaryDirectory(
-            prefix="input-", dir=scratch(), ignore_cleanup_errors=True
-        ) as around:
-            # One folder more, for a folder may be called "..".
-            folder = Path(around) / "in" / self.folder
-            (Path(around) / "in").mkdir()
+        around = Path(tempfile.mkdtemp(prefix="input-", dir=scratch()))
+        # One folder more, for a folder may be called "..".
+        folder = around / "in" / self.folder
+        try:
+            (around / "in").mkdir()
             folder.mkdir(exist_ok=True)
             with tarfile.open(fileobj=io.BytesIO(data), mode="r:") as archive:
                 unpacked(archive, folder)
@@ -65,6 +65,8 @@ class SentInput:
                 (folder / name).parent.mkdir(parents=True, exist_ok=True)
                 (folder / name).symlink_to(_NOWHERE)
             yield folder / self.name
+        finally:
+            shutil.rmtree(around, ignore_errors=True)
 
 
 @dataclass(frozen=True)

@@ -122,9 +122,7 @@ class NodeSocket:
         self._own = NodeNetwork(config, weights)
         os.makedirs(Path(path).parent, mode=0o700, exist_ok=True)
         # Nodes that are one machine share its socket.
-        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
-            somebody_listens = probe.connect_ex(path) == 0
-        if not somebody_listens:
+        if not _somebody_listens(path):
             threading.Thread(
                 target=answer_all, args=(listening_socket(path), self._answer), daemon=True
             ).start()
@@ -143,3 +141,8 @@ class NodeSocket:
             return relayed
         except Exception as error:  # noqa: BLE001 - who asks will ask at home
             return refusal(error)
+
+
+def _somebody_listens(path: str) -> bool:
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
+        return probe.connect_ex(path) == 0

@@ -94,7 +94,7 @@ def require(found, name, linear):
             if point is not None:
                 off = joint.origin - linear @ np.array(point, dtype=float)
                 off = off - (off @ joint.axis) * joint.axis
-                if np.linalg.norm(off) > 0.03 * size:
+                if np.linalg.norm(off) > 0.04 * size:
                     continue
             match = index
         assert match is not None, joint
@@ -116,7 +116,8 @@ def test_what_does_not_open_stays_rigid_and_says_what_it_looks_like(name):
 
 
 def test_the_lid_of_a_bin_opens_upwards():
-    found = articulated(sample("bin_with_lid"))
+    # It is seen on all sides, but less probable than what is opened by default.
+    found = replace(watcher(), least=0.2).articulate(sample("bin_with_lid"))
     (joint,) = found.joints
     assert joint.kind is HINGED
     lid = found.part_mesh(1)
