@@ -9,10 +9,11 @@ import torch  # noqa: TID253 - this module is only imported to train
 
 from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.models.detector.canvas import OPENING, SIDES, SORTS
-from asset_factory.factory.models.detector.decode import Found, found_parts, overlaps, shared_areas
+from asset_factory.factory.models.detector.decode import Found, found_parts, overlaps
 from asset_factory.factory.models.detector.detect import dense_of
 from asset_factory.factory.models.detector.network import cues_of
 
+from .sides import Instances
 from .stream import Pool
 
 #: Scores from which on parts count.
@@ -81,14 +82,8 @@ def compared(found: list[Found], table: FloatArray) -> Any:
             counts[sort, 1] += 1
             way = found[fits[0]].ways.argmax()
             counts[sort, 2] += int(row[7] < 0 or way == int(row[7]))
+    known = Instances.of(table)
     for number, part in enumerate(found):
-        if free[number] and not _excused(part, table):
+        if free[number] and not known.knows_nothing_of(SIDES.index(part.side), part.box):
             counts[SORTS.index(part.sort), 3] += 1
     return counts
-
-
-def _excused(part: Found, table: FloatArray) -> bool:
-    """Tell whether a part is found where nothing is known."""
-    half = 0.5 * float(np.prod(part.box[2:] - part.box[:2]))
-    there = (row for row in table if row[9] > 0 and SIDES.index(part.side) == int(row[0]))
-    return any(float(shared_areas(part.box, row[None, 1:5])[0]) >= half for row in there)

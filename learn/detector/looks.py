@@ -113,7 +113,7 @@ class Drawing:
         return self.each(0.0, 1.0) < share
 
     def wavy(self, cells: int) -> Tensor:
-        """Return smooth random fields of standard deviation 1/2 or so, [flat, rows, columns]."""
+        """Return smooth random fields of standard deviation 1/2 or so, [views, rows, columns]."""
         knots = self.normal(self.views, 1, cells, cells)
         field = functional.interpolate(knots, (CANVAS, CANVAS), mode="bicubic", align_corners=False)
         return 0.6 * field[:, 0]

@@ -115,9 +115,9 @@ def _sides_of(plane: str) -> tuple[Side, ...]:
     }[plane]  # fmt: skip
 
 
-def _on(side: Side, entry: Mapping[str, Any]) -> tuple[float, float, float, float]:
+def _on(side: Side, box: Sequence[float]) -> tuple[float, float, float, float]:
     """Return an entry's box in shares of a side's picture."""
-    u0, v0, u1, v1 = entry["box"]
+    u0, v0, u1, v1 = box
     return (1.0 - u1, v0, 1.0 - u0, v1) if _is_mirrored(side) else (u0, v0, u1, v1)
 
 
@@ -153,7 +153,7 @@ def _parts(entry: Mapping[str, Any], front: Side) -> list[LabelledPart]:
     else:
         sort = Sort.FLAP
         hinge = _edge(hinges, "z", entry["box"][1::2], ("bottom", "top"))
-    return [LabelledPart(side, sort, _on(side, entry), hinge)]
+    return [LabelledPart(side, sort, _on(side, entry["box"]), hinge)]
 
 
 def _edge(
@@ -167,7 +167,7 @@ def _edge(
 
 
 def _unsure(entry: Mapping[str, Any], sides: Sequence[Side]) -> list[LabelledPart]:
-    return [LabelledPart(each, Sort.OTHER, _on(each, entry), unsure=True) for each in sides]
+    return [LabelledPart(each, Sort.OTHER, _on(each, entry["box"]), unsure=True) for each in sides]
 
 
 def _lid_parts(
@@ -183,7 +183,7 @@ def _lid_parts(
     for side in SIDES:
         shown = (0.0, low, 1.0, high)
         if side in sides:
-            shown = _on(side, {"box": box})
+            shown = _on(side, box)
         elif side is Side.TOP:
             across = sides[0] in (Side.LEFT, Side.RIGHT)
             shown = (0.0, left, 1.0, right) if across else (left, 0.0, right, 1.0)

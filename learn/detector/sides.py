@@ -22,6 +22,7 @@ from asset_factory.factory.models.detector.canvas import (
     Sort,
     look_at,
 )
+from asset_factory.factory.models.detector.decode import shared_areas
 from asset_factory.factory.views.raster import Raster, Side
 
 #: A part that turns as a panel fills so much of its box; a lid covers so much of the top.
@@ -72,6 +73,11 @@ class Instances:
             whole[:, 0], table[:, 1:5], whole[:, 5], whole[:, 6], whole[:, 7], table[:, 8],
             table[:, 9] > 0.0,
         )  # fmt: skip
+
+    def knows_nothing_of(self, view: int, box: FloatArray) -> bool:
+        """Tell whether half of a box on a side, shape [4], is where nothing is learned."""
+        shared = shared_areas(box, self.box[self.ignored & (self.view == view)])
+        return bool((shared >= 0.5 * float(np.prod(box[2:] - box[:2]))).any())
 
     def table(self) -> npt.NDArray[np.float32]:
         """Return all columns side by side, shape [n, 10]."""

@@ -96,7 +96,7 @@ def train(options: Any) -> None:
     for each in makers:
         each.stop()
     if options.start:
-        # Weights part of the way are as good, and surer of what is unlike all that was learned
+        # Weights part of the way are as good, and surer of meshes unlike all that they learned
         # from (Wortsman et al., Robust fine-tuning of zero-shot models, CVPR 2022).
         _follow(kept, _begun(options).to(device), options.share)
     _keep(kept, options.out)

@@ -21,7 +21,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.stated import Stated
 from asset_factory.factory.mesh import FloatArray, Mesh
 from asset_factory.factory.models.detector.canvas import SIDES, SORTS, STRIDE, Sort, look_at
-from asset_factory.factory.models.detector.decode import overlaps, shared_areas
+from asset_factory.factory.models.detector.decode import overlaps
 from asset_factory.factory.models.detector.detect import Detection, detect
 from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
@@ -178,7 +178,6 @@ def _right(
         known = here & wanted & ~truth.ignored
         if known.any() and float(overlaps(box, truth.box[known]).max()) >= SAME_PART:
             return True
-        unknown = shared_areas(box, truth.box[here & truth.ignored])
-        if unknown.size and float(unknown.max()) >= SAME_PART * float(np.prod(box[2:] - box[:2])):
+        if truth.knows_nothing_of(view, box):
             return None
     return False
