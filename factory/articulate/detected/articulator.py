@@ -11,7 +11,7 @@ from msgspec import structs
 
 from ...articulation import Articulation, Joint, JointKind, Weights
 from ...errors import InputRejected
-from ...geometry.posing import rotated
+from ...geometry.posing import posed, rotated
 from ...intake.stated import Hinge, Stated, StatedAlternative, StatedKind, StatedPart
 from ...mesh import Mesh
 from ...models.detector.canvas import Sort, look_at
@@ -32,6 +32,7 @@ from .agreement import Agreement
 from .merging import HINGE_OF, DetectedPart, likely_hinges, seen_parts
 from .panels import panels_of
 from .rating import CARRIED, CellParts, support_of_box
+from .screens import open_screen
 
 if TYPE_CHECKING:
     from ...models.detector.detect import Detection
@@ -50,6 +51,8 @@ STRANGE = frozenset({"gadget", "window", "box", "door"})
 #: The line that a lid turns about is this far from its middle to its side, and so square to it.
 AT_SIDE = 0.5
 LEVEL = 0.3
+#: Of this kind the screen is looked for where it stands open.
+LAPTOP = "laptop"
 #: From this probability on the kind of the object is believed: of 102 held-out meshes 85 are.
 SURE_KIND = 0.9
 #: Parts that are told of those that are seen and left fixed.
@@ -98,6 +101,9 @@ class DetectedArticulator:
         from ...models.detector.detect import detect
 
         detection = detect(mesh)
+        sure_kind = detection.kind if detection.kinds.max() >= SURE_KIND else None
+        if sure_kind == LAPTOP and (made := _with_screen(mesh, float(detection.kinds.max()))):
+            return [self._noted(each, sure_kind) for each in made]
         least = self.agreement.least if self.least is None else self.least
         seen = seen_from(mesh, Stated().front)
         rated = self._rated(detection, seen)
@@ -120,17 +126,19 @@ class DetectedArticulator:
             self._still(mesh, guess, detection)
         ]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])
-        looks_like = detection.kind if detection.kinds.max() >= SURE_KIND else None
-        return [
-            replace(
-                each,
-                articulator=self.name,
-                notes=(*notes, *each.notes),
-                weights=(*each.weights, *self.weights),
-                looks_like=looks_like,
-            )
-            for each in open_
-        ]
+        return [self._noted(each, sure_kind, notes) for each in open_]
+
+    def _noted(
+        self, made: Articulation, kind: str | None, notes: tuple[str, ...] = ()
+    ) -> Articulation:
+        """Return an articulation with who made it, what it looks like and notes."""
+        return replace(
+            made,
+            articulator=self.name,
+            notes=(*notes, *made.notes),
+            weights=(*made.weights, *self.weights),
+            looks_like=kind,
+        )
 
     def _rated(self, detection: Detection, seen: SeenMesh) -> list[DetectedPart]:
         """Return the parts that the detector sees alone, the surest first."""
@@ -221,6 +229,22 @@ class DetectedArticulator:
         sure = f"with probability {detection.kinds.max():.2f}"
         opens = f"it has something to open with probability {detection.opens:.2f}"
         return rigid_articulation(mesh, self.name, (f"{looks} {sure}; {opens}", *guess.notes))
+
+
+def _with_screen(mesh: Mesh, chance: float) -> list[Articulation]:
+    """Return what a laptop with an open screen may be, in the pose that it is drawn in."""
+    screen = open_screen(mesh)
+    if screen is None:
+        return []
+    said = Stated(parts=(screen,))
+    stated = StatedArticulator(said, proposer=Proposer.DETECTOR, chances=(chance,))
+    try:
+        hypotheses = stated.hypotheses(mesh)
+    except InputRejected:
+        return []
+    note = f"its screen stands open by {screen.drawn:.0f} degrees in the mesh: its joint closes it"
+    made = [replace(each.articulation, notes=(note,)) for each in hypotheses]
+    return [posed(each, {joint.name: joint.upper for joint in each.joints}) for each in made]
 
 
 def _hinged(part: DetectedPart, seen: SeenMesh) -> StatedPart:

@@ -48,8 +48,8 @@ def lid_openings(fronts: Mapping[Side, Front], part: StatedBox) -> list[OpeningP
         mover = lid_mover(fronts, row, each)
         region = mover.region.within(bounds)
         if part.stated.drawn is not None:
-            # One that stands open may lean out beyond the body that it is hinged on.
-            mover = _hung(fronts[each], mover, slice(max(row - BESIDE, 0), row))
+            # One that stands open turns where its inner face begins, seen from across.
+            mover = _hung(fronts[OPPOSITE[each]], mover, slice(row + 1, row + BESIDE))
         elif len(bounds.offsets):
             mover = _hung(fronts[each], mover, slice(row + 1, row + BESIDE), bounds)
         found.append(replace(mover, region=region))

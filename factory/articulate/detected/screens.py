@@ -1,0 +1,56 @@
+"""Laptops that are drawn open: where the screen begins, and how far it is turned up."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...intake.stated import StatedKind, StatedPart
+from ...mesh import FloatArray, Mesh
+from ...views.raster import side_facing
+from ..evidence.body import REST_SURFELS
+from ..evidence.surfels import spread
+from ..seams.fronts import OPPOSITE
+from .merging import HINGE_OF
+
+#: Levels that the surface is sorted into.
+LEVELS = 50
+#: A level of the screen is narrower than this share of the base, along one axis.
+NARROW = 0.5
+#: A screen is at most so thick beside its height.
+THICKEST = 0.2
+
+
+def open_screen(mesh: Mesh) -> StatedPart | None:
+    """Return the screen of a laptop that is drawn open, as a person would state it.
+
+    That is what stands on the base if it is a plate; ``None`` where nothing is, as on a closed one.
+    """
+    points = spread(mesh.vertices[mesh.faces], REST_SURFELS).points
+    low, high = mesh.bounds
+    shares = (points[:, 2] - low[2]) / (high[2] - low[2])
+    level = np.minimum((shares * LEVELS).astype(np.int64), LEVELS - 1)
+    widths = np.zeros((LEVELS, 2))
+    for each in np.unique(level):
+        widths[each] = np.ptp(points[level == each, :2], axis=0)
+    base = widths[: LEVELS // 2].max(axis=0)
+    first = int(np.flatnonzero((widths >= NARROW * base).all(axis=1)).max()) + 1
+    screen = points[level >= first]
+    if first > LEVELS // 2 or not len(screen):
+        return None
+    middle = screen.mean(axis=0)
+    _, spans, axes = np.linalg.svd(screen - middle, full_matrices=False)
+    if spans[2] > THICKEST * spans[1]:
+        return None
+    foot, up = _rising(middle, axes[2], float(low[2] + first / LEVELS * (high[2] - low[2])))
+    side = side_facing((foot - points[level < first].mean(axis=0)) * [1.0, 1.0, 0.0])
+    opened = float(np.degrees(np.arccos(up @ side.frame[2])))
+    # From across, the base's top is a step in depth before the screen.
+    box = (0.0, first / LEVELS, 1.0, 1.0)
+    return StatedPart(StatedKind.LID, OPPOSITE[side], box, HINGE_OF[side], drawn=opened)
+
+
+def _rising(middle: FloatArray, normal: FloatArray, height: float) -> tuple[FloatArray, FloatArray]:
+    """Return the point of a plane at a height [m] straight below its middle, and its way up."""
+    up = np.array([0.0, 0.0, 1.0]) - normal[2] * normal
+    up /= np.linalg.norm(up)
+    return middle - (middle[2] - height) / up[2] * up, up
