@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry.edges import label_linked
-from ...geometry.pieces import Sheet, pieces
 from ...geometry.rows import distinct_rows
 from ...mesh import FloatArray, IntArray
 
@@ -135,11 +134,6 @@ class Surface:
         ends = np.argsort(~shared, axis=1, kind="stable")[:, :2]
         first, last = self.vertices[np.take_along_axis(one, ends, axis=1)].transpose(1, 0, 2)
         return np.asarray(np.linalg.norm(last - first, axis=1))
-
-    @cached_property
-    def pieces(self) -> IntArray:
-        """Return the number of each face's piece, [face_count]: components, or patches."""
-        return pieces(Sheet(self.areas, self.normals, self.neighbours, self.borders))
 
     @cached_property
     def reconstructed(self) -> bool:
