@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -74,25 +75,22 @@ class Model:
     _network: Any = field(repr=False)
     upright: bool = False
 
-    def predict(
-        self, cloud: PointCloud, *, driving: int | None = None, hypothesis: int = 0
-    ) -> Prediction:
+    def predict(self, cloud: PointCloud, *, driving: int | None = None) -> Prediction:
         """Return what the network says about a cloud.
 
         Args:
             cloud: of any size.
             driving: how many of the points the parts are told from, drawn at random but always the
                 same ones; the others are only labelled, for less work. All of them by default.
-            hypothesis: which mask head, for networks with several.
         """
         if driving is not None and driving < len(cloud.points):
             rows = np.random.default_rng(_DRIVING_SEED).permutation(len(cloud.points))[:driving]
-            return self.decode(self.encode(cloud.take(np.sort(rows))), cloud, hypothesis=hypothesis)
+            return self.decode(self.encode(cloud.take(np.sort(rows))), cloud)
         from ..network.streaming import drive
 
         hidden = self._embed(cloud)
         driven = drive(self._network, hidden, self.dtype)
-        return self._read(driven, hidden, driven.updates[-1:], hypothesis)
+        return self._read(driven, hidden, driven.updates[-1:])
 
     def encode(self, cloud: PointCloud) -> Driven:
         """Encode a cloud's parts: enough to label other points of the same surface."""
@@ -101,12 +99,12 @@ class Model:
         driven: Driven = drive(self._network, self._embed(cloud), self.dtype)
         return driven
 
-    def decode(self, driven: Driven, cloud: PointCloud, *, hypothesis: int = 0) -> Prediction:
+    def decode(self, driven: Driven, cloud: PointCloud) -> Prediction:
         """Return what the network says about points, given what others told about the parts.
 
         Every point is answered for alone: more or fewer of them change nothing.
         """
-        return self._read(driven, self._embed(cloud), driven.updates, hypothesis)
+        return self._read(driven, self._embed(cloud), driven.updates)
 
     def _embed(self, cloud: PointCloud) -> Any:
         from ..network.streaming import embed_chunks
@@ -121,14 +119,10 @@ class Model:
         normals = cloud.normals if self.shape.normals else None
         return embed_chunks(self._network, cloud.points, normals, features)
 
-    def _read(
-        self, driven: Driven, hidden: Any, updates: tuple[Any, ...], hypothesis: int
-    ) -> Prediction:
-        from ..network.streaming import PairHead, finish, part_outputs
+    def _read(self, driven: Driven, hidden: Any, updates: tuple[Any, ...]) -> Prediction:
+        from ..network.streaming import PairHead, finish, own_parts, part_outputs
 
-        if not 0 <= hypothesis < self.shape.hypotheses:
-            raise ValueError(f"hypothesis {hypothesis}: this network has {self.shape.hypotheses}")
-        masks = PairHead(self._network.mask_head(hypothesis), driven.queries, self.dtype)
+        masks = PairHead(self._network.mask_head, driven.queries, self.dtype)
         mask_logits = finish(hidden, updates, masks)
         parts = part_outputs(self._network, driven.queries)
         if self.upright:
@@ -137,7 +131,7 @@ class Model:
         closest = None
         if moment is None:
             head = PairHead(self._network.point_motion_decoder, driven.queries, self.dtype)
-            closest = _Closest(hidden, head)
+            closest = partial(own_parts, hidden, head)
         return Prediction(
             mask_logits=mask_logits, closest_points=closest, revolute_moment=moment, **parts
         )
@@ -154,24 +148,6 @@ def _opening(parts: dict[str, Any]) -> dict[str, Any]:
     }
     moment = parts["revolute_moment"]
     return {**parts, **changed, "revolute_moment": None if moment is None else moment * sign}
-
-
-@dataclass(frozen=True)
-class _Closest:
-    """See :class:`.prediction.ClosestPoints`."""
-
-    hidden: Any
-    head: Any
-
-    def __call__(self, part_ids: IntArray, rows: IntArray | None = None) -> Float32Array:
-        from ..network.streaming import own_parts
-
-        if np.shape(part_ids) != (len(self.hidden),):
-            raise ValueError(f"part_ids: shape {np.shape(part_ids)}, want [{len(self.hidden)}]")
-        picked = np.arange(len(self.hidden)) if rows is None else np.asarray(rows, dtype=np.int64)
-        ids = np.asarray(part_ids, dtype=np.int64)
-        found: Float32Array = own_parts(self.hidden, self.head, ids, picked)
-        return found
 
 
 @dataclass(frozen=True)
