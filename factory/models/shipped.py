@@ -12,7 +12,7 @@ from importlib import resources
 from pathlib import Path
 
 from ..mesh import FloatArray
-from .weights.safetensors import read_arrays
+from .weights.safetensors import read_safetensors
 
 FOLDER = "weights"
 
@@ -39,9 +39,13 @@ def load_shipped(file: str) -> Arrays:
 
 
 def load_arrays(file: Path) -> Arrays:
-    """Return a safetensors file of plain arrays.
+    """Return a safetensors file of plain arrays, read-only; imports no torch.
 
     Raises:
-        ConfigError: not such a file, or damaged.
+        ConfigError: not such a file, damaged, or an array of a type that numpy has not.
     """
-    return Arrays(file, *read_arrays(file))
+    stored = read_safetensors(file)
+    arrays = stored.load(framework="numpy")
+    for array in arrays.values():
+        array.setflags(write=False)
+    return Arrays(file, arrays, stored.metadata)
