@@ -79,6 +79,25 @@ class Answering:
         return token
 
 
+class LateAnswering:
+    """Answers by a network loaded at the first question, as the cache may answer all of a job."""
+
+    def __init__(self, load: Callable[[], Answering]) -> None:
+        self._load = load
+        self._loading = threading.Lock()
+        self._answering: Answering | None = None
+
+    def __call__(self, question: bytes) -> bytes:
+        """See :class:`Answering`; a refusal while the network cannot be loaded."""
+        try:
+            with self._loading:
+                if self._answering is None:
+                    self._answering = self._load()
+        except Exception as error:  # noqa: BLE001 - who asks will ask at home
+            return refusal(error)
+        return self._answering(question)
+
+
 def refusal(error: Exception) -> bytes:
     """Return the answer of who has none."""
     return pack(Message("refused", {"why": f"{type(error).__name__}: {error}"[:2000]}))
