@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry.edges import label_linked
-from ...geometry.rows import distinct_rows
+from ...geometry.rows import distinct_rows, weld_points
 from ...mesh import FloatArray, IntArray
 
 BoolArray = npt.NDArray[np.bool_]
@@ -68,14 +68,8 @@ class Surface:
         low = used.min(axis=0)
         high = used.max(axis=0)
         step = WELD_SHARE * max(float((high - low).max()), np.finfo(np.float64).tiny / WELD_SHARE)
-        cells = np.rint((np.clip(vertices, low, high) - low) / step).astype(np.int64)
-        # A coordinate has at most 1e8 steps, 27 bits: two of them fit one sort key.
-        order = np.lexsort((cells[:, 2], (cells[:, 0] << 28) | cells[:, 1]))
-        differs = (np.diff(cells[order], axis=0) != 0).any(axis=1)
-        new = np.concatenate([[True], differs])[: len(order)]
-        group = np.empty(len(vertices), dtype=np.int64)
-        group[order] = np.cumsum(new) - 1
-        return cls(vertices[order[new]], group[faces])
+        first, group = weld_points(np.clip(vertices, low, high), low, step)
+        return cls(vertices[first], group[faces])
 
     @cached_property
     def crosses(self) -> FloatArray:
