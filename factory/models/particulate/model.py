@@ -1,25 +1,32 @@
-"""The network with its weights, ready to answer for a cloud of points."""
+"""The network with its weights, ready to answer for a cloud of points; imports torch."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ...errors import ConfigError
 from ...mesh import Float32Array, IntArray
 from ..network.shape import NetworkShape, Precision, product_dtype, read_shape
+from ..network.streaming import (
+    Driven,
+    PairHead,
+    drive,
+    embed_chunks,
+    finish,
+    own_parts,
+    part_outputs,
+)
+from ..network.transformer import PartArticulationTransformer
 from ..weights.checkpoint import filled, load_tensors, naming, open_checkpoint
 from ..weights.sources import PARTFIELD, fetch
 from .components import COMPONENT_FEATURES, component_features
 from .field import FeatureField
 from .prediction import Prediction
 from .sampling import Cloud
-
-if TYPE_CHECKING:
-    from ..network.streaming import Driven
 
 _DRIVING_SEED = 0
 
@@ -86,16 +93,12 @@ class Model:
         if driving is not None and driving < len(cloud.points):
             rows = np.random.default_rng(_DRIVING_SEED).permutation(len(cloud.points))[:driving]
             return self.decode(self.encode(cloud.take(np.sort(rows))), cloud)
-        from ..network.streaming import drive
-
         hidden = self._embed(cloud)
         driven = drive(self._network, hidden, self.dtype)
         return self._read(driven, hidden, driven.updates[-1:])
 
     def encode(self, cloud: PointCloud) -> Driven:
         """Encode a cloud's parts: enough to label other points of the same surface."""
-        from ..network.streaming import drive
-
         driven: Driven = drive(self._network, self._embed(cloud), self.dtype)
         return driven
 
@@ -107,8 +110,6 @@ class Model:
         return self._read(driven, self._embed(cloud), driven.updates)
 
     def _embed(self, cloud: PointCloud) -> Any:
-        from ..network.streaming import embed_chunks
-
         wanted = self.shape.features
         given = cloud.features
         if wanted and (given is None or given.shape[1] != wanted):
@@ -120,8 +121,6 @@ class Model:
         return embed_chunks(self._network, cloud.points, normals, features)
 
     def _read(self, driven: Driven, hidden: Any, updates: tuple[Any, ...]) -> Prediction:
-        from ..network.streaming import PairHead, finish, own_parts, part_outputs
-
         masks = PairHead(self._network.mask_head, driven.queries, self.dtype)
         mask_logits = finish(hidden, updates, masks)
         parts = part_outputs(self._network, driven.queries)
@@ -205,8 +204,6 @@ def load_model(
     Raises:
         ConfigError: no such checkpoint, or not one of this network.
     """
-    from ..network.transformer import PartArticulationTransformer
-
     stored = open_checkpoint(fetch(checkpoint))
     with naming(stored.file):
         shape = read_shape(stored.shapes, max_parts)

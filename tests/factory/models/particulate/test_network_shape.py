@@ -94,8 +94,8 @@ def test_a_block_number_costs_nothing():
 
 
 def test_no_torch_before_a_model_is_loaded():
-    model = "asset_factory.factory.models.particulate.model"
-    code = f"import sys, {model}; sys.exit('torch' in sys.modules)"
+    loading = "asset_factory.factory.models.particulate.loading"
+    code = f"import sys, {loading}; sys.exit('torch' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
 
 
