@@ -8,13 +8,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 from pathlib import Path
 
 from ..mesh import FloatArray
 from .weights.safetensors import read_safetensors
-
-FOLDER = "weights"
+from .weights.sources import shipped_file
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,9 +31,9 @@ class Arrays:
 
 
 @cache
-def load_shipped(file: str) -> Arrays:
+def load_shipped(name: str) -> Arrays:
     """Return a file of ``configs/weights``. Raises ConfigError: it is damaged."""
-    return load_arrays(Path(str(resources.files("asset_factory") / "configs" / FOLDER / file)))
+    return load_arrays(shipped_file(name))
 
 
 def load_arrays(file: Path) -> Arrays:
