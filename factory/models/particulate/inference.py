@@ -57,14 +57,17 @@ def infer(
         rules: how an answer is read.
 
     Raises:
-        InputRejected: ``zero_size``, ``prediction_not_finite``.
+        InputRejected: ``empty``, ``zero_size``, ``prediction_not_finite``.
         ValueError: there must be at least one point and one sample.
     """
     if points < 1 or context_points < 1 or most_faces < 4 or not 1 <= samples <= MOST_SAMPLES:
         asked = f"{points} points, {context_points} context points, {most_faces} faces, "
         want = f"want at least 1, 1, 4 and 1, and at most {MOST_SAMPLES} samples"
         raise ValueError(f"{asked}{samples} samples: {want}")
-    surface = _surface(vertices, faces)
+    if not len(faces):
+        why = "the mesh has no faces; want a surface, no point cloud"
+        raise InputRejected("empty", why, value=0.0, unit="faces")
+    surface = Surface.of(vertices, faces)
     proxy = proxy_of(surface, most_faces)
 
     def readings() -> Iterator[Decoded]:
@@ -75,10 +78,3 @@ def infer(
             yield decode(surface, proxy, seen, answer, rules)
 
     return consensus(tuple(readings()), surface.areas)
-
-
-def _surface(vertices: FloatArray, faces: IntArray) -> Surface:
-    if not len(faces):
-        why = "the mesh has no faces; want a surface, no point cloud"
-        raise InputRejected("empty", why, value=0.0, unit="faces")
-    return Surface.of(vertices, faces)

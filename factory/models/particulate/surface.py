@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry.edges import label_linked
+from ...geometry.edges import label_linked, shared_edges
 from ...geometry.rows import distinct_rows, weld_points
 from ...mesh import FloatArray, IntArray
 
@@ -95,7 +95,13 @@ class Surface:
     @cached_property
     def edges(self) -> Edges:
         """Return all edges of faces with three different corners."""
-        return _edges(self.faces, np.flatnonzero(has_three_corners(self.faces)))
+        chosen = np.flatnonzero(has_three_corners(self.faces))
+        owner = np.repeat(chosen, 3)
+        ends = np.sort(self.faces[chosen][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        key = ends[:, 0] * (int(self.faces.max(initial=0)) + 1) + ends[:, 1]
+        order = np.argsort(key, kind="stable")
+        starts = np.flatnonzero(np.diff(key[order], prepend=-1))
+        return Edges(ends[order[starts]], np.append(starts, len(key)), owner[order])
 
     @cached_property
     def neighbours(self) -> IntArray:
@@ -110,10 +116,8 @@ class Surface:
         first, group = distinct_rows(corners)
         original = proper[first][group]
         twins = np.stack([original, proper], axis=1)[original != proper]
-        edges = _edges(self.faces, np.sort(proper[first]))
-        begin = edges.first[:-1][edges.counts == 2]
-        pairs = np.stack([edges.faces[begin], edges.faces[begin + 1]], axis=1)
-        return np.concatenate([pairs, twins])
+        rows = np.sort(proper[first])
+        return np.concatenate([rows[shared_edges(self.faces[rows]).faces], twins])
 
     @cached_property
     def components(self) -> IntArray:
@@ -139,16 +143,6 @@ class Surface:
         turn = np.degrees(np.arccos(np.clip(np.einsum("ij,ij->i", one, other), -1.0, 1.0)))
         crisp = (turn < FLAT_DEG) | (turn > SHARP_DEG)
         return bool(self.borders[crisp].sum() < CRISP * self.borders.sum())
-
-
-def _edges(faces: IntArray, chosen: IntArray) -> Edges:
-    owner = np.repeat(chosen, 3)
-    ends = np.sort(faces[chosen][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    key = ends[:, 0] * (int(faces.max(initial=0)) + 1) + ends[:, 1]
-    order = np.argsort(key, kind="stable")
-    ordered = key[order]
-    start = np.flatnonzero(np.concatenate([[True], ordered[1:] != ordered[:-1]])[: len(ordered)])
-    return Edges(ends[order[start]], np.append(start, len(ordered)), owner[order])
 
 
 def has_three_corners(faces: IntArray) -> BoolArray:
