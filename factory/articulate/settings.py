@@ -12,7 +12,7 @@ from ..models.particulate.components import COMPONENT_FEATURES
 from ..models.particulate.decoding import DecodeRules, TreeOver
 from ..models.particulate.inference import MOST_SAMPLES
 from ..models.particulate.labels import Refinement
-from ..models.weights.checkpoint import naming, open_checkpoint
+from ..models.weights.checkpoint import open_checkpoint
 from ..models.weights.sources import PARTFIELD, SHIPPED, fetch
 
 NEEDS_TORCH = (
@@ -68,9 +68,7 @@ def require_usable(config: ParticulateConfig, needed: bool) -> None:
     decode_rules(config)
     if config.checkpoint == SHIPPED and not needed:
         return
-    stored = open_checkpoint(fetch(config.checkpoint))
-    with naming(stored.file):
-        wanted = read_shape(stored.shapes).features
+    wanted = open_checkpoint(fetch(config.checkpoint)).read(read_shape).features
     if wanted in (0, COMPONENT_FEATURES):
         return
     if not config.features:
@@ -79,9 +77,7 @@ def require_usable(config: ParticulateConfig, needed: bool) -> None:
             f"name the weights of {PARTFIELD.network} with "
             f"--features, e.g. {PARTFIELD.source}. {PARTFIELD.terms}"
         )
-    field = open_checkpoint(fetch(config.features))
-    with naming(field.file):
-        read_partfield_shape(field.shapes)
+    open_checkpoint(fetch(config.features)).read(read_partfield_shape)
 
 
 def require_torch() -> None:

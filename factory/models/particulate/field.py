@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from ...mesh import Float32Array
 from ..network.shape import Precision, product_dtype
 from ..partfield.encoder import PartFieldEncoder, sample_field
 from ..partfield.shape import UNUSED, PartFieldShape, read_partfield_shape
-from ..weights.checkpoint import filled, load_tensors, naming, open_checkpoint
+from ..weights.checkpoint import filled, load_tensors, open_checkpoint
 from ..weights.sources import fetch
 
 _HALF_SIZE = 0.9
@@ -80,7 +81,6 @@ def load_field(
         ConfigError: no such checkpoint, or not one of this network.
     """
     stored = open_checkpoint(fetch(checkpoint))
-    with naming(stored.file):
-        shape = read_partfield_shape(stored.shapes, heads=heads)
+    shape = stored.read(partial(read_partfield_shape, heads=heads))
     encoder = filled(PartFieldEncoder, shape, load_tensors(stored, leave=UNUSED), device)
     return FeatureField(shape, product_dtype(precision), device, encoder)

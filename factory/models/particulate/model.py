@@ -21,7 +21,7 @@ from ..network.streaming import (
     part_outputs,
 )
 from ..network.transformer import PartArticulationTransformer
-from ..weights.checkpoint import filled, load_tensors, naming, open_checkpoint
+from ..weights.checkpoint import filled, load_tensors, open_checkpoint
 from ..weights.sources import PARTFIELD, fetch
 from .components import COMPONENT_FEATURES, component_features
 from .field import FeatureField
@@ -205,8 +205,7 @@ def load_model(
         ConfigError: no such checkpoint, or not one of this network.
     """
     stored = open_checkpoint(fetch(checkpoint))
-    with naming(stored.file):
-        shape = read_shape(stored.shapes, max_parts)
+    shape = stored.read(partial(read_shape, max_parts=max_parts))
     network = filled(PartArticulationTransformer, shape, load_tensors(stored), device)
     upright = stored.metadata.get("axes") == "upright"
     return Model(shape, product_dtype(precision), device, network, upright)

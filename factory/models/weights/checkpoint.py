@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -86,15 +85,6 @@ def filled(kind: Any, shape: Any, tensors: dict[str, Tensor], device: str) -> An
     return network.to(device).eval().requires_grad_(False)
 
 
-@contextmanager
-def naming(file: Path) -> Iterator[None]:
-    """Put the file's name before messages about its tensors."""
-    try:
-        yield
-    except ConfigError as error:
-        raise ConfigError(f"{file}: {error}") from error
-
-
 def describe(file: Path) -> WeightsInfo:
     """Return which network a checkpoint is for, and its sizes.
 
@@ -102,8 +92,7 @@ def describe(file: Path) -> WeightsInfo:
         ConfigError: not a checkpoint of a network this package knows.
     """
     checkpoint = open_checkpoint(file)
-    with naming(file):
-        provenance, details = _identify(checkpoint.shapes)
+    provenance, details = checkpoint.read(_identify)
     own = checkpoint.metadata.get("terms")
     return WeightsInfo(
         file=file,

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,7 @@ import numpy.typing as npt
 from ...errors import ConfigError
 from ...runtime.store import writing
 
+T = TypeVar("T")
 Tensor = Any
 Shape = tuple[int, ...]
 
@@ -58,6 +59,13 @@ class Checkpoint:
     def shapes(self) -> dict[str, Shape]:
         """Name to shape."""
         return {name: tensor.shape for name, tensor in self.tensors.items()}
+
+    def read(self, reader: Callable[[Mapping[str, Shape]], T]) -> T:
+        """Return what a reader makes of the shapes; what it raises names the file."""
+        try:
+            return reader(self.shapes)
+        except ConfigError as error:
+            raise ConfigError(f"{self.file}: {error}") from error
 
     def load(self, leave: tuple[str, ...] = (), framework: str = "pt") -> dict[str, Tensor]:
         """Return the tensors, but those whose names begin with one of ``leave``.
