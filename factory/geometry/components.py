@@ -31,15 +31,11 @@ def connected_components(mesh: Mesh) -> IntArray:
     first, twin = distinct_rows(corners)
     unique = corners[first]
     proper = (unique[:, 0] != unique[:, 1]) & (unique[:, 1] != unique[:, 2])
-    labels = _label_faces(unique, proper)[twin]
+    rows = np.flatnonzero(proper)
+    # Faces without area stay alone.
+    labels = label_linked(len(unique), rows[shared_edges(unique[rows]).faces])[twin]
     labels = _adopt_slivers(labels, faces, proper[twin])
     return number_by_appearance(*distinct_rows(labels[:, None]))[1]
-
-
-def _label_faces(faces: IntArray, proper: IntArray) -> IntArray:
-    """Return the components of faces with sorted corners; those not ``proper`` stay alone."""
-    rows = np.flatnonzero(proper)
-    return label_linked(len(faces), rows[shared_edges(faces[proper]).faces])
 
 
 def _adopt_slivers(labels: IntArray, faces: IntArray, proper: IntArray) -> IntArray:

@@ -26,7 +26,7 @@ def tiny_model(shape=TINY, dtype=torch.float32, base=0):
     """A model of that shape."""
     network = PartArticulationTransformer(shape)
     network.load_state_dict(weights(expected_tensors(shape), base, GAINS))
-    return Model(shape, dtype, "cpu", network.eval().requires_grad_(False))
+    return Model(shape, dtype, network.eval().requires_grad_(False))
 
 
 def random_cloud(count, shape=TINY, seed=0):

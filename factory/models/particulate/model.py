@@ -71,14 +71,12 @@ class Model:
     Attributes:
         shape: its sizes and variant.
         dtype: of the products over points, a torch type.
-        device: where it runs.
         upright: whether it was taught every axis by its upward direction, so that only limits say
             which way opens.
     """
 
     shape: NetworkShape
     dtype: Any
-    device: str
     _network: Any = field(repr=False)
     upright: bool = False
 
@@ -208,4 +206,4 @@ def load_model(
     shape = stored.read(partial(read_shape, max_parts=max_parts))
     network = filled(PartArticulationTransformer, shape, load_tensors(stored), device)
     upright = stored.metadata.get("axes") == "upright"
-    return Model(shape, product_dtype(precision), device, network, upright)
+    return Model(shape, product_dtype(precision), network, upright)

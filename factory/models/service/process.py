@@ -11,7 +11,6 @@ import time
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from types import TracebackType
 
 from asset_factory.sim_checks.processes.isolation import Failure, Limits, WarmChild, processors
 from asset_factory.sim_checks.processes.scratch import sockets
@@ -95,12 +94,7 @@ class ModelService:
         self._keeper.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        at: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._stopping.set()
         self._child.abandon()
         self._keeper.join()
