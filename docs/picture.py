@@ -18,8 +18,9 @@ from asset_factory.factory.display.camera import Viewpoint
 from asset_factory.factory.display.casting import Caster
 from asset_factory.factory.display.described import scene_of_file
 from asset_factory.factory.display.glb import read_model, scene_from
-from asset_factory.factory.display.pictures import Pixels, still, tinted
+from asset_factory.factory.display.pictures import Pixels, tinted
 from asset_factory.factory.display.scene import SceneGraph
+from asset_factory.factory.display.shading import still
 
 DOCS = Path(__file__).resolve().parent
 OBJECTS = ("chest", "fridge", "filing_cabinet")

@@ -17,7 +17,7 @@ from asset_factory.factory.display.described import scene_of_file
 from asset_factory.factory.display.made import plain_surface
 from asset_factory.factory.display.pictures import Pixels, paint_still
 from asset_factory.factory.display.scene import SceneGraph, SceneSurface, put_together
-from asset_factory.factory.display.shading import light_direction, shaded
+from asset_factory.factory.display.shading import light_direction, still
 
 from ..assets import FloatArray
 from .attempt import Attempt
@@ -113,8 +113,7 @@ def draw_film(made: FilmScene, width: int, height: int, every: int = 1) -> Itera
     moving = frozenset(np.flatnonzero((np.ptp(poses, axis=0) > STILL).any(axis=(1, 2))).tolist())
     under = paint_still(caster, camera, made.values[0], moving)
     for values in made.values[::every]:
-        hits = caster.see(camera, values, under.hits, moving)
-        seen = shaded(caster, camera, values, hits, under)
+        seen = still(caster, camera, values, under)
         covered = seen[..., 3:] / 255.0
         floor = FLOOR * _floor_light(caster, camera, values, points)[..., None]
         yield np.round(seen[..., :3] * covered + floor * (1.0 - covered)).astype(np.uint8)

@@ -15,7 +15,7 @@ from ..geometry.colors import linear_of
 from .camera import Camera, Viewpoint
 from .casting import Caster
 from .scene import SceneGraph, SceneSurface
-from .shading import PASSING, RAYS, Painted, paint, shaded
+from .shading import PASSING, RAYS, Painted, paint, still
 
 #: Of the pictures of a grid [pixels].
 WIDTH = 256
@@ -104,11 +104,6 @@ def marked(pixels: Pixels, camera: Camera, point: tuple[float, ...]) -> Pixels:
     return np.asarray(Image.alpha_composite(Image.fromarray(pixels), over))
 
 
-def still(caster: Caster, camera: Camera, values: Mapping[str, float]) -> Pixels:
-    """Return one picture of a pose, sRGB with alpha, shape [height, width, 4]."""
-    return shaded(caster, camera, values, caster.see(camera, values))
-
-
 def frames(caster: Caster, camera: Camera, count: int) -> list[Pixels]:
     """Return the object from closed to open; what does not move is cast and coloured once."""
     scene = caster.scene
@@ -118,9 +113,8 @@ def frames(caster: Caster, camera: Camera, count: int) -> list[Pixels]:
     made = []
     for amount in np.linspace(0.0, 1.0, count):
         values = scene.opened(float(amount))
-        hits = caster.see(camera, values, under.hits, moving)
         rays = PASSING if 0.0 < amount < 1.0 else RAYS
-        made.append(shaded(caster, camera, values, hits, under, rays))
+        made.append(still(caster, camera, values, under, rays))
     return made
 
 
@@ -131,8 +125,8 @@ def paint_still(
     scene = caster.scene
     shown = [each for link in caster.links.values() for each in link.surfaces]
     # At the border of a shape more rays are cast, which must not meet what moves either.
-    still = Caster(scene, [each for each in shown if each.link not in moving])
-    return paint(still, camera, values, still.see(camera, values))
+    rest = Caster(scene, [each for each in shown if each.link not in moving])
+    return replace(paint(rest, camera, values), without=moving)
 
 
 def tinted(surfaces: Iterable[SceneSurface], tint: Tint | None = None) -> list[SceneSurface]:

@@ -48,28 +48,29 @@ class Painted:
         hits: of the middles of all pixels.
         color: linear RGB multiplied by alpha, and alpha, shape [pixels, 4].
         ends: pixels where a link ends before another, shape [pixels].
+        without: links that are left out.
     """
 
     hits: Hits
     color: FloatRows
     ends: npt.NDArray[np.bool_]
+    without: frozenset[int] = frozenset()
 
 
-def shaded(
+def still(
     caster: Caster,
     camera: Camera,
     values: Mapping[str, float],
-    hits: Hits,
     under: Painted | None = None,
     rays: int = RAYS,
 ) -> npt.NDArray[np.uint8]:
-    """Return the picture, sRGB with alpha, shape [height, width, 4].
+    """Return one picture of a pose, sRGB with alpha, shape [height, width, 4].
 
-    ``hits`` are of the middles of all pixels, and ``under`` is the same picture without the links
-    that move; so many ``rays`` are cast per pixel where shapes end.
+    ``under`` is the same picture without the links that move; so many ``rays`` are cast per pixel
+    where shapes end.
     """
-    painted = paint(caster, camera, values, hits, under, rays)
-    factor = _corners(hits, (camera.height, camera.width)).reshape(-1)
+    painted = paint(caster, camera, values, under, rays)
+    factor = _corners(painted.hits, (camera.height, camera.width)).reshape(-1)
     factor *= np.where(painted.ends, 1.0 - LINE * 0.6, 1.0).astype(np.float32)
     # Colours are kept multiplied by alpha while they are averaged.
     alpha = painted.color[:, 3:]
@@ -83,21 +84,22 @@ def paint(
     caster: Caster,
     camera: Camera,
     values: Mapping[str, float],
-    hits: Hits,
     under: Painted | None = None,
     rays: int = RAYS,
 ) -> Painted:
-    """Return the colours of all pixels; arguments as :func:`shaded` has them."""
+    """Return the colours of all pixels; arguments as :func:`still` has them."""
     shape = (camera.height, camera.width)
-    ends, bends = (each.reshape(-1) for each in _borders(hits, shape))
     if under is None:
+        hits = caster.see(camera, values)
         color = np.zeros((len(hits.link), 4), dtype=np.float32)
         fresh = np.ones(len(hits.link), dtype=bool)
     else:
+        hits = caster.see(camera, values, under.hits, under.without)
         color = under.color.copy()
         # A pixel whose neighbours are as they were has the colour that it had.
         differs = (hits.depth != under.hits.depth) | (hits.link != under.hits.link)
         fresh = binary_dilation(differs.reshape(shape), np.ones((3, 3), dtype=bool)).reshape(-1)
+    ends, bends = (each.reshape(-1) for each in _borders(hits, shape))
     edge = np.flatnonzero(fresh & (ends | bends))
     inner = np.flatnonzero(fresh & ~(ends | bends))
     seen = inner[hits.link[inner] >= 0]

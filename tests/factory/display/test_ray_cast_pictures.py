@@ -16,8 +16,9 @@ from PIL import Image
 from asset_factory.factory.display.camera import Viewpoint
 from asset_factory.factory.display.casting import Caster
 from asset_factory.factory.display.made import plain_surface, scene_of
-from asset_factory.factory.display.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of, still
+from asset_factory.factory.display.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of
 from asset_factory.factory.display.scene import SceneGraph, SceneJoint
+from asset_factory.factory.display.shading import still
 from asset_factory.factory.display.sheet import MOST, SheetCell, contact_sheet
 
 
