@@ -56,7 +56,11 @@ class Answering:
         prediction = self._network(_cloud(asked, "cloud"), _cloud(asked, "context"))
         texts = {}
         if prediction.closest_points is not None:
-            texts["token"] = self._hold(prediction.closest_points)
+            texts["token"] = str(next(self._numbers))
+            with self._holding:
+                self._held[texts["token"]] = prediction.closest_points
+                if len(self._held) > HELD:
+                    self._held.popitem(last=False)
         told = {each.name: getattr(prediction, each.name) for each in fields(Prediction)}
         del told["closest_points"]
         arrays = {name: values for name, values in told.items() if values is not None}
@@ -69,14 +73,6 @@ class Answering:
             raise WireError("that answer is not held any more")
         points = closest(asked.arrays["part_ids"], asked.arrays["rows"])
         return Message("points", {}, {"points": points})
-
-    def _hold(self, closest: ClosestPoints) -> str:
-        with self._holding:
-            token = str(next(self._numbers))
-            self._held[token] = closest
-            if len(self._held) > HELD:
-                self._held.popitem(last=False)
-        return token
 
 
 class LateAnswering:
