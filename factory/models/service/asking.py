@@ -70,13 +70,14 @@ class ServedNetwork:
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
         """See :class:`..inference.Network`."""
         if self._own is None:
-            given = {
-                f"{name}.{key}": array
-                for name, each in (("cloud", cloud), ("context", context))
-                for key, array in _seen(each).items()
-            }
+            given = {**_seen("cloud", cloud), **_seen("context", context)}
             try:
-                return self._read(self._ask("predict", {}, given), cloud, context)
+                answer = self._ask("predict", {}, given)
+                token = answer.texts.get("token")
+                if len(answer.arrays.get("mask_logits", ())) != len(cloud.points):
+                    raise WireError("the answer is about another cloud")
+                closest = None if token is None else partial(self._closest, token, cloud, context)
+                return Prediction(closest_points=closest, **answer.arrays)
             except (OSError, WireError, ValueError, TypeError):
                 pass
         return self._at_home()(cloud, context)
@@ -90,13 +91,6 @@ class ServedNetwork:
         if answer.kind == "refused":
             raise WireError(answer.texts.get("why", "no answer"))
         return answer
-
-    def _read(self, answer: Message, cloud: Cloud, context: Cloud) -> Prediction:
-        token = answer.texts.get("token")
-        if len(answer.arrays.get("mask_logits", ())) != len(cloud.points):
-            raise WireError("the answer is about another cloud")
-        closest = None if token is None else partial(self._closest, token, cloud, context)
-        return Prediction(closest_points=closest, **answer.arrays)
 
     def _closest(
         self,
@@ -142,10 +136,10 @@ def _connected(address: Address) -> Iterator[socket.socket]:
         yield connection
 
 
-def _seen(cloud: Cloud) -> dict[str, Any]:
+def _seen(name: str, cloud: Cloud) -> dict[str, Any]:
     """Return what the network looks at, in the numbers it computes with."""
     return {
-        "points": np.asarray(cloud.points, np.float32),
-        "normals": np.asarray(cloud.normals, np.float32),
-        "components": cloud.components,
+        f"{name}.points": np.asarray(cloud.points, np.float32),
+        f"{name}.normals": np.asarray(cloud.normals, np.float32),
+        f"{name}.components": cloud.components,
     }
