@@ -10,6 +10,7 @@ from ..models.network.shape import Precision, read_shape
 from ..models.partfield.shape import read_partfield_shape
 from ..models.particulate.components import COMPONENT_FEATURES
 from ..models.particulate.decoding import TreeOver
+from ..models.particulate.inference import MOST_SAMPLES
 from ..models.particulate.labels import Refinement
 from ..models.weights.checkpoint import open_checkpoint
 from ..models.weights.sources import PARTFIELD, SHIPPED, fetch
@@ -18,7 +19,6 @@ NEEDS_TORCH = (
     "the network needs torch: pip install 'asset-factory[particulate]'; "
     "or name an articulator that asks none: --articulator geometric, stated or annotated"
 )
-MOST_SAMPLES = 64
 LEAST = {"driving": 0, "points": 1, "context_points": 1, "max_faces": 4, "samples": 1}
 
 

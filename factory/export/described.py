@@ -11,7 +11,7 @@ from ..asset import Hull, InnerSurface, Target
 from ..intake.intake import Provenance
 from ..manufacture.targets.standing import standing_place
 from ..mesh import FloatArray
-from ..runtime.keys import ABSENT, installed_version
+from ..runtime.keys import installed_version
 from ..runtime.layout import MJCF, URDF
 from ..runtime.numbers import magnitude, rounded
 from .links import Layout
@@ -80,7 +80,7 @@ def _provenance(provenance: Provenance, weights: tuple[Weights, ...]) -> Manifes
 def tool_versions() -> dict[str, str | None]:
     """Return the versions of the libraries that make assets; ``None``: not installed."""
     found = ((tool, installed_version(tool)) for tool in TOOLS)
-    return {tool: None if version == ABSENT else version for tool, version in found}
+    return {tool: None if version == "absent" else version for tool, version in found}
 
 
 def hull_aspect(hull: Hull) -> float:

@@ -19,9 +19,6 @@ from ..config import GATE
 from .code import code_digest
 from .store import digest_bytes, stage_key
 
-#: The version of a distribution that is not installed.
-ABSENT = "absent"
-
 
 def nothing_else(config: object) -> object:
     """Return what a stage also reads that reads nothing but what it declares by name."""
@@ -99,11 +96,11 @@ def limits_of(value: object) -> Any:
 
 @lru_cache(maxsize=64)
 def installed_version(distribution: str) -> str:
-    """Return a distribution's version; :data:`ABSENT` where it is not installed."""
+    """Return a distribution's version; ``absent`` where it is not installed."""
     try:
         return version(distribution)
     except PackageNotFoundError:
-        return ABSENT
+        return "absent"
 
 
 @lru_cache(maxsize=16)

@@ -17,6 +17,8 @@ from .proxy import proxy_of
 from .sampling import Cloud, sample
 from .surface import Surface
 
+MOST_SAMPLES = 64
+
 
 class Network(Protocol):
     """Whatever answers for a cloud of points."""
