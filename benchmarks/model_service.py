@@ -20,7 +20,7 @@ from asset_factory.factory.articulate.particulate import load_articulator
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
 from asset_factory.factory.models.particulate.prediction import Prediction
 from asset_factory.factory.models.particulate.sampling import Cloud
-from asset_factory.factory.models.service import Address, ModelService, asking, call_asking
+from asset_factory.factory.models.service import Address, ModelService, asking
 from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 
 QUESTIONS = 8
@@ -41,11 +41,12 @@ def _cloud(count: int, seed: int) -> Cloud:
     return Cloud(points, normals, numbers, numbers > 0, numbers)
 
 
-def worker(questions: list[tuple[Cloud, Cloud]]) -> dict[str, Any]:
-    """One worker's questions; in a process of its own."""
+def worker(questions: list[tuple[Cloud, Cloud]], address: Address | None = None) -> dict[str, Any]:
+    """One worker's questions, to a service if there is one; in a process of its own."""
     began = time.monotonic()
     before = _resident()
-    network = load_articulator(ParticulateConfig()).network
+    with asking(address):
+        network = load_articulator(ParticulateConfig()).network
     answers = [network(*questions[0])]
     first = time.monotonic() - began
     began = time.monotonic()
@@ -102,11 +103,9 @@ def main() -> None:
     auto = AutoConfig()
     questions = clouds(QUESTIONS, auto.points, auto.context_points)
     own = run_isolated(worker, questions, limits=LIMITS).unwrap()
-    with ModelService(ParticulateConfig()) as service, asking(service.address):
+    with ModelService(ParticulateConfig()) as service:
         _warm(service.address, questions[:1])
-        asked = run_isolated(
-            call_asking, service.address, worker, questions, limits=LIMITS
-        ).unwrap()
+        asked = run_isolated(worker, questions, service.address, limits=LIMITS).unwrap()
         statm = Path(f"/proc/{service.pid}/statm").read_text().split()
         resident = int(statm[1]) * os.sysconf("SC_PAGESIZE") / 2**20
     same = all(
@@ -135,7 +134,7 @@ def main() -> None:
 
 
 def _warm(address: Address, questions: list[tuple[Cloud, Cloud]]) -> None:
-    run_isolated(call_asking, address, worker, questions, limits=LIMITS).unwrap()
+    run_isolated(worker, questions, address, limits=LIMITS).unwrap()
 
 
 def _rounded(numbers: dict[str, Any]) -> dict[str, float]:

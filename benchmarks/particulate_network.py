@@ -41,7 +41,7 @@ def random_model(precision: str) -> Model:
     source = torch.Generator().manual_seed(0)
     for weight in network.parameters():
         weight.normal_(0.0, 0.03, generator=source)
-    return Model(network.shape, product_dtype(precision), "cpu", network)
+    return Model(network.shape, product_dtype(precision), network)
 
 
 def random_cloud(count: int) -> PointCloud:

@@ -16,7 +16,6 @@ import time
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from asset_factory.factory.articulate.settings import decode_rules
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.mesh import FloatArray, IntArray, Mesh
 from asset_factory.factory.models.particulate.inference import infer
@@ -40,19 +39,9 @@ SEED = 5001
 
 def labels(mesh: Mesh, model: Model, points: int, seed: int) -> tuple[IntArray, float]:
     """Part of every face, and processor seconds."""
-    config = ParticulateConfig()
+    config = ParticulateConfig(points=points, context_points=1, seed=seed)
     started = time.process_time()
-    found = infer(
-        mesh.vertices,
-        mesh.faces,
-        Particulate(model, None, None),
-        points=points,
-        context_points=1,
-        most_faces=config.max_faces,
-        samples=1,
-        seed=seed,
-        rules=decode_rules(config),
-    )
+    found = infer(mesh.vertices, mesh.faces, Particulate(model), config)
     return found.chosen.face_part, time.process_time() - started
 
 

@@ -18,9 +18,9 @@ from asset_factory.factory.display.camera import Viewpoint
 from asset_factory.factory.display.casting import Caster
 from asset_factory.factory.display.described import scene_of_file
 from asset_factory.factory.display.glb import read_model, scene_from
-from asset_factory.factory.display.pictures import Pixels, still, tints_of
+from asset_factory.factory.display.pictures import Pixels, tinted
 from asset_factory.factory.display.scene import SceneGraph
-from asset_factory.factory.display.shading import Coloring
+from asset_factory.factory.display.shading import still
 
 DOCS = Path(__file__).resolve().parent
 OBJECTS = ("chest", "fridge", "filing_cabinet")
@@ -81,15 +81,12 @@ def stages(mesh: SceneGraph, made: SceneGraph) -> list[Pixels]:
     closed = made.opened(0.0)
     opened = made.opened(1.0)
     camera = Viewpoint(made).camera(*CELL, closed, opened)
-    own = Coloring(Caster(made, made.visuals))
-    hulls = Caster(made, made.hulls)
-    piece = Caster(mesh, mesh.visuals)
-    clay = dict.fromkeys(tints_of(piece), CLAY)
+    own = Caster(made, made.visuals)
     return [
-        still(Coloring(piece, clay), camera, {}),
+        still(Caster(mesh, tinted(mesh.visuals, CLAY)), camera, {}),
         still(own, camera, closed),
         still(own, camera, opened),
-        still(Coloring(hulls, tints_of(hulls)), camera, opened),
+        still(Caster(made, tinted(made.hulls)), camera, opened),
     ]
 
 

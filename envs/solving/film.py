@@ -17,7 +17,7 @@ from asset_factory.factory.display.described import scene_of_file
 from asset_factory.factory.display.made import plain_surface
 from asset_factory.factory.display.pictures import Pixels, paint_still
 from asset_factory.factory.display.scene import SceneGraph, SceneSurface, put_together
-from asset_factory.factory.display.shading import Coloring, light_direction, shaded
+from asset_factory.factory.display.shading import light_direction, still
 
 from ..assets import FloatArray
 from .attempt import Attempt
@@ -108,14 +108,12 @@ def draw_film(made: FilmScene, width: int, height: int, every: int = 1) -> Itera
     """Yield pictures of an episode, sRGB, shape [height, width, 3], one of every so many steps."""
     camera = _camera(made, width, height)
     caster = Caster(made.scene, made.scene.visuals)
-    look = Coloring(caster)
     points = _floor_points(camera)
     poses = np.array([made.scene.poses(values) for values in made.values])
     moving = frozenset(np.flatnonzero((np.ptp(poses, axis=0) > STILL).any(axis=(1, 2))).tolist())
-    under = paint_still(look, camera, made.values[0], moving)
+    under = paint_still(caster, camera, made.values[0], moving)
     for values in made.values[::every]:
-        hits = caster.see(camera, values, under.hits, moving)
-        seen = shaded(look, camera, values, hits, under)
+        seen = still(caster, camera, values, under)
         covered = seen[..., 3:] / 255.0
         floor = FLOOR * _floor_light(caster, camera, values, points)[..., None]
         yield np.round(seen[..., :3] * covered + floor * (1.0 - covered)).astype(np.uint8)

@@ -26,7 +26,7 @@ from ..part import Proposer
 from ..runtime.store import digest_file
 from .annotated import AnnotatedArticulator
 from .locate import sourced
-from .settings import decode_rules, require_torch, require_usable
+from .settings import require_torch, require_usable
 
 #: Probabilities and agreements below this are told [-].
 DOUBTFUL = 0.6
@@ -66,17 +66,7 @@ class ParticulateArticulator:
             InputRejected: ``empty``, ``zero_size``: no surface to see; ``prediction_not_finite``:
                 broken weights.
         """
-        found = infer(
-            mesh.vertices,
-            mesh.faces,
-            self.network,
-            points=self.config.points,
-            context_points=self.config.context_points,
-            most_faces=self.config.max_faces,
-            samples=self.config.samples,
-            seed=self.config.seed,
-            rules=decode_rules(self.config),
-        )
+        found = infer(mesh.vertices, mesh.faces, self.network, self.config)
         annotated = AnnotatedArticulator(
             _annotation(found.chosen), found.chosen.box.outwards, np.arange(len(mesh.faces))
         )

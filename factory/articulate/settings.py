@@ -9,10 +9,10 @@ from ..errors import ConfigError
 from ..models.network.shape import Precision, read_shape
 from ..models.partfield.shape import read_partfield_shape
 from ..models.particulate.components import COMPONENT_FEATURES
-from ..models.particulate.decoding import DecodeRules, TreeOver
+from ..models.particulate.decoding import TreeOver
 from ..models.particulate.inference import MOST_SAMPLES
 from ..models.particulate.labels import Refinement
-from ..models.weights.checkpoint import naming, open_checkpoint
+from ..models.weights.checkpoint import open_checkpoint
 from ..models.weights.sources import PARTFIELD, SHIPPED, fetch
 
 NEEDS_TORCH = (
@@ -22,12 +22,8 @@ NEEDS_TORCH = (
 LEAST = {"driving": 0, "points": 1, "context_points": 1, "max_faces": 4, "samples": 1}
 
 
-def decode_rules(config: ParticulateConfig) -> DecodeRules:
-    """Return how a configuration wants answers read.
-
-    Raises:
-        ConfigError: a setting that cannot be, and what can.
-    """
+def require_possible(config: ParticulateConfig) -> None:
+    """Raise ConfigError for a setting that cannot be, and say what can."""
     for setting, least in LEAST.items():
         value = getattr(config, setting)
         if value < least:
@@ -46,12 +42,6 @@ def decode_rules(config: ParticulateConfig) -> DecodeRules:
     for setting in ("least_confidence", "fused_share"):
         if not 0.0 <= getattr(config, setting) <= 1.0:
             raise ConfigError(f"{setting} must be 0 to 1, not {getattr(config, setting):g}")
-    return DecodeRules(
-        least_confidence=config.least_confidence,
-        refinement=Refinement(config.refinement),
-        fused_share=config.fused_share,
-        tree=TreeOver(config.tree),
-    )
 
 
 def require_usable(config: ParticulateConfig, needed: bool) -> None:
@@ -65,12 +55,10 @@ def require_usable(config: ParticulateConfig, needed: bool) -> None:
         ConfigError: which setting, what it is, what it should be; or a checkpoint that is missing
             or another network's.
     """
-    decode_rules(config)
+    require_possible(config)
     if config.checkpoint == SHIPPED and not needed:
         return
-    stored = open_checkpoint(fetch(config.checkpoint))
-    with naming(stored.file):
-        wanted = read_shape(stored.shapes).features
+    wanted = open_checkpoint(fetch(config.checkpoint)).read(read_shape).features
     if wanted in (0, COMPONENT_FEATURES):
         return
     if not config.features:
@@ -79,9 +67,7 @@ def require_usable(config: ParticulateConfig, needed: bool) -> None:
             f"name the weights of {PARTFIELD.network} with "
             f"--features, e.g. {PARTFIELD.source}. {PARTFIELD.terms}"
         )
-    field = open_checkpoint(fetch(config.features))
-    with naming(field.file):
-        read_partfield_shape(field.shapes)
+    open_checkpoint(fetch(config.features)).read(read_partfield_shape)
 
 
 def require_torch() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -51,10 +52,6 @@ class Hits:
             zeros.copy(),
         )
 
-    def copy(self) -> Hits:
-        """Return the same, to be changed."""
-        return Hits(*(getattr(self, name).copy() for name in self.__dataclass_fields__))
-
 
 def lengths(rows: FloatRows) -> FloatRows:
     """Return lengths of vectors, at least a hair, shape [rows]."""
@@ -83,14 +80,6 @@ class LinkCaster:
         triangles = [surface.vertices[surface.faces] for surface in self.surfaces]
         TriangleMesh(scene, np.ascontiguousarray(np.concatenate(triangles), dtype=np.float32))
         return scene
-
-    def box(
-        self, camera: Camera, pose: FloatArray
-    ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-        """Return the columns and rows that the link may cover, ends excluded."""
-        places = camera.places(self.corners @ pose[:3, :3].T + pose[:3, 3])[:, :2]
-        low = np.floor(places.min(axis=0)).astype(np.int64) - 1
-        return low, np.ceil(places.max(axis=0)).astype(np.int64) + 1
 
     def meet(
         self, eye: FloatArray, directions: FloatArray, pose: FloatArray, rays: Any, into: Hits
@@ -141,33 +130,37 @@ class Caster:
         known: Hits | None = None,
         moving: frozenset[int] | None = None,
     ) -> Hits:
-        """Return what the middle of every pixel meets.
+        """Return what the middle of every pixel meets; arguments as :meth:`cast` has them."""
+        middles = np.meshgrid(np.arange(camera.width) + 0.5, np.arange(camera.height) + 0.5)
+        places = np.stack(middles, axis=-1).reshape(-1, 2)
+        return self.cast(camera, values, places, known, moving)
+
+    def cast(
+        self,
+        camera: Camera,
+        values: Mapping[str, float],
+        places: FloatArray,
+        known: Hits | None = None,
+        moving: frozenset[int] | None = None,
+    ) -> Hits:
+        """Return what places in the picture meet, shape [count, 2].
 
         ``values`` are those of joints [rad] or [m]; ``known`` is what other links look like in this
         pose already, and only ``moving`` ones are cast then.
         """
         poses = self.scene.poses(values)
-        hits = known.copy() if known is not None else Hits.none(camera.width * camera.height)
+        hits = Hits.none(len(places)) if known is None else deepcopy(known)
+        directions = camera.rays(places)
+        across, down = np.ascontiguousarray(places.T)
         for index, caster in self.links.items():
             if moving is not None and index not in moving:
                 continue
-            low, high = caster.box(camera, poses[index])
-            columns = np.arange(*np.clip([low[0], high[0]], 0, camera.width))
-            rows = np.arange(*np.clip([low[1], high[1]], 0, camera.height))
-            pixels = np.stack(np.meshgrid(columns + 0.5, rows + 0.5), axis=-1).reshape(-1, 2)
-            rays = (rows[:, None] * camera.width + columns[None]).reshape(-1)
-            caster.meet(camera.eye, camera.rays(pixels), poses[index], rays, hits)
-        return hits
-
-    def cast(self, camera: Camera, values: Mapping[str, float], pixels: FloatArray) -> Hits:
-        """Return what places in the picture meet, shape [count, 2]."""
-        poses = self.scene.poses(values)
-        hits = Hits.none(len(pixels))
-        directions = camera.rays(pixels)
-        across, down = np.ascontiguousarray(pixels.T)
-        for index, caster in self.links.items():
-            low, high = caster.box(camera, poses[index])
-            wide = (across >= low[0]) & (across <= high[0])
-            rays = np.flatnonzero(wide & (down >= low[1]) & (down <= high[1]))
-            caster.meet(camera.eye, directions[rays], poses[index], rays, hits)
+            pose = poses[index]
+            box = camera.places(caster.corners @ pose[:3, :3].T + pose[:3, 3])[:, :2]
+            # A pixel more on every side.
+            left, top = box.min(axis=0) - 1.0
+            right, bottom = box.max(axis=0) + 1.0
+            wide = (across > left) & (across < right)
+            rays = np.flatnonzero(wide & (down > top) & (down < bottom))
+            caster.meet(camera.eye, directions[rays], pose, rays, hits)
         return hits

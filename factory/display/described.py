@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import replace
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
 
-from asset_factory.sim_checks.description import Description, DescriptionError
+from asset_factory.sim_checks.description import DescribedShape, Description, DescriptionError
 from asset_factory.sim_checks.geometry.kinematics import (
     MOVING_KINDS,
     NotATree,
@@ -21,7 +23,7 @@ from asset_factory.sim_checks.read.read import read_description
 from ..config import IntakeConfig
 from ..errors import InputRejected
 from ..intake.loading import Visual, load_mesh, load_visual
-from ..mesh import FloatArray, IntArray, Mesh, Texture
+from ..mesh import Texture
 from .made import plain_surface, scene_of_mesh, surfaces_of
 from .scene import UNLIMITED, Color, SceneGraph, SceneJoint, SceneSurface
 
@@ -67,48 +69,38 @@ def scene_of_description(description: Description, tree: Tree) -> SceneGraph:
         span = (low, high) if moves else (0.0, 0.0)
         follows = (mimic.leader, mimic.multiplier, mimic.offset) if mimic else ()
         joints.append(SceneJoint(joint.name, kind, *ends, *frame, *span, *follows))
-    looks = _FileColors(description.path.parent)
+    visual_of = cache(partial(_visual, description.path.parent))
+    images: dict[Texture, bytes | None] = {}
     visuals = []
     hulls = []
     for link in description.links:
         index = place[link.name]
         plain = PLAIN[0] if index == 0 else PLAIN[1 + index % 2]
         for shape in link.visuals:
-            visuals += looks.surfaces(shape.file, shape.vertices, shape.faces, index, plain)
+            visuals += _colored(shape, index, visual_of(shape.file), plain, images)
         hulls += [plain_surface(index, s.vertices, s.faces, plain) for s in link.collisions]
     return SceneGraph(description.path.stem, names, tuple(joints), tuple(visuals), tuple(hulls))
 
 
-class _FileColors:
-    """The colours of mesh files below one folder, each read once."""
+def _visual(root: Path, file: str | None) -> Visual | None:
+    """Return a mesh file below a folder with its colours; ``None``: there is none to be read."""
+    if file is not None:
+        with suppress(InputRejected, OSError):
+            return load_visual(root / file, root, IntakeConfig())
+    return None
 
-    def __init__(self, root: Path) -> None:
-        self._root = root
-        self._known: dict[str, Visual | None] = {}
-        self._images: dict[Texture, bytes | None] = {}
 
-    def surfaces(
-        self, file: str | None, vertices: FloatArray, faces: IntArray, link: int, plain: Color
-    ) -> list[SceneSurface]:
-        """Return a shape's triangles, by the materials that its file gives them."""
-        visual = None if file is None else self._visual(file)
-        if visual is None or visual.source_face_count != len(faces):
-            return [plain_surface(link, vertices, faces, plain)]
-        looks = visual.mesh
-        # The validator has the shape where the description puts it, the reader has its colours.
-        posed = Mesh(
-            vertices,
-            faces[visual.source_faces],
-            looks.corner_uv,
-            None,
-            looks.face_material,
-            looks.materials,
-        )
-        return surfaces_of(posed, link, np.zeros(3), self._images)
-
-    def _visual(self, file: str) -> Visual | None:
-        if file not in self._known:
-            self._known[file] = None
-            with suppress(InputRejected, OSError):
-                self._known[file] = load_visual(self._root / file, self._root, IntakeConfig())
-        return self._known[file]
+def _colored(
+    shape: DescribedShape,
+    link: int,
+    visual: Visual | None,
+    plain: Color,
+    images: dict[Texture, bytes | None],
+) -> list[SceneSurface]:
+    """Return a shape's triangles, by the materials that its file gives them."""
+    if visual is None or visual.source_face_count != len(shape.faces):
+        return [plain_surface(link, shape.vertices, shape.faces, plain)]
+    # The validator has the shape where the description puts it, the reader has its colours.
+    faces = shape.faces[visual.source_faces]
+    posed = replace(visual.mesh, vertices=shape.vertices, faces=faces, corner_normals=None)
+    return surfaces_of(posed, link, np.zeros(3), images)

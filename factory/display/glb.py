@@ -9,6 +9,7 @@ One animation opens and closes every joint. What glTF has no word for, such as l
 from __future__ import annotations
 
 import os
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -48,7 +49,7 @@ def glb_of(scene: SceneGraph) -> bytes:
     document: dict[str, Any] = {
         "scene": VISUALS,
         "scenes": [{"name": n, "nodes": [root]} for n, (root, _) in zip(shown, roots, strict=True)],
-        "nodes": writer.nodes,
+        "nodes": writer.tables["nodes"],
         "extras": {
             "name": scene.name,
             "links": list(scene.links),
@@ -57,10 +58,8 @@ def glb_of(scene: SceneGraph) -> bytes:
     }
     if scene.movable:
         document["animations"] = [_animation(writer, scene, [nodes for _, nodes in roots])]
-    for name in ("meshes", "materials", "textures", "images"):
-        if getattr(writer, name):
-            document[name] = getattr(writer, name)
-    return writer.glb(document)
+    tables = ("meshes", "materials", "textures", "images")
+    return writer.glb(document | {n: writer.tables[n] for n in tables if writer.tables[n]})
 
 
 class _Writer(Buffer):
@@ -68,18 +67,18 @@ class _Writer(Buffer):
 
     def __init__(self) -> None:
         super().__init__()
-        self.nodes: list[dict[str, Any]] = []
-        self.meshes: list[dict[str, Any]] = []
-        self.materials: list[dict[str, Any]] = []
-        self.textures: list[dict[str, Any]] = []
-        self.images: list[dict[str, Any]] = []
-        self._image_of: dict[bytes, int] = {}
-        self._material_of: dict[tuple[object, ...], int] = {}
+        self.tables: dict[str, list[dict[str, Any]]] = defaultdict(list)
+        self._known: dict[object, int] = {}
+
+    def add(self, table: str, entry: dict[str, Any]) -> int:
+        """Append to a table; the number of the entry."""
+        self.tables[table].append(entry)
+        return len(self.tables[table]) - 1
 
     def material(self, surface: SceneSurface) -> int:
         """Return the material of a surface; equal ones once."""
         key = (surface.color, surface.image)
-        if key not in self._material_of:
+        if key not in self._known:
             look: dict[str, Any] = {
                 "baseColorFactor": [round(float(value), 6) for value in surface.color],
                 "metallicFactor": 0.0,
@@ -90,17 +89,15 @@ class _Writer(Buffer):
             material = {"pbrMetallicRoughness": look, "doubleSided": True}
             if surface.color[3] < 0.999:
                 material["alphaMode"] = "BLEND"
-            self._material_of[key] = len(self.materials)
-            self.materials.append(material)
-        return self._material_of[key]
+            self._known[key] = self.add("materials", material)
+        return self._known[key]
 
     def _texture(self, image: bytes) -> int:
-        if image not in self._image_of:
+        if image not in self._known:
             kind = "image/png" if image.startswith(b"\x89PNG") else "image/jpeg"
-            self.images.append({"bufferView": self.view(image), "mimeType": kind})
-            self._image_of[image] = len(self.textures)
-            self.textures.append({"source": len(self.images) - 1})
-        return self._image_of[image]
+            source = self.add("images", {"bufferView": self.view(image), "mimeType": kind})
+            self._known[image] = self.add("textures", {"source": source})
+        return self._known[image]
 
     def mesh(self, surfaces: list[SceneSurface]) -> int:
         """Return a mesh of one primitive per surface."""
@@ -116,28 +113,26 @@ class _Writer(Buffer):
             indices = self.triangles(surface.faces.astype(width))
             made = {"attributes": attributes, "indices": indices}
             primitives.append({**made, "material": self.material(surface)})
-        self.meshes.append({"primitives": primitives})
-        return len(self.meshes) - 1
+        return self.add("meshes", {"primitives": primitives})
 
 
 def _chain(
     writer: _Writer, scene: SceneGraph, surfaces: tuple[SceneSurface, ...]
 ) -> tuple[int, list[int]]:
     """Return the nodes of all links with those surfaces; the root's index, and each link's."""
-    root = len(writer.nodes)
-    writer.nodes.append({"name": scene.name, "rotation": Z_UP, "children": [root + 1]})
+    table = writer.tables["nodes"]
+    root = writer.add("nodes", {"name": scene.name, "rotation": Z_UP, "children": [len(table) + 1]})
     nodes = []
     for number, name in enumerate(scene.links):
         own = [surface for surface in surfaces if surface.link == number and len(surface.faces)]
         node: dict[str, Any] = {"name": name}
         if own:
             node["mesh"] = writer.mesh(own)
-        nodes.append(len(writer.nodes))
-        writer.nodes.append(node)
+        nodes.append(writer.add("nodes", node))
     for joint in scene.joints:
-        writer.nodes[nodes[joint.parent]].setdefault("children", []).append(nodes[joint.child])
+        table[nodes[joint.parent]].setdefault("children", []).append(nodes[joint.child])
         position, turn = _local(joint, 0.0)
-        writer.nodes[nodes[joint.child]] |= {"translation": position, "rotation": turn}
+        table[nodes[joint.child]] |= {"translation": position, "rotation": turn}
     return root, nodes
 
 

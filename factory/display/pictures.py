@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import colorsys
 import io
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,8 +14,8 @@ from PIL import Image, ImageDraw
 from ..geometry.colors import linear_of
 from .camera import Camera, Viewpoint
 from .casting import Caster
-from .scene import SceneGraph
-from .shading import PASSING, RAYS, Coloring, Painted, paint, shaded
+from .scene import SceneGraph, SceneSurface
+from .shading import PASSING, RAYS, Painted, paint, still
 
 #: Of the pictures of a grid [pixels].
 WIDTH = 256
@@ -32,6 +32,7 @@ RED = (214, 40, 40, 255)
 MARK = 17.0
 
 Pixels = npt.NDArray[np.uint8]
+Tint = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -66,26 +67,26 @@ class Fault:
 
 def pictures_of(scene: SceneGraph, fault: Fault | None = None) -> Pictures:
     """Return all pictures of a scene: the same scene gives the same bytes."""
-    look = Coloring(Caster(scene, scene.visuals or scene.hulls))
-    hulls = Caster(scene, scene.hulls)
+    caster = Caster(scene, scene.visuals or scene.hulls)
+    hulls = Caster(scene, tinted(scene.hulls))
     view = Viewpoint(scene)
     closed = scene.opened(0.0)
     small = view.camera(SMALL_WIDTH, SMALL_HEIGHT)
-    seen = frames(look, small, FRAMES if scene.movable else 1)
+    seen = frames(caster, small, FRAMES if scene.movable else 1)
     return Pictures(
-        webp(still(look, view.camera(WIDTH, HEIGHT, closed), closed)),
+        webp(still(caster, view.camera(WIDTH, HEIGHT, closed), closed)),
         webp(seen[-1]),
-        webp(still(Coloring(hulls, tints_of(hulls)), small, closed)),
+        webp(still(hulls, small, closed)),
         animated(seen) if scene.movable else b"",
-        b"" if fault is None else webp(_pointed(look, view, fault)),
+        b"" if fault is None else webp(_pointed(caster, view, fault)),
     )
 
 
-def _pointed(look: Coloring, view: Viewpoint, fault: Fault) -> Pixels:
+def _pointed(caster: Caster, view: Viewpoint, fault: Fault) -> Pixels:
     """Return the pose in which something is wrong, the place marked."""
-    values = {**look.caster.scene.opened(0.0), **fault.values}
+    values = {**caster.scene.opened(0.0), **fault.values}
     camera = view.camera(WIDTH, HEIGHT, values)
-    seen = still(look, camera, values)
+    seen = still(caster, camera, values)
     return seen if fault.point is None else marked(seen, camera, fault.point)
 
 
@@ -103,45 +104,45 @@ def marked(pixels: Pixels, camera: Camera, point: tuple[float, ...]) -> Pixels:
     return np.asarray(Image.alpha_composite(Image.fromarray(pixels), over))
 
 
-def still(look: Coloring, camera: Camera, values: Mapping[str, float]) -> Pixels:
-    """Return one picture of a pose, sRGB with alpha, shape [height, width, 4]."""
-    return shaded(look, camera, values, look.caster.see(camera, values))
-
-
-def frames(look: Coloring, camera: Camera, count: int) -> list[Pixels]:
+def frames(caster: Caster, camera: Camera, count: int) -> list[Pixels]:
     """Return the object from closed to open; what does not move is cast and coloured once."""
-    scene = look.caster.scene
+    scene = caster.scene
     moving = _moving(scene)
     closed = scene.opened(0.0)
-    under = paint_still(look, camera, closed, moving)
+    under = paint_still(caster, camera, closed, moving)
     made = []
     for amount in np.linspace(0.0, 1.0, count):
         values = scene.opened(float(amount))
-        hits = look.caster.see(camera, values, under.hits, moving)
         rays = PASSING if 0.0 < amount < 1.0 else RAYS
-        made.append(shaded(look, camera, values, hits, under, rays))
+        made.append(still(caster, camera, values, under, rays))
     return made
 
 
 def paint_still(
-    look: Coloring, camera: Camera, values: Mapping[str, float], moving: frozenset[int]
+    caster: Caster, camera: Camera, values: Mapping[str, float], moving: frozenset[int]
 ) -> Painted:
     """Return the picture of a pose as if the links that move were not there."""
-    scene = look.caster.scene
-    shown = [each for link in look.caster.links.values() for each in link.surfaces]
+    scene = caster.scene
+    shown = [each for link in caster.links.values() for each in link.surfaces]
     # At the border of a shape more rays are cast, which must not meet what moves either.
-    still = Caster(scene, [each for each in shown if each.link not in moving])
-    return paint(replace(look, caster=still), camera, values, still.see(camera, values))
+    rest = Caster(scene, [each for each in shown if each.link not in moving])
+    return replace(paint(rest, camera, values), without=moving)
 
 
-def tints_of(caster: Caster) -> dict[tuple[int, int], tuple[float, float, float]]:
-    """Return a colour for every surface, neighbours in the list far apart."""
-    found = {}
-    places = ((i, n) for i, link in caster.links.items() for n in range(len(link.surfaces)))
-    for number, place in enumerate(places):
+def tinted(surfaces: Iterable[SceneSurface], tint: Tint | None = None) -> list[SceneSurface]:
+    """Return surfaces in plain colours, by link; neighbours in the list get colours far apart.
+
+    Args:
+        surfaces: of a scene.
+        tint: linear RGB of all of them instead.
+    """
+    shown = sorted((each for each in surfaces if len(each.faces)), key=lambda each: each.link)
+    found = []
+    for number, surface in enumerate(shown):
         hue = (number * 0.618034) % 1.0
-        red, green, blue = linear_of(colorsys.hls_to_rgb(hue, 0.72, 0.42))
-        found[place] = (float(red), float(green), float(blue))
+        color = linear_of(colorsys.hls_to_rgb(hue, 0.72, 0.42)) if tint is None else tint
+        red, green, blue = (float(each) for each in color)
+        found.append(replace(surface, normals=None, image=None, color=(red, green, blue, 1.0)))
     return found
 
 

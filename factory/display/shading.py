@@ -41,19 +41,6 @@ _SHOWN = np.round(255.0 * srgb_of(np.linspace(0.0, 1.0, _BANDS))).astype(np.uint
 
 
 @dataclass(frozen=True)
-class Coloring:
-    """How faces are coloured.
-
-    Attributes:
-        caster: of the rays.
-        tints: linear RGB by link and surface, in place of their own; ``None``: their own.
-    """
-
-    caster: Caster
-    tints: Mapping[tuple[int, int], tuple[float, float, float]] | None = None
-
-
-@dataclass(frozen=True)
 class Painted:
     """A picture before its corners are darkened.
 
@@ -61,28 +48,29 @@ class Painted:
         hits: of the middles of all pixels.
         color: linear RGB multiplied by alpha, and alpha, shape [pixels, 4].
         ends: pixels where a link ends before another, shape [pixels].
+        without: links that are left out.
     """
 
     hits: Hits
     color: FloatRows
     ends: npt.NDArray[np.bool_]
+    without: frozenset[int] = frozenset()
 
 
-def shaded(
-    look: Coloring,
+def still(
+    caster: Caster,
     camera: Camera,
     values: Mapping[str, float],
-    hits: Hits,
     under: Painted | None = None,
     rays: int = RAYS,
 ) -> npt.NDArray[np.uint8]:
-    """Return the picture, sRGB with alpha, shape [height, width, 4].
+    """Return one picture of a pose, sRGB with alpha, shape [height, width, 4].
 
-    ``hits`` are of the middles of all pixels, and ``under`` is the same picture without the links
-    that move; so many ``rays`` are cast per pixel where shapes end.
+    ``under`` is the same picture without the links that move; so many ``rays`` are cast per pixel
+    where shapes end.
     """
-    painted = paint(look, camera, values, hits, under, rays)
-    factor = _corners(hits, (camera.height, camera.width)).reshape(-1)
+    painted = paint(caster, camera, values, under, rays)
+    factor = _corners(painted.hits, (camera.height, camera.width)).reshape(-1)
     factor *= np.where(painted.ends, 1.0 - LINE * 0.6, 1.0).astype(np.float32)
     # Colours are kept multiplied by alpha while they are averaged.
     alpha = painted.color[:, 3:]
@@ -93,37 +81,38 @@ def shaded(
 
 
 def paint(
-    look: Coloring,
+    caster: Caster,
     camera: Camera,
     values: Mapping[str, float],
-    hits: Hits,
     under: Painted | None = None,
     rays: int = RAYS,
 ) -> Painted:
-    """Return the colours of all pixels; arguments as :func:`shaded` has them."""
+    """Return the colours of all pixels; arguments as :func:`still` has them."""
     shape = (camera.height, camera.width)
-    ends, bends = (each.reshape(-1) for each in _borders(hits, shape))
     if under is None:
+        hits = caster.see(camera, values)
         color = np.zeros((len(hits.link), 4), dtype=np.float32)
         fresh = np.ones(len(hits.link), dtype=bool)
     else:
+        hits = caster.see(camera, values, under.hits, under.without)
         color = under.color.copy()
         # A pixel whose neighbours are as they were has the colour that it had.
         differs = (hits.depth != under.hits.depth) | (hits.link != under.hits.link)
         fresh = binary_dilation(differs.reshape(shape), np.ones((3, 3), dtype=bool)).reshape(-1)
+    ends, bends = (each.reshape(-1) for each in _borders(hits, shape))
     edge = np.flatnonzero(fresh & (ends | bends))
     inner = np.flatnonzero(fresh & ~(ends | bends))
     seen = inner[hits.link[inner] >= 0]
     color[inner] = 0.0
-    color[seen, :3] = _lit(look, camera, values, hits, seen)
+    color[seen, :3] = _lit(caster, camera, values, hits, seen)
     color[seen, 3] = 1.0
     if len(edge):
-        color[edge] = _smooth(look, camera, values, edge, rays)
+        color[edge] = _smooth(caster, camera, values, edge, rays)
     return Painted(hits, color, ends)
 
 
 def _lit(
-    look: Coloring,
+    caster: Caster,
     camera: Camera,
     values: Mapping[str, float],
     hits: Hits,
@@ -132,23 +121,22 @@ def _lit(
     """Return the linear RGB of rays that met something."""
     color = np.empty((len(rays), 3), dtype=np.float32)
     normal = hits.normal[rays]
-    poses = look.caster.scene.poses(values)
+    poses = caster.scene.poses(values)
     links = hits.link[rays]
-    for index, caster in look.caster.links.items():
+    for index, link in caster.links.items():
         own = np.flatnonzero(links == index)
-        owners = caster.owner[hits.face[rays[own]]]
-        for number, surface in enumerate(caster.surfaces):
+        owners = link.owner[hits.face[rays[own]]]
+        for number, surface in enumerate(link.surfaces):
             mine = own[owners == number]
             if not len(mine):
                 continue
             rows = rays[mine]
-            faces = surface.faces[hits.face[rows] - caster.starts[number]]
+            faces = surface.faces[hits.face[rows] - link.starts[number]]
             weights = np.stack(
                 [1.0 - hits.u[rows] - hits.v[rows], hits.u[rows], hits.v[rows]], axis=1
             )
-            tint = None if look.tints is None else look.tints[index, number]
-            color[mine] = _albedo(surface, faces, weights) if tint is None else tint
-            if surface.normals is not None and look.tints is None:
+            color[mine] = _albedo(surface, faces, weights)
+            if surface.normals is not None:
                 smooth = np.einsum("ij,ijk->ik", weights, surface.normals[faces])
                 normal[mine] = smooth @ poses[index][:3, :3].T.astype(np.float32)
     return color * _light(camera, normal)[:, None]
@@ -219,7 +207,7 @@ def _borders(hits: Hits, shape: tuple[int, int]) -> npt.NDArray[np.bool_]:
 
 
 def _smooth(
-    look: Coloring,
+    caster: Caster,
     camera: Camera,
     values: Mapping[str, float],
     edge: npt.NDArray[np.int64],
@@ -230,10 +218,10 @@ def _smooth(
     rows, columns = np.divmod(edge, camera.width)
     starts = np.stack([columns, rows], axis=1).astype(np.float64)
     pixels = (starts[:, None] + within[None]).reshape(-1, 2)
-    hits = look.caster.cast(camera, values, pixels)
+    hits = caster.cast(camera, values, pixels)
     seen = np.flatnonzero(hits.link >= 0)
     color = np.zeros((len(pixels), 4), dtype=np.float32)
-    color[seen, :3] = _lit(look, camera, values, hits, seen)
+    color[seen, :3] = _lit(caster, camera, values, hits, seen)
     color[seen, 3] = 1.0
     return np.asarray(color.reshape(len(edge), rays, 4).mean(axis=1), dtype=np.float32)
 

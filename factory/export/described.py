@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from ..asset import Hull, InnerSurface, Target
 from ..intake.intake import Provenance
 from ..manufacture.targets.standing import standing_place
 from ..mesh import FloatArray
+from ..runtime.keys import installed_version
 from ..runtime.layout import MJCF, URDF
 from ..runtime.numbers import magnitude, rounded
 from .links import Layout
@@ -79,13 +79,8 @@ def _provenance(provenance: Provenance, weights: tuple[Weights, ...]) -> Manifes
 
 def tool_versions() -> dict[str, str | None]:
     """Return the versions of the libraries that make assets; ``None``: not installed."""
-    versions: dict[str, str | None] = {}
-    for tool in TOOLS:
-        try:
-            versions[tool] = version(tool)
-        except PackageNotFoundError:
-            versions[tool] = None
-    return versions
+    found = ((tool, installed_version(tool)) for tool in TOOLS)
+    return {tool: None if version == "absent" else version for tool, version in found}
 
 
 def hull_aspect(hull: Hull) -> float:

@@ -15,7 +15,6 @@ from .mjcf import mjcf_text
 from .sdf import sdf_text
 from .text import write_text
 from .urdf import urdf_text
-from .usd import write_usd
 
 
 @dataclass(frozen=True)
@@ -41,11 +40,17 @@ def as_text(text: Callable[[Layout], str]) -> Callable[[Layout, Path], None]:
     return write
 
 
+def _write_usd(layout: Layout, file: Path) -> None:
+    from .usd import write_usd
+
+    write_usd(layout, file)
+
+
 FORMATS = (
     Format("urdf", URDF, as_text(urdf_text)),
     Format("mjcf", MJCF, as_text(mjcf_text)),
     Format("sdf", "asset.sdf", as_text(sdf_text)),
-    Format("usd", "asset.usd", write_usd, "pxr"),
+    Format("usd", "asset.usd", _write_usd, "pxr"),
     Format("glb", "asset.glb", write_glb_asset),
 )
 

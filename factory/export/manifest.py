@@ -241,14 +241,11 @@ class Manifest:
     def to_json(self) -> str:
         """Return the file's text."""
         fields = asdict(self)
-        if not self.invented:
-            del fields["invented"]
-        for joint in fields["joints"]:
-            if joint["mimic"] is None:
-                del joint["mimic"]
-        for weights in fields["provenance"]["weights"]:
-            if weights["outputs"] is None:
-                del weights["outputs"]
+        sparing = [(joint, "mimic") for joint in fields["joints"]]
+        sparing += [(weights, "outputs") for weights in fields["provenance"]["weights"]]
+        for entry, name in [(fields, "invented"), *sparing]:
+            if not entry[name]:
+                del entry[name]
         return json.dumps(fields, indent=2, allow_nan=False) + "\n"
 
     @classmethod

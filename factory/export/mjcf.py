@@ -100,7 +100,9 @@ def _assets(layout: Layout, looks: dict[Look, str]) -> ElementTree.Element:
         SubElement(assets, "texture", name=image, type="2d", file=image)
     for (color, texture), name in looks.items():
         textured = {} if texture is None else {"texture": texture}
-        words = {"name": name, **textured, "rgba": _display(color), "specular": "0.1"}
+        # Its renderer shows colours as they are written, and does not convert them to sRGB.
+        shown = vector([*srgb_of(color[:3]), color[3]], DECIMALS_UNIT)
+        words = {"name": name, **textured, "rgba": shown, "specular": "0.1"}
         SubElement(assets, "material", words)
     for files in layout.links:
         for piece in files.visuals:
@@ -112,11 +114,6 @@ def _assets(layout: Layout, looks: dict[Look, str]) -> ElementTree.Element:
 
 def _mesh_asset(assets: ElementTree.Element, kind: str, file: str) -> None:
     SubElement(assets, "mesh", {"name": file.removesuffix(".obj"), "class": kind, "file": file})
-
-
-def _display(color: tuple[float, float, float, float]) -> str:
-    """Return a linear colour as MuJoCo shows it: its renderer does not convert to sRGB."""
-    return vector([*srgb_of(color[:3]), color[3]], DECIMALS_UNIT)
 
 
 def _body(layout: Layout, part: int, looks: dict[Look, str]) -> ElementTree.Element:

@@ -11,9 +11,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from pxr import Gf, Kind, Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt  # noqa: TID253
 from scipy.spatial.transform import Rotation
 
 from ..articulation import Joint, JointKind
@@ -23,17 +24,15 @@ from .meshes import filled_normals
 from .resistance import Resistance
 from .visuals import VisualPiece
 
-if TYPE_CHECKING:
-    from pxr import Usd, UsdShade
-
 X_AXIS = np.array([1.0, 0.0, 0.0])
 ROUGHNESS = 0.7
 
 
 def write_usd(layout: Layout, file: Path) -> None:
-    """Write the whole asset as one binary layer; textures stay beside it in the bundle."""
-    from pxr import Kind, Tf, Usd, UsdGeom, UsdPhysics
+    """Write the whole asset as one binary layer; textures stay beside it in the bundle.
 
+    This module is only imported to write USD.
+    """
     stage = Usd.Stage.CreateInMemory()
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
@@ -57,8 +56,6 @@ def write_usd(layout: Layout, file: Path) -> None:
 
 
 def _link(stage: Usd.Stage, path: str, layout: Layout, part: int, looks: _Looks) -> Usd.Prim:
-    from pxr import Gf, UsdGeom, UsdPhysics
-
     origin = layout.asset.articulation.link_frame(part)
     link = UsdGeom.Xform.Define(stage, path)
     link.AddTranslateOp().Set(Gf.Vec3d(*origin.tolist()))
@@ -80,8 +77,6 @@ def _link(stage: Usd.Stage, path: str, layout: Layout, part: int, looks: _Looks)
 
 
 def _mass(prim: Usd.Prim, layout: Layout, part: int) -> None:
-    from pxr import Gf, UsdPhysics
-
     inertial = layout.asset.bodies[part].inertial
     moments, axes = np.linalg.eigh(safe_tensor(inertial))
     # Eigenvectors come with any sign; as written they turn right-handed, and least.
@@ -99,8 +94,6 @@ def _mass(prim: Usd.Prim, layout: Layout, part: int) -> None:
 def _visual(
     stage: Usd.Stage, path: str, piece: VisualPiece, origin: FloatArray, looks: _Looks
 ) -> None:
-    from pxr import Sdf, UsdGeom, UsdShade, Vt
-
     shape = replace(piece.mesh, vertices=piece.mesh.vertices - origin)
     mesh = _mesh(stage, path, shape.vertices, shape.faces)
     # Panels without thickness are seen from behind, too.
@@ -119,8 +112,6 @@ def _visual(
 
 
 def _mesh(stage: Usd.Stage, path: str, vertices: FloatArray, faces: IntArray) -> Any:
-    from pxr import UsdGeom, Vt
-
     points = vertices.astype(np.float32)
     mesh = UsdGeom.Mesh.Define(stage, path)
     mesh.CreatePointsAttr(Vt.Vec3fArray.FromNumpy(points))
@@ -135,8 +126,6 @@ def _mesh(stage: Usd.Stage, path: str, vertices: FloatArray, faces: IntArray) ->
 
 def _filter(layout: Layout, links: list[Usd.Prim]) -> None:
     """Tell engines which links overlap on purpose."""
-    from pxr import UsdPhysics
-
     of_name = {files.name: prim for files, prim in zip(layout.links, links, strict=True)}
     for first, second in layout.excluded_pairs:
         api = UsdPhysics.FilteredPairsAPI.Apply(of_name[first])
@@ -152,8 +141,6 @@ def _joint(
     links: list[Usd.Prim],
 ) -> None:
     """Write a joint along or about the x axis of its own frame; value 0 is the rest pose."""
-    from pxr import Gf, Sdf, UsdPhysics
-
     if not joint.movable:
         made = UsdPhysics.FixedJoint.Define(stage, path)
     elif joint.turns:
@@ -198,8 +185,6 @@ def _couple(prim: Usd.Prim, leader: str, ratio: float) -> None:
 
     Newton: ``joint = coef0 + coef1 leader``; PhysX: ``joint + gearing leader + offset = 0``.
     """
-    from pxr import Sdf, Tf
-
     target = prim.GetPath().GetParentPath().AppendChild(Tf.MakeValidIdentifier(leader))
     words = (
         ("NewtonMimicAPI", "newton", "mimicJoint", "mimicCoef1", ratio),
@@ -222,8 +207,6 @@ def _x_to(axis: FloatArray) -> Rotation:
 
 
 def _quaternion(rotation: Rotation) -> Any:
-    from pxr import Gf
-
     x, y, z, w = (float(value) for value in rotation.as_quat())
     return Gf.Quatf(w, x, y, z)
 
@@ -247,8 +230,6 @@ class _Looks:
     def _write(
         self, color: tuple[float, float, float, float], texture: str | None
     ) -> UsdShade.Material:
-        from pxr import Gf, Sdf, UsdGeom, UsdShade
-
         UsdGeom.Scope.Define(self._stage, self._path)
         path = f"{self._path}/material_{len(self._made)}"
         material = UsdShade.Material.Define(self._stage, path)
@@ -268,8 +249,6 @@ class _Looks:
     def _texture(
         self, path: str, texture: str, color: tuple[float, float, float, float]
     ) -> UsdShade.Output:
-        from pxr import Gf, Sdf, UsdShade
-
         place = UsdShade.Shader.Define(self._stage, f"{path}/place")
         place.CreateIdAttr("UsdPrimvarReader_float2")
         place.CreateInput("varname", Sdf.ValueTypeNames.String).Set("st")

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from ..errors import InputRejected
 from ..mesh import FloatArray, IntArray, Mesh
+from .rows import number_by_appearance, weld_points
 from .soup import Soup
 
 BoolArray = npt.NDArray[np.bool_]
@@ -58,7 +59,8 @@ def clean(soup: Soup, name: str) -> Cleaned:
     kept = np.flatnonzero(usable)
     points = soup.corners[kept].reshape(-1, 3)
     diagonal = _diagonal(points, name)
-    first, faces = _weld(points, WELD_FRACTION * diagonal)
+    welded = weld_points(points, points.min(axis=0), WELD_FRACTION * diagonal)
+    first, faces = number_by_appearance(*welded)
     vertices = points[first]
     faces = faces.reshape(-1, 3)
     solid = _has_area(vertices, faces, WELD_FRACTION * diagonal)
@@ -92,23 +94,6 @@ def _diagonal(points: FloatArray, name: str) -> float:
             value=longest,
         )
     return float(np.linalg.norm(extents))
-
-
-def _weld(points: FloatArray, tolerance: float) -> tuple[IntArray, IntArray]:
-    """Return the indices of the points kept, by first appearance, and which one each became."""
-    grid = np.rint((points - points.min(axis=0)) / tolerance).astype(np.int64)
-    # A coordinate has at most 1e8 steps, 27 bits: two of them fit one sort key.
-    order = np.lexsort((grid[:, 2], (grid[:, 0] << 28) | grid[:, 1]))
-    ordered = grid[order]
-    starts = np.concatenate([[True], (ordered[1:] != ordered[:-1]).any(axis=1)])
-    group = np.empty(len(points), dtype=np.int64)
-    group[order] = np.cumsum(starts) - 1
-    # lexsort is stable, so the first of each group is its first appearance.
-    first = order[starts]
-    by_appearance = np.argsort(first, kind="stable")
-    rank = np.empty(len(first), dtype=np.int64)
-    rank[by_appearance] = np.arange(len(first))
-    return first[by_appearance], rank[group]
 
 
 def _has_area(vertices: FloatArray, faces: IntArray, tolerance: float) -> BoolArray:

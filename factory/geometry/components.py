@@ -6,7 +6,7 @@ import numpy as np
 
 from ..mesh import IntArray, Mesh
 from .edges import label_linked, shared_edges
-from .rows import distinct_rows
+from .rows import distinct_rows, number_by_appearance, weld_points
 
 WELD_SHARE = 1e-6
 """Positions closer than this share of the mesh's diagonal are one vertex."""
@@ -23,29 +23,19 @@ def connected_components(mesh: Mesh) -> IntArray:
     Numbers are 0, 1, ... in the order of each component's first face. A face without area belongs
     to the lowest-numbered component that uses one of its vertices, if any.
     """
-    faces = _weld(mesh)[mesh.faces]
+    step = max(mesh.diagonal * WELD_SHARE, 1e-12)
+    faces = weld_points(mesh.vertices, mesh.bounds[0], step)[1][mesh.faces]
     if not len(faces):
         return np.zeros(0, dtype=np.int64)
     corners = np.sort(faces, axis=1)
     first, twin = distinct_rows(corners)
     unique = corners[first]
     proper = (unique[:, 0] != unique[:, 1]) & (unique[:, 1] != unique[:, 2])
-    labels = _label_faces(unique, proper)[twin]
-    labels = _adopt_slivers(labels, faces, proper[twin])
-    return _number_by_first_face(labels)
-
-
-def _weld(mesh: Mesh) -> IntArray:
-    """Return the index of the welded vertex of every vertex, shape [vertex_count]."""
-    tolerance = max(mesh.diagonal * WELD_SHARE, 1e-12)
-    cells = np.round((mesh.vertices - mesh.bounds[0]) / tolerance).astype(np.int64)
-    return distinct_rows(cells)[1]
-
-
-def _label_faces(faces: IntArray, proper: IntArray) -> IntArray:
-    """Return the components of faces with sorted corners; those not ``proper`` stay alone."""
     rows = np.flatnonzero(proper)
-    return label_linked(len(faces), rows[shared_edges(faces[proper]).faces])
+    # Faces without area stay alone.
+    labels = label_linked(len(unique), rows[shared_edges(unique[rows]).faces])[twin]
+    labels = _adopt_slivers(labels, faces, proper[twin])
+    return number_by_appearance(*distinct_rows(labels[:, None]))[1]
 
 
 def _adopt_slivers(labels: IntArray, faces: IntArray, proper: IntArray) -> IntArray:
@@ -59,10 +49,3 @@ def _adopt_slivers(labels: IntArray, faces: IntArray, proper: IntArray) -> IntAr
     found = of_vertex[faces[~proper]].min(axis=1)
     adopted[~proper] = np.where(found == nobody, labels[~proper], found)
     return adopted
-
-
-def _number_by_first_face(labels: IntArray) -> IntArray:
-    _, first, index = np.unique(labels, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), dtype=np.int64)
-    rank[np.argsort(first, kind="stable")] = np.arange(len(first))
-    return rank[index.reshape(-1)]

@@ -37,17 +37,10 @@ class Soup:
     notes: tuple[str, ...] = ()
 
 
-def plain_soup(
-    corners: FloatArray, *, normals: FloatArray | None = None, material: Material | None = None
-) -> Soup:
-    """Return a soup of one material without texture; arrays as in :class:`Soup`."""
-    return Soup(
-        corners=corners,
-        uv=None,
-        normals=normals,
-        face_material=np.zeros(len(corners), dtype=np.int64),
-        materials=(material or Material("default"),),
-    )
+def plain_soup(corners: FloatArray) -> Soup:
+    """Return a soup of one plain material; ``corners`` as in :class:`Soup`."""
+    none = np.zeros(len(corners), dtype=np.int64)
+    return Soup(corners, None, None, none, (Material("default"),))
 
 
 def stack_corners(

@@ -8,13 +8,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 from pathlib import Path
 
 from ..mesh import FloatArray
-from .weights.safetensors import read_arrays
-
-FOLDER = "weights"
+from .weights.safetensors import read_safetensors
+from .weights.sources import shipped_file
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,15 +31,19 @@ class Arrays:
 
 
 @cache
-def load_shipped(file: str) -> Arrays:
+def load_shipped(name: str) -> Arrays:
     """Return a file of ``configs/weights``. Raises ConfigError: it is damaged."""
-    return load_arrays(Path(str(resources.files("asset_factory") / "configs" / FOLDER / file)))
+    return load_arrays(shipped_file(name))
 
 
 def load_arrays(file: Path) -> Arrays:
-    """Return a safetensors file of plain arrays.
+    """Return a safetensors file of plain arrays, read-only; imports no torch.
 
     Raises:
-        ConfigError: not such a file, or damaged.
+        ConfigError: not such a file, damaged, or an array of a type that numpy has not.
     """
-    return Arrays(file, *read_arrays(file))
+    stored = read_safetensors(file)
+    arrays = stored.load(framework="numpy")
+    for array in arrays.values():
+        array.setflags(write=False)
+    return Arrays(file, arrays, stored.metadata)

@@ -67,21 +67,20 @@ class Raster:
     columns: int
 
     @classmethod
-    def around(cls, mesh: Mesh, side: Side, pixels: int, margin: int = 1) -> Raster:
-        """Return a picture of the whole mesh.
+    def around(cls, mesh: Mesh, side: Side, pixels: int) -> Raster:
+        """Return a picture of the whole mesh, within one row of empty pixels.
 
         Args:
             mesh: to be looked at.
             side: from where.
             pixels: along the longest of the mesh's three extents, so that all six sides agree.
-            margin: empty pixels around it.
         """
         corners = mesh.bounds @ side.frame.T
         low = corners.min(axis=0)
         size = corners.max(axis=0) - low
         pixel = float(mesh.extents.max()) / pixels
-        columns, rows = (int(np.ceil(length / pixel)) + 2 * margin for length in size[:2])
-        start = low[:2] + (0.5 - margin + _SHIFT) * pixel
+        columns, rows = (int(np.ceil(length / pixel)) + 2 for length in size[:2])
+        start = low[:2] + (_SHIFT - 0.5) * pixel
         return cls(side, start, float(low[2]), pixel, max(rows, 1), max(columns, 1))
 
     @property

@@ -81,11 +81,7 @@ def elevation(mesh: Mesh, side: Side, pixels: int = PIXELS, owner: IntArray | No
         pixels: along the longest extent of the mesh.
         owner: the part of every triangle, shape [face_count]; one by default.
     """
-    return view_through(mesh, Raster.around(mesh, side, pixels), owner)
-
-
-def view_through(mesh: Mesh, raster: Raster, owner: IntArray | None = None) -> View:
-    """Look at a mesh through the pixels of a raster; arguments as for :func:`elevation`."""
+    raster = Raster.around(mesh, side, pixels)
     met = nearest_crossings(mesh, raster)
     shape = (raster.rows, raster.columns)
     face = np.full(shape, -1, dtype=np.int64)

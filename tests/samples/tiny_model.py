@@ -26,7 +26,7 @@ def tiny_model(shape=TINY, dtype=torch.float32, base=0):
     """A model of that shape."""
     network = PartArticulationTransformer(shape)
     network.load_state_dict(weights(expected_tensors(shape), base, GAINS))
-    return Model(shape, dtype, "cpu", network.eval().requires_grad_(False))
+    return Model(shape, dtype, network.eval().requires_grad_(False))
 
 
 def random_cloud(count, shape=TINY, seed=0):
@@ -38,7 +38,7 @@ def random_cloud(count, shape=TINY, seed=0):
     return PointCloud(rng.uniform(-0.5, 0.5, (count, 3)), normals, features)
 
 
-def plainly(model, cloud, hypothesis=0):
+def plainly(model, cloud):
     """Mask logits, closest points (best part or nothing) and part outputs, in training form."""
     network = model._network
     batch = [
@@ -47,7 +47,7 @@ def plainly(model, cloud, hypothesis=0):
     ]
     with torch.no_grad():
         hidden, queries = network(*batch)
-        masks = network.mask_logits(hidden, queries, hypothesis)
+        masks = network.mask_logits(hidden, queries)
         has_points = hasattr(network, "point_motion_decoder")
         closest = (
             network.closest_points(hidden, queries, masks.argmax(-1))[0].numpy()

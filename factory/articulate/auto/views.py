@@ -10,7 +10,7 @@ from ...articulation import JointKind, rotation_about
 from ...config import ParticulateConfig
 from ...geometry.posing import UP
 from ...mesh import FloatArray, IntArray, Mesh
-from ...models.particulate.decoding import Decoded, DecodeRules
+from ...models.particulate.decoding import Decoded
 from ...models.particulate.inference import Network, infer
 from ..geometric.scene import level_yaw
 from ..proposal import Motion
@@ -89,17 +89,14 @@ def _view(
     mesh: Mesh, network: Network, config: ParticulateConfig, yaw: float, number: int
 ) -> NetworkView:
     turn = rotation_about(UP, yaw)
-    found = infer(
-        mesh.vertices @ turn.T,
-        mesh.faces,
-        network,
+    shown = ParticulateConfig(
         points=config.points,
         context_points=config.context_points,
-        most_faces=config.max_faces,
-        samples=1,
+        max_faces=config.max_faces,
         seed=config.seed + number,
-        rules=DecodeRules(fused_share=config.fused_share),
-    ).chosen
+        fused_share=config.fused_share,
+    )
+    found = infer(mesh.vertices @ turn.T, mesh.faces, network, shown).chosen
     parents = np.full(len(found.parts), -1)
     for parent, child in found.edges:
         parents[child] = parent

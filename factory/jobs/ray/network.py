@@ -7,18 +7,17 @@ import shutil
 import socket
 import threading
 import uuid
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
-
-from asset_factory.sim_checks.processes.isolation import processors
 
 from ...config import ParticulateConfig
 from ...models.particulate.device import device_for
 from ...models.service import Address
-from ...models.service.answering import refusal
+from ...models.service.answering import Answering, LateAnswering, refusal
 from ...models.service.process import answer_all, listening_socket, load_answering
 from ...models.weights.sources import weights_at
 from .weights import SentWeights, arrived
@@ -91,24 +90,21 @@ class Networks:
 
 
 class NodeNetwork:
-    """A network in a Ray process; loaded on the first question, as there may be none to ask."""
+    """A network in a Ray process."""
 
     def __init__(self, config: ParticulateConfig, weights: SentWeights) -> None:
-        self._config = config
-        self._weights = weights
-        self._loading = threading.Lock()
-        self._answering: Callable[[bytes], bytes] | None = None
+        self._answering = LateAnswering(partial(_load, config, weights))
 
     def answer(self, question: bytes) -> bytes:
-        """See :class:`..particulate.service.answering.Answering`; ConfigError if it cannot load."""
-        with self._loading:
-            if self._answering is None:
-                import ray
-
-                with weights_at(arrived(ray, self._weights)):
-                    on_cpu = device_for(self._config.device) == "cpu"
-                    self._answering = load_answering(self._config, processors() if on_cpu else 1)
+        """See :class:`...models.service.answering.LateAnswering`."""
         return self._answering(question)
+
+
+def _load(config: ParticulateConfig, weights: SentWeights) -> Answering:
+    import ray
+
+    with weights_at(arrived(ray, weights)):
+        return load_answering(config)
 
 
 class NodeSocket:

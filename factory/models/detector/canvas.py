@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ...mesh import FloatArray, IntArray, Mesh
 from ...views.raster import Side
-from ...views.view import View, elevation
+from ...views.view import elevation
 
 #: The sides in the order in which a turn to the left by a quarter brings the next to the front.
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
@@ -87,25 +87,14 @@ def look_at(mesh: Mesh) -> Canvases:
     face = np.full((len(SIDES), CANVAS, CANVAS), -1, np.int64)
     for number, side in enumerate(SIDES):
         picture = elevation(mesh, side, LONGEST)
-        rows, columns = _place_of(picture)
-        color[number, rows, columns] = np.rint(255.0 * picture.color)
-        depth[number, rows, columns] = _stored_depth(picture)
-        face[number, rows, columns] = picture.face
+        first = [(CANVAS - length) // 2 for length in picture.face.shape]
+        middle = tuple(np.s_[a : a + n] for a, n in zip(first, picture.face.shape, strict=True))
+        steps = np.where(picture.seen, picture.depth, 0.0) / picture.raster.pixel * DEPTH_STEPS
+        whole = np.clip(np.rint(steps), 0, np.iinfo(np.int16).max)
+        color[number][middle] = np.rint(255.0 * picture.color)
+        depth[number][middle] = np.where(picture.seen, whole, NOTHING)
+        face[number][middle] = picture.face
     return Canvases(color, depth, face)
-
-
-def _place_of(picture: View) -> tuple[slice, slice]:
-    """Return the rows and columns of a canvas that a side's picture takes, in its middle."""
-    raster = picture.raster
-    row, column = ((CANVAS - length) // 2 for length in (raster.rows, raster.columns))
-    return slice(row, row + raster.rows), slice(column, column + raster.columns)
-
-
-def _stored_depth(picture: View) -> npt.NDArray[np.int16]:
-    """Return depths as they are kept, shape [rows, columns]."""
-    steps = np.where(picture.seen, picture.depth, 0.0) / picture.raster.pixel * DEPTH_STEPS
-    whole = np.clip(np.rint(steps), 0, np.iinfo(np.int16).max)
-    return np.where(picture.seen, whole, NOTHING).astype(np.int16)
 
 
 def shares_of(box: FloatArray, extents: FloatArray) -> FloatArray:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cache
-from importlib import resources
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch  # noqa: TID253 - loaded by whoever runs the network
@@ -14,12 +13,14 @@ from scipy.special import expit, softmax
 from ...articulation import Weights
 from ...mesh import FloatArray, IntArray, Mesh
 from ...runtime.store import digest_file
+from ..weights.checkpoint import filled, load_tensors
+from ..weights.safetensors import read_safetensors
+from ..weights.sources import shipped_file
 from .canvas import KINDS, look_at
 from .decode import Dense, Found, found_parts
 from .network import DenseAnswers, Detector, cues_of
 
-FILE = "detector.safetensors"
-SHIPPED = Path(str(resources.files("asset_factory") / "configs" / "weights" / FILE))
+WEIGHTS = shipped_file("detector.safetensors")
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,13 +51,11 @@ class Detection:
         return KINDS[int(self.kinds.argmax())]
 
 
-def detect(mesh: Mesh, weights: Path = SHIPPED) -> Detection:
+def detect(mesh: Mesh) -> Detection:
     """Return the detections on a mesh, z up, of at least one triangle."""
-    network = _loaded(weights)
     canvases = look_at(mesh)
-    with torch.no_grad():
-        cues = cues_of(torch.from_numpy(canvases.color), torch.from_numpy(canvases.depth))
-        answers = network(cues[None])
+    cues = cues_of(torch.from_numpy(canvases.color), torch.from_numpy(canvases.depth))
+    answers = _network()(cues[None])
     return Detection(
         dense_of(answers),
         canvases.cells,
@@ -75,16 +74,11 @@ def _array(values: torch.Tensor) -> FloatArray:
     return np.asarray(values[0].float().cpu().numpy(), dtype=np.float64)
 
 
-def detector_weights(weights: Path = SHIPPED) -> Weights:
+def detector_weights() -> Weights:
     """Return what a manifest says of the weights."""
-    return Weights(weights.name, digest_file(weights), "Apache-2.0")
+    return Weights(WEIGHTS.name, digest_file(WEIGHTS), "Apache-2.0")
 
 
 @cache
-def _loaded(weights: Path) -> Detector:
-    from safetensors.torch import load_file
-
-    network = Detector(len(KINDS))
-    network.load_state_dict({name: each.float() for name, each in load_file(weights).items()})
-    network.eval()
-    return network
+def _network() -> Any:
+    return filled(Detector, len(KINDS), load_tensors(read_safetensors(WEIGHTS)), "cpu")

@@ -14,8 +14,6 @@ from .canvas import CANVAS, DEPTH_STEPS, LONGEST, NOTHING, SIDES, SORTS, WAYS
 Tensor = Any
 #: Channels of what the network is given.
 CUES = 9
-#: DenseAnswers stand on every so many pixels.
-STRIDE = 4
 #: Length of a dent or a bump that counts as one [pixels], and the highest that is told apart.
 DENT = 9
 DEEPEST = 4.0

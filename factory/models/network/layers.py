@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import OrderedDict
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to make a network
@@ -57,14 +58,14 @@ class Attention(nn.Module):  # type: ignore[misc]
         self.to_v = nn.Linear(width, width, bias=False)
         self.norm_q = nn.RMSNorm(width // heads, eps=RMS_EPS)
         self.norm_k = nn.RMSNorm(width // heads, eps=RMS_EPS)
-        self.to_out = nn.ModuleList([nn.Linear(width, width), nn.Dropout(dropout)])
+        self.to_out = nn.Sequential(nn.Linear(width, width), nn.Dropout(dropout))
 
     def forward(self, asking: Tensor, asked: Tensor) -> Tensor:
         """Let ``asking`` [..., n, width] attend to ``asked`` [..., m, width]; as ``asking``."""
         query = self.norm_q(self.split(self.to_q(asking)))
         key = self.norm_k(self.split(self.to_k(asked)))
         found = F.scaled_dot_product_attention(query, key, self.split(self.to_v(asked)))
-        return self.to_out[1](self.to_out[0](found.transpose(-3, -2).flatten(-2)))
+        return self.to_out(found.transpose(-3, -2).flatten(-2))
 
     def split(self, tensor: Tensor) -> Tensor:
         """Split [..., n, width] into [..., heads, n, width / heads]."""
@@ -84,22 +85,6 @@ class GatedLinear(nn.Module):  # type: ignore[misc]
         return value * F.gelu(gate)
 
 
-class GatedPerceptron(nn.Module):  # type: ignore[misc]
-    """A gated layer and a linear one."""
-
-    def __init__(self, width: int, middle: int, dropout: float) -> None:
-        super().__init__()
-        self.net = nn.ModuleList(
-            [GatedLinear(width, middle), nn.Dropout(dropout), nn.Linear(middle, width)]
-        )
-
-    def forward(self, tensor: Tensor) -> Tensor:
-        """Map [..., width] to [..., width]."""
-        for layer in self.net:
-            tensor = layer(tensor)
-        return tensor
-
-
 class Block(nn.Module):  # type: ignore[misc]
     """Queries look at each other and at the points; then the points look at the queries.
 
@@ -114,8 +99,8 @@ class Block(nn.Module):  # type: ignore[misc]
         self.final_norm_x = nn.LayerNorm(width)
         self.final_norm_q = nn.LayerNorm(width)
         self.attn1, self.attn2, self.attn3 = (Attention(width, heads, dropout) for _ in range(3))
-        self.mlp_x = GatedPerceptron(width, shape.mlp, dropout)
-        self.mlp_q = GatedPerceptron(width, shape.mlp, dropout)
+        self.mlp_x = gated_perceptron(width, shape.mlp, dropout)
+        self.mlp_q = gated_perceptron(width, shape.mlp, dropout)
 
     def forward(self, points: Tensor, queries: Tensor) -> tuple[Tensor, Tensor]:
         """Return both sides after one round: [batch, n, width] and [batch, m, width]."""
@@ -133,6 +118,17 @@ class Block(nn.Module):  # type: ignore[misc]
     def finish_queries(self, queries: Tensor) -> Tensor:
         """Return the queries' own perceptron."""
         return queries + self.mlp_q(self.final_norm_q(queries))
+
+
+def named(**layers: Any) -> Any:
+    """Return layers that follow one another, each under its name in the release."""
+    return nn.Sequential(OrderedDict(layers))
+
+
+def gated_perceptron(width: int, middle: int, dropout: float) -> Any:
+    """Return a gated layer and a linear one."""
+    gated = GatedLinear(width, middle)
+    return named(net=nn.Sequential(gated, nn.Dropout(dropout), nn.Linear(middle, width)))
 
 
 def two_layers(inputs: int, middle: int, outputs: int) -> Any:

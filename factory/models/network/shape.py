@@ -66,14 +66,6 @@ class NetworkShape:
         return 3 * 2 * FREQUENCIES + (3 if self.raw_coords else 0)
 
 
-SIZES = {
-    "S": NetworkShape(hidden=384, blocks=6, heads=6),
-    "B": NetworkShape(hidden=768, blocks=6, heads=12),
-    "L": NetworkShape(hidden=1024, blocks=12, heads=16),
-    "XL": NetworkShape(hidden=1152, blocks=14, heads=16),
-}
-
-
 def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShape:
     """Return the network that a checkpoint was saved from.
 

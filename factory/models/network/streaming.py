@@ -165,13 +165,11 @@ def embed_chunks(
 
 
 @torch.inference_mode()  # type: ignore[untyped-decorator]
-def finish(
-    hidden: Tensor, updates: tuple[PointUpdate, ...], masks: PairHead, chunk: int = CHUNK
-) -> Float32Array:
+def finish(hidden: Tensor, updates: tuple[PointUpdate, ...], masks: PairHead) -> Float32Array:
     """Put points through the updates, in place; returns the part of each, shape [n, parts]."""
     # Made at once: small arrays kept between large passing ones would leave holes of a gigabyte.
     logits = np.empty((len(hidden), masks.parts), dtype=np.float32)
-    for rows in chunks(len(hidden), chunk):
+    for rows in chunks(len(hidden), CHUNK):
         for update in updates:
             update.apply(hidden[rows])
         logits[rows] = masks.every_part(hidden[rows]).cpu().numpy()
@@ -180,14 +178,21 @@ def finish(
 
 @torch.inference_mode()  # type: ignore[untyped-decorator]
 def own_parts(
-    hidden: Tensor, head: PairHead, part_ids: IntArray, rows: IntArray, chunk: int = CHUNK
+    hidden: Tensor, head: PairHead, part_ids: IntArray, rows: IntArray | None = None
 ) -> Float32Array:
-    """Return a head's outputs for some points and their parts, shape [row_count, outputs]."""
-    found = np.empty((len(rows), head.outputs), dtype=np.float32)
-    for part in chunks(len(rows), chunk):
-        at = torch.tensor(rows[part], device=hidden.device)
-        ids = torch.tensor(part_ids[rows[part]], device=hidden.device)
-        found[part] = head.own_part(hidden[at], ids).cpu().numpy()
+    """Return a head's outputs for some points and their parts, shape [row_count, outputs].
+
+    Arguments: see :class:`..particulate.prediction.ClosestPoints`.
+    """
+    if np.shape(part_ids) != (len(hidden),):
+        raise ValueError(f"part_ids: shape {np.shape(part_ids)}, want [{len(hidden)}]")
+    picked = torch.arange(len(hidden)) if rows is None else torch.tensor(rows, dtype=torch.int64)
+    picked = picked.to(hidden.device)
+    ids = torch.tensor(part_ids, dtype=torch.int64, device=hidden.device)
+    found = np.empty((len(picked), head.outputs), dtype=np.float32)
+    for part in chunks(len(picked), CHUNK):
+        at = picked[part]
+        found[part] = head.own_part(hidden[at], ids[at]).cpu().numpy()
     return found
 
 

@@ -100,14 +100,15 @@ class PartArticulationTransformer(nn.Module):  # type: ignore[misc]
         numbers = torch.arange(self.shape.max_parts, dtype=torch.float32, device=weight.device)
         return self.part_id_embed((numbers / self.shape.max_parts)[:, None])
 
-    def mask_head(self, hypothesis: int = 0) -> Any:
-        """Return the perceptron that says which part a point belongs to."""
+    @property
+    def mask_head(self) -> Any:
+        """Return the perceptron that says which part a point belongs to; the first of several."""
         heads = self.point_mask_decoder
-        return heads[hypothesis] if self.shape.hypotheses > 1 else heads
+        return heads[0] if self.shape.hypotheses > 1 else heads
 
-    def mask_logits(self, hidden: Tensor, queries: Tensor, hypothesis: int = 0) -> Tensor:
+    def mask_logits(self, hidden: Tensor, queries: Tensor) -> Tensor:
         """Return which query each point belongs to, shape [batch, n, parts]."""
-        return pair_logits(self.mask_head(hypothesis), hidden, queries)
+        return pair_logits(self.mask_head, hidden, queries)
 
     def part_outputs(self, queries: Tensor) -> PartOutputs:
         """Return what the part heads say about the queries, [batch, parts, hidden]."""

@@ -8,6 +8,7 @@ import torch  # noqa: TID253 - this module is only imported to make the encoder
 import torch.nn.functional as F  # noqa: N812, TID253
 from torch import nn  # noqa: TID253
 
+from ..network.layers import named
 from .shape import POINT_CHANNELS, PartFieldShape
 from .unet import PlaneUNet
 
@@ -60,21 +61,6 @@ class Layer(nn.Module):  # type: ignore[misc]
         return tokens + self.mlp(self.norm2(tokens))
 
 
-class Stack(nn.Module):  # type: ignore[misc]
-    """The layers and a last normalisation."""
-
-    def __init__(self, shape: PartFieldShape) -> None:
-        super().__init__()
-        self.layers = nn.ModuleList([Layer(shape.width, shape.heads) for _ in range(shape.layers)])
-        self.norm = nn.LayerNorm(shape.width, eps=_EPS)
-
-    def forward(self, tokens: Tensor) -> Tensor:
-        """Map [n, width] to the same."""
-        for layer in self.layers:
-            tokens = layer(tokens)
-        return self.norm(tokens)
-
-
 class TriplaneTransformer(nn.Module):  # type: ignore[misc]
     """Planes four times coarser, through the transformer, upsampled and added to the input."""
 
@@ -92,7 +78,8 @@ class TriplaneTransformer(nn.Module):  # type: ignore[misc]
             nn.ReLU(inplace=True),
             nn.MaxPool2d(2),
         )
-        self.transformer = Stack(shape)
+        layers = (Layer(wide, shape.heads) for _ in range(shape.layers))
+        self.transformer = named(layers=nn.Sequential(*layers), norm=nn.LayerNorm(wide, eps=_EPS))
         self.upsampler = nn.ConvTranspose2d(wide, planes, 4, stride=4)
         self.mlp = nn.Sequential(
             nn.Linear(shape.channels, planes), nn.ReLU(inplace=True), nn.Linear(planes, planes)
@@ -110,20 +97,6 @@ class TriplaneTransformer(nn.Module):  # type: ignore[misc]
         return (self.upsampler(coarse) + cells)[None]
 
 
-class PointFeatures(nn.Module):  # type: ignore[misc]
-    """A layer per point, normalised over the whole cloud."""
-
-    def __init__(self, channels: int) -> None:
-        super().__init__()
-        self.layers = nn.Sequential(
-            nn.Conv1d(POINT_CHANNELS, channels, 1), nn.InstanceNorm1d(channels), nn.ReLU()
-        )
-
-    def forward(self, inputs: Tensor) -> Tensor:
-        """Map [1, 8, n] to [1, channels, n]."""
-        return self.layers(inputs)
-
-
 class PointVoxelConv(nn.Module):  # type: ignore[misc]
     """A point's own features, plus those around it in a 32^3 grid."""
 
@@ -137,7 +110,11 @@ class PointVoxelConv(nn.Module):  # type: ignore[misc]
             nn.InstanceNorm3d(channels, eps=_VOXEL_EPS),
             nn.LeakyReLU(0.1, inplace=True),
         )
-        self.point_features = PointFeatures(channels)
+        # A layer per point, normalised over the whole cloud.
+        alone = nn.Conv1d(POINT_CHANNELS, channels, 1)
+        self.point_features = named(
+            layers=nn.Sequential(alone, nn.InstanceNorm1d(channels), nn.ReLU())
+        )
 
     def forward(self, points: Tensor) -> Tensor:
         """Return the features of points within [-1, 1]^3, shape [n, 3] to [1, channels, n]."""
@@ -196,27 +173,19 @@ def scatter_mean(values: Tensor, index: Tensor, size: int) -> Tensor:
     return sums / counts[:, None]
 
 
-class PointEncoder(nn.Module):  # type: ignore[misc]
-    """Only the first of the release's four layers: it throws the others' results away."""
-
-    def __init__(self, channels: int) -> None:
-        super().__init__()
-        self.encoder = nn.ModuleList([PointVoxelConv(channels)])
-
-
 class PointsToPlanes(nn.Module):  # type: ignore[misc]
     """Points to three planes."""
 
     def __init__(self, shape: PartFieldShape) -> None:
         super().__init__()
         self.resolution = shape.resolution
-        self.pc_encoder = PointEncoder(shape.channels)
+        # Only the first of the release's four layers: it throws the others' results away.
+        self.pc_encoder = named(encoder=nn.Sequential(PointVoxelConv(shape.channels)))
         self.unet_encoder = PlaneUNet(shape.channels, shape.unet)
 
     def forward(self, points: Tensor) -> Tensor:
         """Map [n, 3] within [-1, 1]^3 to [1, 3, channels, resolution, resolution]."""
-        features = self.pc_encoder.encoder[0](points)
-        found = features[0].T.to(points.dtype)
+        found = self.pc_encoder(points)[0].T.to(points.dtype)
         return self.unet_encoder(scatter_to_planes(points, found, self.resolution))
 
 

@@ -53,12 +53,10 @@ class PartFieldShape:
         return self.resolution // 4
 
 
-def read_partfield_shape(
-    tensors: Mapping[str, Shape], heads: int = 8, sdf_channels: int = 64
-) -> PartFieldShape:
+def read_partfield_shape(tensors: Mapping[str, Shape], heads: int = 8) -> PartFieldShape:
     """Return the encoder that a checkpoint was saved from.
 
-    ``tensors`` are shapes by name; none tells the transformer's ``heads`` and ``sdf_channels``.
+    ``tensors`` are shapes by name; none tells the transformer's ``heads``.
 
     Raises:
         ConfigError: a tensor is missing, unknown, or of an impossible shape.
@@ -84,7 +82,6 @@ def read_partfield_shape(
         layers=layers,
         heads=heads,
         plane_channels=_dimensions(tensors, "triplane_transformer.upsampler.weight", 4)[1],
-        sdf_channels=sdf_channels,
     )
     if not levels or not layers or shape.features <= 0 or shape.resolution % 2 ** (len(levels) - 1):
         raise ConfigError(f"this is no PartField: it would be {shape}")

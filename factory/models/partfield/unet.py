@@ -9,6 +9,7 @@ import torch  # noqa: TID253 - this module is only imported to make the encoder
 import torch.nn.functional as F  # noqa: N812, TID253
 from torch import nn  # noqa: TID253
 
+from ..network.layers import named
 from .shape import NORM_GROUPS
 
 Tensor = Any
@@ -64,14 +65,6 @@ class ResBlock(nn.Module):  # type: ignore[misc]
         return inner + (self.nin_shortcut(image) if hasattr(self, "nin_shortcut") else image)
 
 
-class Down(nn.Module):  # type: ignore[misc]
-    """One level on the way down."""
-
-    def __init__(self, inputs: int, outputs: int) -> None:
-        super().__init__()
-        self.block = ResBlock(inputs, outputs)
-
-
 class Up(nn.Module):  # type: ignore[misc]
     """One level on the way up: twice as fine, joined with what that level was on the way down."""
 
@@ -96,7 +89,7 @@ class PlaneUNet(nn.Module):  # type: ignore[misc]
     def __init__(self, channels: int, levels: tuple[int, ...]) -> None:
         super().__init__()
         pairs = zip((channels, *levels), levels, strict=False)
-        self.down_convs = nn.ModuleList([Down(inputs, outputs) for inputs, outputs in pairs])
+        self.down_convs = nn.ModuleList([named(block=ResBlock(*pair)) for pair in pairs])
         upward = list(reversed(levels))
         joined = itertools.pairwise(upward)
         self.up_convs = nn.ModuleList([Up(below + here, here) for below, here in joined])
@@ -108,7 +101,7 @@ class PlaneUNet(nn.Module):  # type: ignore[misc]
         image = planes.transpose(1, 2).flatten(2, 3)
         seen = []
         for number, down in enumerate(self.down_convs):
-            image = down.block(F.avg_pool2d(image, 2) if number else image)
+            image = down(F.avg_pool2d(image, 2) if number else image)
             seen.append(image)
         seen.pop()
         for up in self.up_convs:

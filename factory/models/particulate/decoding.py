@@ -8,6 +8,7 @@ from enum import StrEnum
 import numpy as np
 import numpy.typing as npt
 
+from ...config import ParticulateConfig
 from ...mesh import FloatArray, IntArray, read_only
 from .frames import UnitBox
 from .labels import Refinement, refined, voted, with_gaps_filled
@@ -27,23 +28,6 @@ class TreeOver(StrEnum):
 
     PRESENT = "present"
     ALL = "all"
-
-
-@dataclass(frozen=True)
-class DecodeRules:
-    """How an answer is read.
-
-    Attributes:
-        least_confidence: parts below it are dissolved, see :func:`assigned`.
-        refinement: see :class:`~.labels.Refinement`.
-        fused_share: see :func:`~.labels.fused_components`.
-        tree: see :class:`TreeOver`.
-    """
-
-    least_confidence: float = 0.0
-    refinement: Refinement = Refinement.AUTO
-    fused_share: float = 0.1
-    tree: TreeOver = TreeOver.PRESENT
 
 
 @dataclass(frozen=True)
@@ -93,7 +77,11 @@ class Decoded:
 
 
 def decode(
-    surface: Surface, proxy: Proxy, sample: CloudSample, prediction: Prediction, rules: DecodeRules
+    surface: Surface,
+    proxy: Proxy,
+    sample: CloudSample,
+    prediction: Prediction,
+    config: ParticulateConfig,
 ) -> Decoded:
     """Read the network's answer for one sample of one mesh.
 
@@ -102,19 +90,21 @@ def decode(
         proxy: the surface sampled in its stead.
         sample: what the network was shown; row ``i`` of the answer is about its point ``i``.
         prediction: the answer, network frame.
-        rules: how to read it.
+        config: how to read it: parts that are less sure than ``least_confidence`` are dissolved,
+            see :func:`assigned`; :class:`~.labels.Refinement`; :func:`~.labels.fused_components`;
+            :class:`TreeOver`.
 
     Raises:
         InputRejected: ``prediction_not_finite``, naming the field.
     """
     require_finite(prediction)
-    points = assigned(prediction.mask_logits, rules.least_confidence)
+    points = assigned(prediction.mask_logits, config.least_confidence)
     labels = voted(sample.cloud.faces, points.parts, len(proxy.surface.faces))
     labels = carried_back(proxy, labels, surface.faces)
     labels = with_gaps_filled(surface, labels, sample.cloud.points, points.parts)
-    labels, fused = refined(surface, labels, rules.refinement, rules.fused_share)
+    labels, fused = refined(surface, labels, Refinement(config.refinement), config.fused_share)
     owners, face_part = np.unique(labels, return_inverse=True)
-    tree = _tree(prediction, owners, points.present, rules.tree)
+    tree = _tree(prediction, owners, points.present, TreeOver(config.tree))
     row = {int(query): index for index, query in enumerate(owners)}
     logits = prediction.hierarchy_logits
     held = {child: _sigmoid(logits[parent, child]) for parent, child in tree}

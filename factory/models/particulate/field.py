@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import torch  # noqa: TID253 - this module is only imported to load the encoder
 
 from ...mesh import Float32Array
 from ..network.shape import Precision, product_dtype
+from ..partfield.encoder import PartFieldEncoder, sample_field
 from ..partfield.shape import UNUSED, PartFieldShape, read_partfield_shape
-from ..weights.checkpoint import filled, load_tensors, naming, open_checkpoint
+from ..weights.checkpoint import filled, load_tensors, open_checkpoint
 from ..weights.sources import fetch
 
 _HALF_SIZE = 0.9
@@ -43,10 +46,6 @@ class FeatureField:
         Returns:
             [point_count, channels].
         """
-        import torch
-
-        from ..partfield.encoder import sample_field
-
         cloud = np.asarray(context, dtype=np.float32)
         low = cloud.min(axis=0)
         high = cloud.max(axis=0)
@@ -81,10 +80,7 @@ def load_field(
     Raises:
         ConfigError: no such checkpoint, or not one of this network.
     """
-    from ..partfield.encoder import PartFieldEncoder
-
     stored = open_checkpoint(fetch(checkpoint))
-    with naming(stored.file):
-        shape = read_partfield_shape(stored.shapes, heads=heads)
+    shape = stored.read(partial(read_partfield_shape, heads=heads))
     encoder = filled(PartFieldEncoder, shape, load_tensors(stored, leave=UNUSED), device)
     return FeatureField(shape, product_dtype(precision), device, encoder)

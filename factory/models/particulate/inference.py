@@ -7,10 +7,11 @@ from typing import Protocol
 
 import numpy as np
 
+from ...config import ParticulateConfig
 from ...errors import InputRejected
 from ...mesh import FloatArray, IntArray
 from .agreement import Consensus, consensus
-from .decoding import Decoded, DecodeRules, decode
+from .decoding import Decoded, decode
 from .prediction import Prediction
 from .proxy import proxy_of
 from .sampling import Cloud, sample
@@ -31,16 +32,7 @@ class Network(Protocol):
 
 
 def infer(
-    vertices: FloatArray,
-    faces: IntArray,
-    network: Network,
-    *,
-    points: int,
-    context_points: int,
-    most_faces: int,
-    samples: int,
-    seed: int,
-    rules: DecodeRules,
+    vertices: FloatArray, faces: IntArray, network: Network, config: ParticulateConfig
 ) -> Consensus:
     """Return what the network makes of a mesh.
 
@@ -48,37 +40,24 @@ def infer(
         vertices: object frame, z up [m], shape [vertex_count, 3].
         faces: shape [face_count, 3].
         network: answers for one cloud.
-        points: to label per sample; more where a face would have none.
-        context_points: for features of the whole shape, per sample.
-        most_faces: a mesh with more is shown as a lighter one.
-        samples: how many independent samples are read; the one that agrees most with the others is
-            taken.
-        seed: of all chance; sample ``k`` is the same however many there are.
-        rules: how an answer is read.
+        config: how the mesh is shown and its answers are read. Of several samples the one that
+            agrees most with the others is taken; sample ``k`` is the same however many there are.
 
     Raises:
-        InputRejected: ``zero_size``, ``prediction_not_finite``.
-        ValueError: there must be at least one point and one sample.
+        InputRejected: ``empty``, ``zero_size``, ``prediction_not_finite``.
     """
-    if points < 1 or context_points < 1 or most_faces < 4 or not 1 <= samples <= MOST_SAMPLES:
-        asked = f"{points} points, {context_points} context points, {most_faces} faces, "
-        want = f"want at least 1, 1, 4 and 1, and at most {MOST_SAMPLES} samples"
-        raise ValueError(f"{asked}{samples} samples: {want}")
-    surface = _surface(vertices, faces)
-    proxy = proxy_of(surface, most_faces)
-
-    def readings() -> Iterator[Decoded]:
-        for number in range(samples):
-            rng = np.random.default_rng((seed, number))
-            seen = sample(proxy.surface, points, context_points, most_faces, rng)
-            answer = network(seen.cloud.inside(seen.box), seen.context.inside(seen.box))
-            yield decode(surface, proxy, seen, answer, rules)
-
-    return consensus(tuple(readings()), surface.areas)
-
-
-def _surface(vertices: FloatArray, faces: IntArray) -> Surface:
     if not len(faces):
         why = "the mesh has no faces; want a surface, no point cloud"
         raise InputRejected("empty", why, value=0.0, unit="faces")
-    return Surface.of(vertices, faces)
+    surface = Surface.of(vertices, faces)
+    proxy = proxy_of(surface, config.max_faces)
+
+    def readings() -> Iterator[Decoded]:
+        counts = (config.points, config.context_points, config.max_faces)
+        for number in range(config.samples):
+            rng = np.random.default_rng((config.seed, number))
+            seen = sample(proxy.surface, *counts, rng)
+            answer = network(seen.cloud.inside(seen.box), seen.context.inside(seen.box))
+            yield decode(surface, proxy, seen, answer, config)
+
+    return consensus(tuple(readings()), surface.areas)

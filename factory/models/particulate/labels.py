@@ -90,8 +90,10 @@ def refined(
         fused = fused_components(surface, labels, fused_share)
     inside = np.isin(surface.components, fused)
     if how is Refinement.AUTO:
+        area = np.bincount(labels, weights=surface.areas)
+        stray = area < TINY * area.sum()
         # Merging then gives them to what surrounds them.
-        labels = np.where(inside & _tiny(surface, labels)[labels], one_each, labels)
+        labels = np.where(inside & stray[labels], one_each, labels)
     patched = merged_into_one_each(surface, labels, inside)
     return np.where(inside, patched, one_each), len(fused)
 
@@ -118,12 +120,6 @@ def fused_components(surface: Surface, labels: IntArray, share: float) -> IntArr
     whole = total.sum()
     fused = (wiped >= share * total) & (total >= share * whole) | (total >= NEARLY_ALL * whole)
     return np.flatnonzero(fused & (wiped > 0.0))
-
-
-def _tiny(surface: Surface, labels: IntArray) -> BoolArray:
-    """Return which labels are strays, shape [label_count]."""
-    area = np.bincount(labels, weights=surface.areas)
-    return np.asarray(area < TINY * area.sum())
 
 
 def _area_by_label(surface: Surface, labels: IntArray) -> FloatArray:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ...config import ParticulateConfig
 from ..network.shape import read_shape
-from ..weights.checkpoint import naming, open_checkpoint
+from ..weights.checkpoint import open_checkpoint
 from ..weights.sources import fetch
 from .components import COMPONENT_FEATURES
 from .device import device_for
@@ -21,10 +21,9 @@ def weight_files(config: ParticulateConfig) -> tuple[str, ...]:
     Raises:
         ConfigError: no such checkpoint, or not one of this network.
     """
-    stored = open_checkpoint(fetch(config.checkpoint))
-    with naming(stored.file):
-        wants = read_shape(stored.shapes).features not in (0, COMPONENT_FEATURES)
-    return (config.checkpoint, config.features) if wants else (config.checkpoint,)
+    wanted = open_checkpoint(fetch(config.checkpoint)).read(read_shape).features
+    alone = wanted in (0, COMPONENT_FEATURES)
+    return (config.checkpoint,) if alone else (config.checkpoint, config.features)
 
 
 def load_network(config: ParticulateConfig) -> Particulate:

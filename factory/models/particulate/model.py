@@ -1,24 +1,32 @@
-"""The network with its weights, ready to answer for a cloud of points."""
+"""The network with its weights, ready to answer for a cloud of points; imports torch."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import Any
 
 import numpy as np
 
 from ...errors import ConfigError
 from ...mesh import Float32Array, IntArray
 from ..network.shape import NetworkShape, Precision, product_dtype, read_shape
-from ..weights.checkpoint import filled, load_tensors, naming, open_checkpoint
+from ..network.streaming import (
+    Driven,
+    PairHead,
+    drive,
+    embed_chunks,
+    finish,
+    own_parts,
+    part_outputs,
+)
+from ..network.transformer import PartArticulationTransformer
+from ..weights.checkpoint import filled, load_tensors, open_checkpoint
 from ..weights.sources import PARTFIELD, fetch
 from .components import COMPONENT_FEATURES, component_features
 from .field import FeatureField
 from .prediction import Prediction
 from .sampling import Cloud
-
-if TYPE_CHECKING:
-    from ..network.streaming import Driven
 
 _DRIVING_SEED = 0
 
@@ -63,54 +71,43 @@ class Model:
     Attributes:
         shape: its sizes and variant.
         dtype: of the products over points, a torch type.
-        device: where it runs.
         upright: whether it was taught every axis by its upward direction, so that only limits say
             which way opens.
     """
 
     shape: NetworkShape
     dtype: Any
-    device: str
     _network: Any = field(repr=False)
     upright: bool = False
 
-    def predict(
-        self, cloud: PointCloud, *, driving: int | None = None, hypothesis: int = 0
-    ) -> Prediction:
+    def predict(self, cloud: PointCloud, *, driving: int | None = None) -> Prediction:
         """Return what the network says about a cloud.
 
         Args:
             cloud: of any size.
             driving: how many of the points the parts are told from, drawn at random but always the
                 same ones; the others are only labelled, for less work. All of them by default.
-            hypothesis: which mask head, for networks with several.
         """
         if driving is not None and driving < len(cloud.points):
             rows = np.random.default_rng(_DRIVING_SEED).permutation(len(cloud.points))[:driving]
-            return self.decode(self.encode(cloud.take(np.sort(rows))), cloud, hypothesis=hypothesis)
-        from ..network.streaming import drive
-
+            return self.decode(self.encode(cloud.take(np.sort(rows))), cloud)
         hidden = self._embed(cloud)
         driven = drive(self._network, hidden, self.dtype)
-        return self._read(driven, hidden, driven.updates[-1:], hypothesis)
+        return self._read(driven, hidden, driven.updates[-1:])
 
     def encode(self, cloud: PointCloud) -> Driven:
         """Encode a cloud's parts: enough to label other points of the same surface."""
-        from ..network.streaming import drive
-
         driven: Driven = drive(self._network, self._embed(cloud), self.dtype)
         return driven
 
-    def decode(self, driven: Driven, cloud: PointCloud, *, hypothesis: int = 0) -> Prediction:
+    def decode(self, driven: Driven, cloud: PointCloud) -> Prediction:
         """Return what the network says about points, given what others told about the parts.
 
         Every point is answered for alone: more or fewer of them change nothing.
         """
-        return self._read(driven, self._embed(cloud), driven.updates, hypothesis)
+        return self._read(driven, self._embed(cloud), driven.updates)
 
     def _embed(self, cloud: PointCloud) -> Any:
-        from ..network.streaming import embed_chunks
-
         wanted = self.shape.features
         given = cloud.features
         if wanted and (given is None or given.shape[1] != wanted):
@@ -121,14 +118,8 @@ class Model:
         normals = cloud.normals if self.shape.normals else None
         return embed_chunks(self._network, cloud.points, normals, features)
 
-    def _read(
-        self, driven: Driven, hidden: Any, updates: tuple[Any, ...], hypothesis: int
-    ) -> Prediction:
-        from ..network.streaming import PairHead, finish, part_outputs
-
-        if not 0 <= hypothesis < self.shape.hypotheses:
-            raise ValueError(f"hypothesis {hypothesis}: this network has {self.shape.hypotheses}")
-        masks = PairHead(self._network.mask_head(hypothesis), driven.queries, self.dtype)
+    def _read(self, driven: Driven, hidden: Any, updates: tuple[Any, ...]) -> Prediction:
+        masks = PairHead(self._network.mask_head, driven.queries, self.dtype)
         mask_logits = finish(hidden, updates, masks)
         parts = part_outputs(self._network, driven.queries)
         if self.upright:
@@ -137,7 +128,7 @@ class Model:
         closest = None
         if moment is None:
             head = PairHead(self._network.point_motion_decoder, driven.queries, self.dtype)
-            closest = _Closest(hidden, head)
+            closest = partial(own_parts, hidden, head)
         return Prediction(
             mask_logits=mask_logits, closest_points=closest, revolute_moment=moment, **parts
         )
@@ -154,24 +145,6 @@ def _opening(parts: dict[str, Any]) -> dict[str, Any]:
     }
     moment = parts["revolute_moment"]
     return {**parts, **changed, "revolute_moment": None if moment is None else moment * sign}
-
-
-@dataclass(frozen=True)
-class _Closest:
-    """See :class:`.prediction.ClosestPoints`."""
-
-    hidden: Any
-    head: Any
-
-    def __call__(self, part_ids: IntArray, rows: IntArray | None = None) -> Float32Array:
-        from ..network.streaming import own_parts
-
-        if np.shape(part_ids) != (len(self.hidden),):
-            raise ValueError(f"part_ids: shape {np.shape(part_ids)}, want [{len(self.hidden)}]")
-        picked = np.arange(len(self.hidden)) if rows is None else np.asarray(rows, dtype=np.int64)
-        ids = np.asarray(part_ids, dtype=np.int64)
-        found: Float32Array = own_parts(self.hidden, self.head, ids, picked)
-        return found
 
 
 @dataclass(frozen=True)
@@ -229,11 +202,8 @@ def load_model(
     Raises:
         ConfigError: no such checkpoint, or not one of this network.
     """
-    from ..network.transformer import PartArticulationTransformer
-
     stored = open_checkpoint(fetch(checkpoint))
-    with naming(stored.file):
-        shape = read_shape(stored.shapes, max_parts)
+    shape = stored.read(partial(read_shape, max_parts=max_parts))
     network = filled(PartArticulationTransformer, shape, load_tensors(stored), device)
     upright = stored.metadata.get("axes") == "upright"
-    return Model(shape, product_dtype(precision), device, network, upright)
+    return Model(shape, product_dtype(precision), network, upright)

@@ -134,7 +134,11 @@ def _axis(prediction: Prediction, part: int, part_ids: IntArray) -> Line | None:
         raw = np.asarray(prediction.revolute_direction[part], dtype=np.float64)
         moment = np.asarray(prediction.revolute_moment[part], dtype=np.float64)
         return Line(direction, np.cross(moment, raw) / float(raw @ raw), None)
-    return _voted(votes_for(prediction, part, part_ids), direction)
+    votes = votes_for(prediction, part, part_ids)
+    point = np.median(votes, axis=0)
+    off = votes - point
+    away = off - np.outer(off @ direction, direction)
+    return Line(direction, point, float(np.median(np.linalg.norm(away, axis=1))))
 
 
 def votes_for(prediction: Prediction, part: int, part_ids: IntArray) -> FloatArray:
@@ -164,10 +168,3 @@ def require_finite_numbers(values: npt.NDArray[np.floating[Any]], what: str) -> 
             unit="numbers",
             limit=0.0,
         )
-
-
-def _voted(votes: FloatArray, direction: FloatArray) -> Line:
-    point = np.median(votes, axis=0)
-    off = votes - point
-    away = off - np.outer(off @ direction, direction)
-    return Line(direction, point, float(np.median(np.linalg.norm(away, axis=1))))

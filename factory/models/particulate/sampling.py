@@ -108,7 +108,9 @@ def draw(
         raise InputRejected("zero_size", why, value=0.0)
     sharp_count = int(SHARP_SHARE * count) if len(folds.edges) else 0
     on_edges = _on_edges(surface, folds, sharp_count, rng)
-    covered = rng.permutation(_largest(surface.areas, solid, most_covered))
+    if len(solid) > most_covered:
+        solid = solid[np.argsort(-surface.areas[solid], kind="stable")[:most_covered]]
+    covered = rng.permutation(solid)
     weighted = _weighted(surface.areas, max(0, count - sharp_count - len(covered)), rng)
     return _joined(on_edges, _on_faces(surface, np.concatenate([covered, weighted]), rng))
 
@@ -143,10 +145,6 @@ def _on_faces(surface: Surface, faces: IntArray, rng: np.random.Generator) -> Cl
         sharp=np.zeros(len(faces), dtype=np.bool_),
         components=surface.components[faces],
     )
-
-
-def _largest(areas: FloatArray, solid: IntArray, count: int) -> IntArray:
-    return solid if len(solid) <= count else solid[np.argsort(-areas[solid], kind="stable")[:count]]
 
 
 def _weighted(weights: FloatArray, count: int, rng: np.random.Generator) -> IntArray:

@@ -8,9 +8,8 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry.edges import label_linked
-from ...geometry.pieces import Sheet, pieces
-from ...geometry.rows import distinct_rows
+from ...geometry.edges import label_linked, shared_edges
+from ...geometry.rows import distinct_rows, weld_points
 from ...mesh import FloatArray, IntArray
 
 BoolArray = npt.NDArray[np.bool_]
@@ -69,14 +68,8 @@ class Surface:
         low = used.min(axis=0)
         high = used.max(axis=0)
         step = WELD_SHARE * max(float((high - low).max()), np.finfo(np.float64).tiny / WELD_SHARE)
-        cells = np.rint((np.clip(vertices, low, high) - low) / step).astype(np.int64)
-        # A coordinate has at most 1e8 steps, 27 bits: two of them fit one sort key.
-        order = np.lexsort((cells[:, 2], (cells[:, 0] << 28) | cells[:, 1]))
-        differs = (np.diff(cells[order], axis=0) != 0).any(axis=1)
-        new = np.concatenate([[True], differs])[: len(order)]
-        group = np.empty(len(vertices), dtype=np.int64)
-        group[order] = np.cumsum(new) - 1
-        return cls(vertices[order[new]], group[faces])
+        first, group = weld_points(np.clip(vertices, low, high), low, step)
+        return cls(vertices[first], group[faces])
 
     @cached_property
     def crosses(self) -> FloatArray:
@@ -102,7 +95,13 @@ class Surface:
     @cached_property
     def edges(self) -> Edges:
         """Return all edges of faces with three different corners."""
-        return _edges(self.faces, np.flatnonzero(has_three_corners(self.faces)))
+        chosen = np.flatnonzero(has_three_corners(self.faces))
+        owner = np.repeat(chosen, 3)
+        ends = np.sort(self.faces[chosen][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        key = ends[:, 0] * (int(self.faces.max(initial=0)) + 1) + ends[:, 1]
+        order = np.argsort(key, kind="stable")
+        starts = np.flatnonzero(np.diff(key[order], prepend=-1))
+        return Edges(ends[order[starts]], np.append(starts, len(key)), owner[order])
 
     @cached_property
     def neighbours(self) -> IntArray:
@@ -117,10 +116,8 @@ class Surface:
         first, group = distinct_rows(corners)
         original = proper[first][group]
         twins = np.stack([original, proper], axis=1)[original != proper]
-        edges = _edges(self.faces, np.sort(proper[first]))
-        begin = edges.first[:-1][edges.counts == 2]
-        pairs = np.stack([edges.faces[begin], edges.faces[begin + 1]], axis=1)
-        return np.concatenate([pairs, twins])
+        rows = np.sort(proper[first])
+        return np.concatenate([rows[shared_edges(self.faces[rows]).faces], twins])
 
     @cached_property
     def components(self) -> IntArray:
@@ -137,11 +134,6 @@ class Surface:
         return np.asarray(np.linalg.norm(last - first, axis=1))
 
     @cached_property
-    def pieces(self) -> IntArray:
-        """Return the number of each face's piece, [face_count]: components, or patches."""
-        return pieces(Sheet(self.areas, self.normals, self.neighbours, self.borders))
-
-    @cached_property
     def reconstructed(self) -> bool:
         """Return whether the surface bends a little nearly everywhere, as nobody models it.
 
@@ -151,16 +143,6 @@ class Surface:
         turn = np.degrees(np.arccos(np.clip(np.einsum("ij,ij->i", one, other), -1.0, 1.0)))
         crisp = (turn < FLAT_DEG) | (turn > SHARP_DEG)
         return bool(self.borders[crisp].sum() < CRISP * self.borders.sum())
-
-
-def _edges(faces: IntArray, chosen: IntArray) -> Edges:
-    owner = np.repeat(chosen, 3)
-    ends = np.sort(faces[chosen][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    key = ends[:, 0] * (int(faces.max(initial=0)) + 1) + ends[:, 1]
-    order = np.argsort(key, kind="stable")
-    ordered = key[order]
-    start = np.flatnonzero(np.concatenate([[True], ordered[1:] != ordered[:-1]])[: len(ordered)])
-    return Edges(ends[order[start]], np.append(start, len(ordered)), owner[order])
 
 
 def has_three_corners(faces: IntArray) -> BoolArray:

@@ -56,7 +56,11 @@ class Answering:
         prediction = self._network(_cloud(asked, "cloud"), _cloud(asked, "context"))
         texts = {}
         if prediction.closest_points is not None:
-            texts["token"] = self._hold(prediction.closest_points)
+            texts["token"] = str(next(self._numbers))
+            with self._holding:
+                self._held[texts["token"]] = prediction.closest_points
+                if len(self._held) > HELD:
+                    self._held.popitem(last=False)
         told = {each.name: getattr(prediction, each.name) for each in fields(Prediction)}
         del told["closest_points"]
         arrays = {name: values for name, values in told.items() if values is not None}
@@ -70,13 +74,24 @@ class Answering:
         points = closest(asked.arrays["part_ids"], asked.arrays["rows"])
         return Message("points", {}, {"points": points})
 
-    def _hold(self, closest: ClosestPoints) -> str:
-        with self._holding:
-            token = str(next(self._numbers))
-            self._held[token] = closest
-            if len(self._held) > HELD:
-                self._held.popitem(last=False)
-        return token
+
+class LateAnswering:
+    """Answers by a network loaded at the first question, as the cache may answer all of a job."""
+
+    def __init__(self, load: Callable[[], Answering]) -> None:
+        self._load = load
+        self._loading = threading.Lock()
+        self._answering: Answering | None = None
+
+    def __call__(self, question: bytes) -> bytes:
+        """See :class:`Answering`; a refusal while the network cannot be loaded."""
+        try:
+            with self._loading:
+                if self._answering is None:
+                    self._answering = self._load()
+        except Exception as error:  # noqa: BLE001 - who asks will ask at home
+            return refusal(error)
+        return self._answering(question)
 
 
 def refusal(error: Exception) -> bytes:

@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -18,8 +19,6 @@ from ..particulate.inference import Network
 from ..particulate.prediction import Prediction
 from ..particulate.sampling import Cloud
 from .wire import Message, WireError, pack, receive, send, unpack
-
-T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -50,12 +49,6 @@ def asking(address: Address | None) -> Iterator[None]:
         _ADDRESS.reset(before)
 
 
-def call_asking(address: Address | None, function: Callable[..., T], *args: Any) -> T:
-    """Call ``function(*args)`` within :func:`asking`, as a job has its children do."""
-    with asking(address):
-        return function(*args)
-
-
 def network_for(identity: str, own: Callable[[], Network]) -> Network:
     """Return the service's network if there is a service, else one's own.
 
@@ -77,25 +70,17 @@ class ServedNetwork:
     def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
         """See :class:`..inference.Network`."""
         if self._own is None:
-            given = {
-                f"{name}.{key}": array
-                for name, each in (("cloud", cloud), ("context", context))
-                for key, array in _seen(each).items()
-            }
+            given = {**_seen("cloud", cloud), **_seen("context", context)}
             try:
-                return self._read(self._ask("predict", {}, given), cloud, context)
+                answer = self._ask("predict", {}, given)
+                token = answer.texts.get("token")
+                if len(answer.arrays.get("mask_logits", ())) != len(cloud.points):
+                    raise WireError("the answer is about another cloud")
+                closest = None if token is None else partial(self._closest, token, cloud, context)
+                return Prediction(closest_points=closest, **answer.arrays)
             except (OSError, WireError, ValueError, TypeError):
                 pass
         return self._at_home()(cloud, context)
-
-    def closest(self, token: str, part_ids: IntArray, rows: IntArray) -> Float32Array | None:
-        """Return the closest points of an answer that the service still holds, else ``None``."""
-        try:
-            answer = self._ask("closest", {"token": token}, {"part_ids": part_ids, "rows": rows})
-            found = np.asarray(answer.arrays["points"], np.float32)
-        except (OSError, WireError, KeyError):
-            return None
-        return found if found.shape == (len(rows), 3) else None
 
     def _ask(self, kind: str, texts: dict[str, str], arrays: dict[str, Any]) -> Message:
         deadline = time.monotonic() + self._address.answer_s
@@ -107,40 +92,31 @@ class ServedNetwork:
             raise WireError(answer.texts.get("why", "no answer"))
         return answer
 
-    def _read(self, answer: Message, cloud: Cloud, context: Cloud) -> Prediction:
-        token = answer.texts.get("token")
-        arrays = dict(answer.arrays)
-        if len(arrays.get("mask_logits", ())) != len(cloud.points):
-            raise WireError("the answer is about another cloud")
-        closest = None if token is None else _AskedClosest(self, token, cloud, context)
-        return Prediction(closest_points=closest, **arrays)
+    def _closest(
+        self,
+        token: str,
+        cloud: Cloud,
+        context: Cloud,
+        part_ids: IntArray,
+        rows: IntArray | None = None,
+    ) -> Float32Array:
+        """See :class:`..prediction.ClosestPoints`; asked at home where the answer is not held."""
+        picked = np.arange(len(cloud.points)) if rows is None else np.asarray(rows)
+        try:
+            wanted = {"part_ids": np.asarray(part_ids), "rows": picked}
+            found = self._ask("closest", {"token": token}, wanted).arrays["points"]
+            if found.shape == (len(picked), 3):
+                return found
+        except (OSError, WireError, KeyError):
+            pass
+        again = self._at_home()(cloud, context).closest_points
+        assert again is not None, "the same network gives the same kind of answer"  # noqa: S101
+        return again(part_ids, picked)
 
     def _at_home(self) -> Network:
         if self._own is None:
             self._own = self._load()
         return self._own
-
-
-@dataclass(frozen=True)
-class _AskedClosest:
-    """See :class:`..prediction.ClosestPoints`."""
-
-    network: ServedNetwork
-    token: str
-    cloud: Cloud
-    context: Cloud
-
-    def __call__(self, part_ids: IntArray, rows: IntArray | None = None) -> Float32Array:
-        count = len(self.cloud.points)
-        if np.shape(part_ids) != (count,):
-            raise ValueError(f"part_ids: shape {np.shape(part_ids)}, want [{count}]")
-        picked = np.arange(count) if rows is None else np.asarray(rows, dtype=np.int64)
-        found = self.network.closest(self.token, np.asarray(part_ids, dtype=np.int64), picked)
-        if found is not None:
-            return found
-        again = self.network._at_home()(self.cloud, self.context).closest_points
-        assert again is not None, "the same network gives the same kind of answer"  # noqa: S101
-        return again(part_ids, picked)
 
 
 @contextmanager
@@ -160,10 +136,10 @@ def _connected(address: Address) -> Iterator[socket.socket]:
         yield connection
 
 
-def _seen(cloud: Cloud) -> dict[str, Any]:
+def _seen(name: str, cloud: Cloud) -> dict[str, Any]:
     """Return what the network looks at, in the numbers it computes with."""
     return {
-        "points": np.asarray(cloud.points, np.float32),
-        "normals": np.asarray(cloud.normals, np.float32),
-        "components": cloud.components,
+        f"{name}.points": np.asarray(cloud.points, np.float32),
+        f"{name}.normals": np.asarray(cloud.normals, np.float32),
+        f"{name}.components": cloud.components,
     }

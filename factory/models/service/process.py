@@ -9,8 +9,8 @@ import tempfile
 import threading
 import time
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
-from types import TracebackType
 
 from asset_factory.sim_checks.processes.isolation import Failure, Limits, WarmChild, processors
 from asset_factory.sim_checks.processes.scratch import sockets
@@ -20,7 +20,7 @@ from ...runtime.store import digest_file
 from ..particulate.device import device_for
 from ..particulate.loading import load_network, weight_files
 from ..weights.sources import fetch
-from .answering import Answer, Answering, identity_of, refusal
+from .answering import Answer, Answering, LateAnswering, identity_of
 from .asking import Address
 from .wire import WireError, receive, send
 
@@ -79,13 +79,12 @@ class ModelService:
     given up.
 
     Args:
-        at_once: clouds worked on at the same time; by default as many as there are processors, on
-            another device one.
+        at_once: see :func:`load_answering`.
     """
 
     def __init__(self, config: ParticulateConfig, at_once: int | None = None) -> None:
         self._config = config
-        self._at_once = at_once or (processors() if device_for(config.device) == "cpu" else 1)
+        self._at_once = at_once
         self._folder = Path(tempfile.mkdtemp(prefix="model-", dir=sockets()))
         self._stopping = threading.Event()
         self._child = WarmChild()
@@ -95,12 +94,7 @@ class ModelService:
         self._keeper.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        at: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._stopping.set()
         self._child.abandon()
         self._keeper.join()
@@ -130,36 +124,22 @@ class ModelService:
         shutil.rmtree(self._folder, ignore_errors=True)
 
 
-def serve(config: ParticulateConfig, path: str, at_once: int) -> None:
+def serve(config: ParticulateConfig, path: str, at_once: int | None) -> None:
     """Answer at a socket for ever; the main of the service's process."""
-    answer_all(listening_socket(path), _Late(config, at_once))
+    answer_all(listening_socket(path), LateAnswering(partial(load_answering, config, at_once)))
 
 
-class _Late:
-    """Answers by a network loaded at the first question, as the cache may answer all of a job."""
-
-    def __init__(self, config: ParticulateConfig, at_once: int) -> None:
-        self._config = config
-        self._at_once = at_once
-        self._loading = threading.Lock()
-        self._answering: Answering | None = None
-
-    def __call__(self, question: bytes) -> bytes:
-        """See :class:`.answering.Answering`; a refusal while the network cannot be loaded."""
-        try:
-            with self._loading:
-                if self._answering is None:
-                    self._answering = load_answering(self._config, self._at_once)
-        except Exception as error:  # noqa: BLE001 - who asks will ask at home
-            return refusal(error)
-        return self._answering(question)
-
-
-def load_answering(config: ParticulateConfig, at_once: int) -> Answering:
+def load_answering(config: ParticulateConfig, at_once: int | None = None) -> Answering:
     """Return the network that a configuration names, ready for questions.
+
+    Args:
+        config: names it.
+        at_once: clouds worked on at the same time; by default as many as there are processors, on
+            another device one.
 
     Raises:
         ConfigError: it cannot be loaded.
     """
+    at_once = at_once or (processors() if device_for(config.device) == "cpu" else 1)
     digests = tuple(digest_file(fetch(file)) for file in weight_files(config))
     return Answering(load_network(config), identity_of(config, digests), at_once)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -67,14 +66,13 @@ def open_checkpoint(file: Path) -> Checkpoint:
 
 
 def load_tensors(checkpoint: Checkpoint, leave: tuple[str, ...] = ()) -> dict[str, Tensor]:
-    """Return tensors, floats as float32, but those whose names begin with one of ``leave``."""
-    loaded = {}
-    for name, stored in checkpoint.tensors.items():
-        if leave and name.startswith(leave):
-            continue
-        tensor = stored.load()
-        loaded[name] = tensor.float() if tensor.is_floating_point() else tensor
-    return loaded
+    """Return copies of tensors, floats as float32, but those of names that begin with ``leave``."""
+    import torch
+
+    return {
+        name: each.to(torch.float32 if each.is_floating_point() else each.dtype, copy=True)
+        for name, each in checkpoint.load(leave).items()
+    }
 
 
 def filled(kind: Any, shape: Any, tensors: dict[str, Tensor], device: str) -> Any:
@@ -87,15 +85,6 @@ def filled(kind: Any, shape: Any, tensors: dict[str, Tensor], device: str) -> An
     return network.to(device).eval().requires_grad_(False)
 
 
-@contextmanager
-def naming(file: Path) -> Iterator[None]:
-    """Put the file's name before messages about its tensors."""
-    try:
-        yield
-    except ConfigError as error:
-        raise ConfigError(f"{file}: {error}") from error
-
-
 def describe(file: Path) -> WeightsInfo:
     """Return which network a checkpoint is for, and its sizes.
 
@@ -103,8 +92,7 @@ def describe(file: Path) -> WeightsInfo:
         ConfigError: not a checkpoint of a network this package knows.
     """
     checkpoint = open_checkpoint(file)
-    with naming(file):
-        provenance, details = _identify(checkpoint.shapes)
+    provenance, details = checkpoint.read(_identify)
     own = checkpoint.metadata.get("terms")
     return WeightsInfo(
         file=file,
@@ -131,10 +119,9 @@ def convert(source: Path, target: Path) -> WeightsInfo:
         raise ConfigError(f"{target.parent}: no such folder")
     info = describe(source)
     checkpoint = open_checkpoint(source)
-    tensors = {name: stored.load() for name, stored in checkpoint.tensors.items()}
     # A network's own metadata say how it is to be read.
     told = {"published_terms": info.terms, **checkpoint.metadata, "network": info.network}
-    write_safetensors(target, tensors, told)
+    write_safetensors(target, checkpoint.load(), told)
     return describe(target)
 
 

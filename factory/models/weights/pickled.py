@@ -168,17 +168,13 @@ def _stored_bytes(file: Path) -> Counter[int]:
             most = f"at most {_MAX_DESCRIPTION}"
             raise ConfigError(f"{file}: its description takes {size} bytes, {most}")
         prefix = described[0].filename.removesuffix("data.pkl")
-        for record in records:
-            if record.filename.removeprefix(prefix) == "byteorder":
-                _refuse_big_endian(file, archive, record)
+        notes = [each for each in records if each.filename.removeprefix(prefix) == "byteorder"]
+        # What is no short note is not unpacked.
+        if any(n.file_size > _MAX_NOTE or archive.read(n).strip() != b"little" for n in notes):
+            advice = "save it again on a little-endian one"
+            raise ConfigError(f"{file}: saved on a big-endian machine; {advice}")
     plain = [record for record in records if record.compress_type == zipfile.ZIP_STORED]
     return Counter(r.file_size for r in plain if r.filename.startswith(f"{prefix}data/"))
-
-
-def _refuse_big_endian(file: Path, archive: zipfile.ZipFile, record: zipfile.ZipInfo) -> None:
-    if record.file_size > _MAX_NOTE or archive.read(record).strip() != b"little":
-        advice = "save it again on a little-endian one"
-        raise ConfigError(f"{file}: saved on a big-endian machine; {advice}")
 
 
 def _require_stored(file: Path, tensors: Mapping[str, Tensor], stored: Counter[int]) -> None:
@@ -197,8 +193,8 @@ def _require_stored(file: Path, tensors: Mapping[str, Tensor], stored: Counter[i
         lost = f"a tensor's {min(missing)} bytes are missing, compressed or cut off"
         raise ConfigError(f"{file}: {lost}")
     total = sum(tensor.nbytes for tensor in tensors.values())
-    if total > _MOST_SHARED * sum(described.values()):
-        held_bytes = sum(described.values())
+    held_bytes = sum(described.values())
+    if total > _MOST_SHARED * held_bytes:
         raise ConfigError(f"{file}: its tensors take {total} bytes, but it holds {held_bytes}")
 
 

@@ -13,8 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from types import ModuleType
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +21,7 @@ import numpy.typing as npt
 from ...errors import ConfigError
 from ...runtime.store import writing
 
+T = TypeVar("T")
 Tensor = Any
 Shape = tuple[int, ...]
 
@@ -33,13 +33,10 @@ class StoredTensor:
     Attributes:
         dtype: its type, as the safetensors format names it, e.g. ``F32``.
         shape: elements per dimension.
-        load: reads it: a torch tensor, contiguous, in memory of its own. Raises ConfigError if the
-            file ends before the tensor does.
     """
 
     dtype: str
     shape: Shape
-    load: Callable[[], Tensor] = field(repr=False, compare=False)
 
 
 @dataclass(frozen=True)
@@ -47,12 +44,14 @@ class Checkpoint:
     """A file of tensors.
 
     Attributes:
-        file: where.
+        file: where, as messages name it.
+        stored: the safetensors file that holds the tensors.
         tensors: by name.
         metadata: what the file says about itself.
     """
 
     file: Path
+    stored: Path
     tensors: Mapping[str, StoredTensor]
     metadata: Mapping[str, str] = field(default_factory=dict)
 
@@ -61,8 +60,31 @@ class Checkpoint:
         """Name to shape."""
         return {name: tensor.shape for name, tensor in self.tensors.items()}
 
+    def read(self, reader: Callable[[Mapping[str, Shape]], T]) -> T:
+        """Return what a reader makes of the shapes; what it raises names the file."""
+        try:
+            return reader(self.shapes)
+        except ConfigError as error:
+            raise ConfigError(f"{self.file}: {error}") from error
 
-Array = npt.NDArray[Any]
+    def load(self, leave: tuple[str, ...] = (), framework: str = "pt") -> dict[str, Tensor]:
+        """Return the tensors, but those whose names begin with one of ``leave``.
+
+        Those of torch (``pt``) are the file itself; those of ``numpy`` are in memory of their own.
+
+        Raises:
+            ConfigError: the file ends before a tensor does, or the framework has not its type.
+        """
+        from safetensors import SafetensorError, safe_open
+
+        names = [name for name in self.tensors if not name.startswith(leave)]
+        try:
+            with safe_open(self.stored, framework=framework) as opened:
+                return {name: opened.get_tensor(name) for name in names}
+        except (SafetensorError, TypeError) as error:
+            raise _unreadable(self.file, error) from error
+
+
 _LENGTH = struct.Struct("<Q")
 _MAX_HEADER = 16_000_000
 _METADATA = "__metadata__"
@@ -75,38 +97,18 @@ def read_safetensors(file: Path) -> Checkpoint:
     Raises:
         ConfigError: no such format, or a tensor that the file does not hold to its end.
     """
-    library = _library()
+    from safetensors import SafetensorError, safe_open
+
     header = _header(file)
     try:
-        with library.safe_open(file, framework="numpy") as opened:
-            tensors = {}
-            for name in opened.keys():  # noqa: SIM118
-                part = opened.get_slice(name)
-                shape = tuple(part.get_shape())
-                tensors[name] = StoredTensor(part.get_dtype(), shape, partial(_load, file, name))
+        with safe_open(file, framework="numpy") as opened:
+            parts = {name: opened.get_slice(name) for name in opened.keys()}  # noqa: SIM118
             metadata = opened.metadata() or {}
         json.loads(header, object_pairs_hook=_without_doubles)
-    except (library.SafetensorError, ValueError) as error:
+    except (SafetensorError, ValueError) as error:
         raise _unreadable(file, error) from error
-    return Checkpoint(file, tensors, metadata)
-
-
-def read_arrays(file: Path) -> tuple[dict[str, Array], dict[str, str]]:
-    """Return a small file's arrays by name, read-only, and its metadata; imports no torch.
-
-    Raises:
-        ConfigError: as :func:`read_safetensors`, or an array of a type that numpy has not.
-    """
-    library = _library()
-    stored = read_safetensors(file)
-    try:
-        with library.safe_open(file, framework="numpy") as opened:
-            arrays = {name: opened.get_tensor(name) for name in stored.tensors}
-    except (library.SafetensorError, TypeError) as error:
-        raise _unreadable(file, error) from error
-    for array in arrays.values():
-        array.setflags(write=False)
-    return arrays, dict(stored.metadata)
+    tensors = {n: StoredTensor(p.get_dtype(), tuple(p.get_shape())) for n, p in parts.items()}
+    return Checkpoint(file, file, tensors, metadata)
 
 
 def write_safetensors(
@@ -117,51 +119,31 @@ def write_safetensors(
     Raises:
         ConfigError: the format has no name for a tensor's type.
     """
-    _library()
     from safetensors.torch import save_file
 
     owned = {name: tensor.detach().cpu().contiguous() for name, tensor in tensors.items()}
-    _write(file, lambda target: save_file(owned, target, dict(metadata) or None))
+    _write(file, partial(save_file, owned), metadata)
 
 
-def write_arrays(file: Path, arrays: Mapping[str, Array], metadata: Mapping[str, str]) -> None:
+def write_arrays(
+    file: Path, arrays: Mapping[str, npt.NDArray[Any]], metadata: Mapping[str, str]
+) -> None:
     """Write arrays as :func:`write_safetensors` writes tensors; imports no torch."""
-    _library()
     from safetensors.numpy import save_file
 
     owned = {name: np.array(array, order="C") for name, array in arrays.items()}
-    _write(file, lambda target: save_file(owned, target, dict(metadata) or None))
+    _write(file, partial(save_file, owned), metadata)
 
 
-def _write(file: Path, save: Callable[[str], None]) -> None:
+def _write(file: Path, save: Callable[..., None], metadata: Mapping[str, str]) -> None:
     with writing(file) as stream:
         try:
-            save(stream.name)
+            save(stream.name, dict(metadata) or None)
         except (KeyError, ValueError) as error:
             raise ConfigError(f"{file}: cannot be saved as safetensors: {error}") from error
         _put_in_order(stream)
         # The library puts a file of its own in place, which only its user may read.
         os.chmod(stream.name, 0o644)
-
-
-def _library() -> ModuleType:
-    try:
-        import safetensors
-    except ImportError as error:
-        raise ConfigError(
-            "weights are read and written by safetensors: pip install safetensors"
-        ) from error
-    return safetensors
-
-
-def _load(file: Path, name: str) -> Tensor:
-    library = _library()
-    try:
-        with library.safe_open(file, framework="pt") as opened:
-            # A copy: the library's own tensor is the file itself, as long as it lives.
-            return opened.get_tensor(name).clone()
-    except library.SafetensorError as error:
-        raise _unreadable(file, error) from error
 
 
 def _header(file: Path) -> bytes:

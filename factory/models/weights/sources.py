@@ -110,6 +110,11 @@ def parse_address(address: str) -> HubFile:
     return HubFile(**found.groupdict())
 
 
+def shipped_file(name: str) -> Path:
+    """Return where a file of ``configs/weights`` lies."""
+    return Path(str(resources.files("asset_factory") / "configs" / "weights" / name))
+
+
 def fetch(checkpoint: str) -> Path:
     """Return a checkpoint's file: the path itself, the package's own, or a download.
 
@@ -123,8 +128,8 @@ def fetch(checkpoint: str) -> Path:
     if checkpoint in _ELSEWHERE.get():
         return _ELSEWHERE.get()[checkpoint]
     if not checkpoint.startswith(HUB):
-        own = resources.files("asset_factory") / "configs" / "weights" / "small.safetensors"
-        path = Path(str(own)) if checkpoint == SHIPPED else Path(checkpoint).expanduser()
+        own = checkpoint == SHIPPED
+        path = shipped_file("small.safetensors") if own else Path(checkpoint).expanduser()
         if not path.is_file():
             want = f"want a checkpoint, {SHIPPED}, or {ADDRESS}"
             raise ConfigError(f"{checkpoint}: no such file; {want}")
@@ -142,14 +147,12 @@ def _require_wanted(wanted: HubFile, path: Path, *_state: int) -> None:
     digest = digest_file(path)
     if wanted.sha256 not in (None, digest):
         raise ConfigError(f"{wanted}: its SHA-256 is {digest}; it is not the file that was asked")
-    pinned = HubFile(wanted.repository, wanted.file, wanted.revision or revision_of(path), digest)
+    # The hub's cache has a folder for each commit.
+    commits = (part for part in path.parts if re.fullmatch("[0-9a-f]{40}", part))
+    revision = wanted.revision or next(commits, None)
+    pinned = HubFile(wanted.repository, wanted.file, revision, digest)
     if pinned != wanted:
         complain(f"{wanted}: may be another file tomorrow; this one is {pinned}")
-
-
-def revision_of(path: Path) -> str | None:
-    """Return the commit that a file in the hub's cache is of; ``None`` if its folder has none."""
-    return next((part for part in path.parts if re.fullmatch("[0-9a-f]{40}", part)), None)
 
 
 def _downloaded(wanted: HubFile) -> Path:

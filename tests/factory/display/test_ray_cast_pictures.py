@@ -16,9 +16,9 @@ from PIL import Image
 from asset_factory.factory.display.camera import Viewpoint
 from asset_factory.factory.display.casting import Caster
 from asset_factory.factory.display.made import plain_surface, scene_of
-from asset_factory.factory.display.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of, still
+from asset_factory.factory.display.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of
 from asset_factory.factory.display.scene import SceneGraph, SceneJoint
-from asset_factory.factory.display.shading import Coloring
+from asset_factory.factory.display.shading import still
 from asset_factory.factory.display.sheet import MOST, SheetCell, contact_sheet
 
 
@@ -63,7 +63,7 @@ def test_the_door_is_where_it_swings(scene):
     closed, opened = (scene.opened(amount) for amount in (0.0, 1.0))
     seen = [caster.see(camera, values) for values in (closed, opened)]
     before, after = (each.link.reshape(HEIGHT, WIDTH) for each in seen)
-    stills = [still(Coloring(caster), camera, values) for values in (closed, opened)]
+    stills = [still(caster, camera, values) for values in (closed, opened)]
     one, other = (each.astype(int) for each in stills)
     differs = np.abs(one - other).max(axis=2) > 24
     assert differs[(after == 1) & (before == -1)].mean() > 0.95

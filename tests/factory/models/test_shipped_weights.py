@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from asset_factory.factory.models.weights.safetensors import read_arrays
+from asset_factory.factory.models.shipped import load_arrays
 
 WEIGHTS = Path(__file__).parents[3] / "configs" / "weights"
 FILES = sorted(path.name for path in WEIGHTS.iterdir() if path.suffix != ".md")
@@ -13,7 +13,7 @@ FILES = sorted(path.name for path in WEIGHTS.iterdir() if path.suffix != ".md")
 
 @pytest.mark.parametrize("file", FILES)
 def test_weights_are_plain_numbers_with_a_card(file):
-    arrays, _ = read_arrays(WEIGHTS / file)
+    arrays = load_arrays(WEIGHTS / file).arrays
     # A turn without end is longer than any.
     assert not any(np.isnan(values).any() for values in arrays.values())
     card = (WEIGHTS / file).with_suffix(".md").read_text(encoding="utf-8")

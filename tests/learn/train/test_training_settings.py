@@ -3,7 +3,7 @@
 import pytest
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.models.network.shape import SIZES
+from asset_factory.factory.models.network.shape import NetworkShape
 from asset_factory.learn.train.recipes import load_train_config, parse_train_config, recipe_names
 
 DATA = '[[data]]\nkind = "procedural"\n'
@@ -20,7 +20,7 @@ def test_the_papers_recipe_is_the_papers():
     assert (config.schedule.steps, config.batch, config.draw.points) == (100_000, 128, 2048)
     wanted = (0.5, (0.95, 1.05), 0.02)
     assert (config.draw.sharp_share, config.draw.scale, config.draw.shift) == wanted
-    size = SIZES["B"]
+    size = NetworkShape()
     shape = config.network.shape
     wanted = (size.hidden, size.blocks, size.heads, size.mlp, size.max_parts)
     assert (shape.hidden, shape.blocks, shape.heads, shape.mlp, shape.max_parts) == wanted

@@ -9,10 +9,10 @@ from stored_arrays import arrays
 
 from asset_factory.factory.articulate.draft import Draft, ordered
 from asset_factory.factory.articulation import Joint
+from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.particulate.decoding import (
-    DecodeRules,
     TreeOver,
     assigned,
     decode,
@@ -61,7 +61,7 @@ def seen(faces):
 
 
 def decoded(surface, faces, prediction, **rules):
-    return decode(surface, Proxy(surface), seen(faces), prediction, DecodeRules(**rules))
+    return decode(surface, Proxy(surface), seen(faces), prediction, ParticulateConfig(**rules))
 
 
 def assert_moves_as(motion, want, index, atol):

@@ -40,7 +40,7 @@ def built(shape, base, dtype=torch.float32):
     with torch.device("meta"):
         network = PartArticulationTransformer(shape)
     network.load_state_dict(weights(expected_tensors(shape), base, GAINS), assign=True)
-    return Model(shape, dtype, "cpu", network.eval().requires_grad_(False))
+    return Model(shape, dtype, network.eval().requires_grad_(False))
 
 
 def built_field(shape, dtype=torch.float32):

@@ -10,7 +10,6 @@ import torch  # noqa: TID253
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.shape import (
-    SIZES,
     AxisForm,
     NetworkShape,
     expected_tensors,
@@ -20,6 +19,13 @@ from asset_factory.factory.models.network.shape import (
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 
 TINY = NetworkShape(hidden=16, blocks=2, heads=2, features=6)
+#: The paper's sizes; B is the released one.
+SIZES = [
+    NetworkShape(hidden=384, blocks=6, heads=6),
+    NetworkShape(hidden=768, blocks=6, heads=12),
+    NetworkShape(hidden=1024, blocks=12, heads=16),
+    NetworkShape(hidden=1152, blocks=14, heads=16),
+]
 VARIANTS = [
     TINY,
     replace(TINY, features=0),
@@ -32,12 +38,12 @@ VARIANTS = [
 ]
 
 
-@pytest.mark.parametrize("shape", [*SIZES.values(), *VARIANTS])
+@pytest.mark.parametrize("shape", [*SIZES, *VARIANTS])
 def test_every_size_and_variant_is_read_back_from_its_tensors(shape):
     assert read_shape(expected_tensors(shape), shape.max_parts) == shape
 
 
-@pytest.mark.parametrize("shape", [*SIZES.values(), *VARIANTS])
+@pytest.mark.parametrize("shape", [*SIZES, *VARIANTS])
 def test_the_network_has_exactly_the_expected_tensors(shape):
     with torch.device("meta"):
         tensors = PartArticulationTransformer(shape).state_dict()
@@ -46,7 +52,7 @@ def test_the_network_has_exactly_the_expected_tensors(shape):
 
 def test_the_released_size_has_as_many_numbers_as_the_published_file():
     # The published model.pt takes 605,383,018 bytes: four per number, and 82 kB of names.
-    tensors = expected_tensors(SIZES["B"])
+    tensors = expected_tensors(NetworkShape())
     assert (len(tensors), parameter_count(tensors)) == (272, 151_325_203)
 
 
@@ -94,8 +100,8 @@ def test_a_block_number_costs_nothing():
 
 
 def test_no_torch_before_a_model_is_loaded():
-    model = "asset_factory.factory.models.particulate.model"
-    code = f"import sys, {model}; sys.exit('torch' in sys.modules)"
+    loading = "asset_factory.factory.models.particulate.loading"
+    code = f"import sys, {loading}; sys.exit('torch' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
 
 

@@ -1,5 +1,6 @@
 """One network for many callers: the same bits as locally, and local if the service fails."""
 
+import json
 import os
 import signal
 import socket
@@ -165,11 +166,17 @@ def test_messages_come_back_as_they_were():
 
 
 def header(text, body=b""):
-    return wire._LENGTHS.pack(len(text), len(body)) + text + body
+    return len(text).to_bytes(8, "little") + text + body
 
 
-def array(described, body):
-    return header(b'{"kind": "x", "texts": {}, "arrays": [["a", ' + described + b"]]}", body)
+def array(dtype, shape, body):
+    described = {"dtype": dtype, "shape": shape, "data_offsets": [0, len(body)]}
+    told = {"__metadata__": {"kind": "x"}, "a": described}
+    return header(json.dumps(told).encode(), body)
+
+
+def test_a_message_is_plain_arrays_with_a_kind():
+    assert unpack(array("F32", [1], b"1234")).arrays["a"].shape == (1,)
 
 
 @pytest.mark.parametrize(
@@ -178,14 +185,19 @@ def array(described, body):
         b"",
         b"\x01\x00\x00",
         b"\xff" * 8,
-        header(b"{}")[:-1],
+        pack(Message("kind", {"x": "y"}))[:-1],
+        pack(Message("kind", {}, {"a": np.zeros(9)}))[:-1],
+        header(b"{}"),
         header(b"not json"),
         header(b"[" * 50000),
-        header(b'{"kind": 1, "texts": {}}'),
-        array(b'"|O", [1]', b"12345678"),
-        array(b'"<f4", [-1]', b"1234"),
-        array(b'"<f4", [9999999999, 9999999999]', b"1234"),
-        array(b'"<f4", [1]', b"12345678"),
+        header(b'{"__metadata__": {"no": "kind"}}'),
+        header(b'{"__metadata__": {"kind": 1}}'),
+        header(b'{"__metadata__": {"kind": {"a": "b"}}}'),
+        array("|O", [1], b"12345678"),
+        array("BF16", [4], b"12345678"),
+        array("F32", [-1], b"1234"),
+        array("F32", [9999999999, 9999999999], b"1234"),
+        array("F32", [1], b"12345678"),
     ],
 )
 def test_what_is_no_message_is_refused(data):
@@ -193,12 +205,35 @@ def test_what_is_no_message_is_refused(data):
         unpack(data)
 
 
-def test_what_is_too_long_is_not_even_received():
+def test_a_header_that_is_too_long_is_not_even_parsed():
+    told = json.dumps({"__metadata__": {"kind": "x", "more": "y" * wire.MOST_HEADER_BYTES}})
+    with pytest.raises(WireError, match="at most"):
+        unpack(header(told.encode()))
+
+
+def test_what_is_too_long_is_received_no_further(monkeypatch):
+    monkeypatch.setattr(wire, "MOST_BYTES", 1000)
     here, there = socket.socketpair()
     with here, there:
-        there.sendall(wire._LENGTHS.pack(10, wire.MOST_BYTES + 1))
+        there.sendall(bytes(1001))
         with pytest.raises(WireError, match="at most"):
             wire.receive(here, time.monotonic() + 5.0)
+
+
+def test_who_leaves_without_a_word_is_not_answered():
+    here, there = socket.socketpair()
+    with here:
+        there.close()
+        with pytest.raises(ConnectionResetError):
+            wire.receive(here, time.monotonic() + 5.0)
+
+
+def test_who_dawdles_is_not_waited_for():
+    here, there = socket.socketpair()
+    with here, there:
+        there.sendall(b"1")
+        with pytest.raises(TimeoutError):
+            wire.receive(here, time.monotonic() + 0.1)
 
 
 def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(config):

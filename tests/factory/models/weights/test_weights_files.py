@@ -38,7 +38,7 @@ def stored(tmp_path):
 
 
 def loaded(file):
-    return {name: tensor.load() for name, tensor in open_checkpoint(file).tensors.items()}
+    return open_checkpoint(file).load()
 
 
 def assert_same(found, wanted=TENSORS):
