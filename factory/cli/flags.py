@@ -21,7 +21,7 @@ from ..config import REPAIR_KINDS, BuildConfig, ParticulateConfig
 from ..errors import AssetFactoryError, ConfigError
 from ..presets import load_config
 from ..registry import Entry, Registry
-from ..registry.rows import Filters
+from ..registry.rows import Condition
 from ..registry.where import parse_where, unknown_values
 from ..runtime.terminal import complain
 
@@ -121,24 +121,20 @@ class OfPassed(OfRegistry):
 
     def entries(self) -> Iterator[Entry]:
         """Yield the assets that are wanted. Raises ConfigError for what no asset can be."""
-        return entries_where(Registry(self.output), self.where, status=Status.PASSED)
+        registry = Registry(self.output)
+        return registry.walk(wanted(registry, self.where, status=Status.PASSED))
 
 
-def entries_where(registry: Registry, where: str, **defaults: str) -> Iterator[Entry]:
-    """Yield the assets that meet conditions; a value that none has is told on stderr."""
-    return registry.walk(wanted(registry, where, **defaults))
-
-
-def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
-    """Return the filters of ``--where``; a value that no asset has is told on stderr.
+def wanted(registry: Registry, where: str, **defaults: str) -> tuple[Condition, ...]:
+    """Return the conditions of ``--where``; a value that no asset has is told on stderr.
 
     Raises:
         ConfigError: it cannot be read, or asks for what no asset can be.
     """
-    filters = parse_where(where, **defaults)
-    if sentence := unknown_values(registry, filters):
+    conditions = parse_where(where, **defaults)
+    if sentence := unknown_values(registry, conditions):
         complain(f"factory: --where: {sentence}")
-    return filters
+    return conditions
 
 
 def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:

@@ -36,7 +36,7 @@ class List(Printed, OfRegistry):
 def run(command: List) -> int:
     """Print the rows; returns the exit code."""
     registry = Registry(command.output)
-    filters = wanted(registry, command.where)
+    conditions = wanted(registry, command.where)
     if command.limit is not None and command.limit < 0:
         raise ConfigError(f"--limit must be at least 0, not {command.limit}")
     limit = command.limit if command.limit is not None else 0 if command.json else TABLE_ROWS
@@ -45,7 +45,7 @@ def run(command: List) -> int:
     if command.superseded:
         found = superseded(registry.root)
     else:
-        found = registry.select(filters, limit=more, after=command.after)
+        found = registry.entries(conditions, limit=more, after=command.after)
     entries = found[: limit or None]
     if command.json:
         say(json.dumps([asdict(entry) for entry in entries], indent=2))

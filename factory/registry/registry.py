@@ -10,12 +10,12 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from asset_factory.sim_checks import Report, Status
+from asset_factory.sim_checks import Status
 
 from ..errors import RegistryError
-from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
+from ..runtime.layout import ASSETS, MANIFEST, REJECTED, REPORT, STAGING
 from . import rows
 from .claims import held_folder
 from .database import connected, writing
@@ -25,7 +25,7 @@ from .notes import fingerprint, note_path, read_note, write_note
 from .placing import place, remove, sync_tree
 from .rebuild import make_registry, open_registry
 from .report_file import BuildReport, file_digests, read_report, write_report
-from .rows import Filters
+from .rows import Condition
 
 if TYPE_CHECKING:
     from ..export.manifest import Manifest
@@ -61,11 +61,6 @@ class Registry:
     def rejected(self) -> Path:
         """Return the reports of those that did not."""
         return self.root / REJECTED
-
-    @property
-    def notes(self) -> Path:
-        """Return the notes on registered assets."""
-        return self.root / NOTES
 
     @property
     def staging(self) -> Path:
@@ -177,34 +172,33 @@ class Registry:
         return [place for place in places if os.path.lexists(place)]
 
     def entries(
-        self, *, limit: int | None = None, after: str = "", **wanted: str
+        self,
+        conditions: Sequence[Condition] = (),
+        *,
+        limit: int | None = None,
+        after: str = "",
+        **wanted: str,
     ) -> tuple[Entry, ...]:
-        """Return the rows that pass every filter, by id; all of them by default.
+        """Return the rows that meet every condition, by id; all of them by default.
 
-        ``wanted`` are fields of :class:`~.rows.Filters`; with ``limit``, and the last id as
-        ``after``, rows come page by page.
+        ``wanted`` are columns with the values that they shall have, see :class:`~.rows.Condition`;
+        with ``limit``, and the last id as ``after``, rows come page by page.
         """
-        named: dict[str, Any] = {**wanted}
-        return self.select(Filters(**named), limit=limit, after=after)
-
-    def select(
-        self, filters: Filters, *, limit: int | None = None, after: str = ""
-    ) -> tuple[Entry, ...]:
-        """Return what :meth:`entries` gives, with the filters as a value."""
         with connected(self.root) as connection:
-            return rows.select(connection, filters, limit=limit, after=after)
+            asked = (*conditions, *rows.having(**wanted))
+            return rows.select(connection, asked, limit=limit, after=after)
 
-    def walk(self, filters: Filters | None = None) -> Iterator[Entry]:
+    def walk(self, conditions: Sequence[Condition] = ()) -> Iterator[Entry]:
         """Yield the same, one after the other, however many there are."""
         after = ""
-        while page := self.select(filters or Filters(), limit=_PAGE, after=after):
+        while page := self.entries(conditions, limit=_PAGE, after=after):
             yield from page
             after = page[-1].id
 
-    def count(self, filters: Filters | None = None) -> int:
+    def count(self, conditions: Sequence[Condition] = ()) -> int:
         """Return how many rows pass."""
         with connected(self.root) as connection:
-            return rows.count(connection, filters or Filters())
+            return rows.count(connection, conditions)
 
     def values(self, column: str) -> tuple[str, ...]:
         """Return every value that entries have in a column, sorted, but the empty one."""
@@ -232,12 +226,8 @@ class Registry:
             unique = len(begun) == 1 and text and text not in begun
             return self._entry(connection, begun[0] if unique else text)
 
-    def known_key(self, key: str) -> Entry | None:
-        """Find the entry that was made from exactly this, if its files are there."""
-        return self.known_keys((key,)).get(key)
-
     def known_keys(self, keys: Sequence[str]) -> dict[str, Entry]:
-        """Return the same for many keys at once, by key."""
+        """Find the entries that were made from exactly this, by key, if their files are there."""
         with connected(self.root) as connection:
             found = {key: rows.find(connection, "key", key) for key in keys if key}
         listed = ((key, entry) for key, entry in found.items() if entry is not None)
@@ -246,10 +236,6 @@ class Registry:
     def folder(self, entry: Entry) -> Path:
         """Return where an entry's files lie."""
         return (self.assets if entry.status is Status.PASSED else self.rejected) / entry.id
-
-    def report(self, entry: Entry) -> Report:
-        """Return the report that an entry's verdict is from. Raises RegistryError if it is gone."""
-        return self.told(entry).report
 
     def told(self, entry: Entry) -> BuildReport:
         """Return an entry's report and repairs. Raises RegistryError if they are gone."""
@@ -273,7 +259,7 @@ class Registry:
         near = [c for c in candidates if c.startswith(asset_id) or asset_id.startswith(c)]
         near = near or get_close_matches(asset_id, candidates)
         hint = f"; did you mean {', '.join(near[:3])}?" if near else ""
-        hint = hint or f"; `factory list` shows all {rows.count(connection, Filters())}"
+        hint = hint or f"; `factory list` shows all {rows.count(connection, ())}"
         raise RegistryError(f"no asset {asset_id!r} in {self.root}{hint}")
 
     def _publish(

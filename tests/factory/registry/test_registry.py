@@ -50,7 +50,7 @@ def test_an_asset_that_is_later_rejected_is_no_longer_published(registry):
     folder = registry.reject(REJECTED, BAD_REPORT)
     assert not published.exists()
     assert registry.entries() == (REJECTED,)
-    assert registry.report(REJECTED).errors[0].value == 5.0
+    assert registry.told(REJECTED).report.errors[0].value == 5.0
     assert folder.parent == registry.rejected
     publish(registry)
     assert not folder.exists()
@@ -122,7 +122,7 @@ def test_the_report_has_the_files_digests_and_the_entry(registry):
     assert report["entry"]["license"] == "CC0-1.0"
     assert report["entry"]["split"] == PASSED.split
     assert not {"tags", "solved"} & set(report["entry"])
-    assert registry.report(PASSED).passed
+    assert registry.told(PASSED).report.passed
 
 
 def test_what_the_files_know_better_completes_the_entry(registry):
@@ -173,4 +173,4 @@ def test_a_registry_that_nobody_can_write_to_can_be_read(registry, monkeypatch):
     publish(registry)
     monkeypatch.setattr("os.access", lambda path, mode: False)
     assert Registry(registry.root).entries() == (PASSED,)
-    assert Registry(registry.root).report(PASSED).passed
+    assert Registry(registry.root).told(PASSED).report.passed
