@@ -25,6 +25,12 @@ from .executor import AHEAD, Call, UnderWay
 
 T = TypeVar("T")
 
+#: After so many calls a worker is replaced by a new one: native libraries leak a little with every
+#: input.
+CALLS = 50
+#: A worker that holds more memory than this after a call is replaced at once [bytes].
+RESIDENT_BYTES = 2 * 1024**3
+
 
 @dataclass(frozen=True)
 class LocalExecutor:
@@ -34,16 +40,14 @@ class LocalExecutor:
         workers: calls under way at once.
         retries: further tries of a call that crashed, hung or ran out of memory, each in a new
             process.
-        calls: after so many a worker is replaced by a new one: native libraries leak a little with
-            every input.
-        resident_bytes: a worker that holds more memory than this after a call is replaced at once
-            [bytes].
+        calls: after so many a worker is replaced.
+        resident_bytes: that a worker may hold after a call [bytes].
     """
 
     workers: int
     retries: int = 1
-    calls: int = 50
-    resident_bytes: int = 2 * 1024**3
+    calls: int = CALLS
+    resident_bytes: int = RESIDENT_BYTES
     _pools: list[_WorkerPool[Any]] = field(default_factory=list, compare=False, repr=False)
 
     def under_way(self) -> tuple[UnderWay, ...]:

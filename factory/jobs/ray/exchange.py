@@ -25,10 +25,6 @@ T = TypeVar("T")
 MOST_BYTES = 4 * 1024**3
 MOST_FILES = 100_000
 BLOCK = 1 << 20
-#: Argument of :func:`make_and_send` with what is elsewhere on a node.
-HERE = "here"
-
-
 #: Errors of a disk that is full.
 FULL = (errno.ENOSPC, errno.EDQUOT)
 
@@ -37,36 +33,31 @@ class ExchangeError(Exception):
     """Other bytes arrived than were sent, or none could be sent."""
 
 
-@dataclass(frozen=True)
-class Exchange:
-    """Each try of a call fills its own folder, so it meets nothing another left or still writes.
+def begin_transfer(
+    url: str, function: Callable[..., T], arguments: Mapping[str, Any]
+) -> tuple[Callable[..., Sent[T]], dict[str, Any], Transfer]:
+    """Return what to call on a node for ``function(**arguments)``, and what opens an answer.
 
-    Attributes:
-        argument: which argument of the function is the folder to fill.
+    Each try of a call fills a ``staging`` folder of its own, so it meets nothing another left or
+    still writes. ``cache`` names a place that only the caller sees if there is a URL: nodes get
+    ``None`` for it.
+
+    Args:
         url: of a folder that all nodes can write and the caller can read, as fsspec names it; each
             try sends one file there, which is removed when it was read. Empty: the folder itself
             lies where all nodes see it.
-        absent: arguments that name places which only the caller sees if there is a URL; nodes get
-            ``None`` for them.
+        function: to be called.
+        arguments: of it.
     """
-
-    argument: str
-    url: str = ""
-    absent: tuple[str, ...] = ()
-
-    def sent(
-        self, function: Callable[..., T], arguments: Mapping[str, Any]
-    ) -> tuple[Callable[..., Sent[T]], dict[str, Any], Transfer]:
-        """Return what to call on a node for ``function(**arguments)``, and what opens an answer."""
-        folder = Path(arguments[self.argument])
-        name = uuid.uuid4().hex
-        asked = {"argument": self.argument, "function": function}
-        if not self.url:
-            asked |= {"target": str(folder / name), "arguments": dict(arguments)}
-            return make_in_folder, asked, Transfer(folder, "")
-        target = f"{self.url.rstrip('/')}/{name}.tar"
-        asked |= {"target": target, "arguments": {**arguments, **dict.fromkeys(self.absent)}}
-        return make_and_send, asked, Transfer(folder, target)
+    folder = Path(arguments["staging"])
+    name = uuid.uuid4().hex
+    if not url:
+        asked = {"target": str(folder / name), "function": function, "arguments": dict(arguments)}
+        return make_in_folder, asked, Transfer(folder, "")
+    target = f"{url.rstrip('/')}/{name}.tar"
+    seen = {name: None if name == "cache" else value for name, value in arguments.items()}
+    asked = {"target": target, "function": function, "arguments": seen}
+    return make_and_send, asked, Transfer(folder, target)
 
 
 @dataclass(frozen=True)
@@ -154,26 +145,25 @@ class Transfer:
 
 
 def make_in_folder(
-    target: str, argument: str, function: Callable[..., T], arguments: Mapping[str, Any]
+    target: str, function: Callable[..., T], arguments: Mapping[str, Any]
 ) -> Sent[T]:
     """Let the function fill a folder that the caller sees too; on a node."""
     os.makedirs(target, exist_ok=True)
-    return Sent(function(**{**arguments, argument: Path(target)}), target)
+    return Sent(function(**{**arguments, "staging": Path(target)}), target)
 
 
 def make_and_send(
     target: str,
-    argument: str,
     function: Callable[..., T],
     arguments: Mapping[str, Any],
     here: Mapping[str, Any] | None = None,
 ) -> Sent[T]:
     """Let the function fill a local folder, and send what its value names of it; on a node.
 
-    ``argument`` names the one that is the folder; those in ``here`` are others on this node.
+    Arguments in ``here`` are others on this node.
     """
     with tempfile.TemporaryDirectory(prefix="made-") as folder:
-        value = function(**{**arguments, **(here or {}), argument: Path(folder)})
+        value = function(**{**arguments, **(here or {}), "staging": Path(folder)})
         named = sorted(set(paths_below(value, Path(folder))))
         if not named:
             return Sent(value, folder)

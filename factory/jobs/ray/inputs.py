@@ -8,11 +8,10 @@ import io
 import shutil
 import tarfile
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from asset_factory.sim_checks.processes.scratch import scratch
 from asset_factory.sim_checks.read.regular import read_regular
@@ -30,14 +29,12 @@ class SentInput:
     """What a node must know of an input beside its bytes.
 
     Attributes:
-        argument: of the function, that is the input's path.
         folder: name of its folder, from which a category may be guessed.
         name: of its main file.
         links: files that are links to outside its folder; the reader is to refuse them there too.
         digest: SHA-256 of its bytes.
     """
 
-    argument: str
     folder: str
     name: str
     links: tuple[str, ...]
@@ -91,37 +88,18 @@ class PackedInput:
         return frozenset(n for n, digest in other.items() if digest_now(self.source, n) != digest)
 
 
-@dataclass(frozen=True)
-class Inputs:
-    """How calls name their inputs.
+def pack_input(source: Path, more: frozenset[str]) -> PackedInput:
+    """Return an input with what it seems to refer to, and ``more`` that belongs to it.
 
-    Attributes:
-        argument: of the function, that is an input's path.
-        place: its argument that tells where the input lies for the caller.
-        reads: what a call's value says of the files that the input was made of.
+    Raises:
+        ValueError: it has too many bytes.
     """
-
-    argument: str
-    place: str
-    reads: Callable[[Any], Reads]
-
-    def with_place(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a call's arguments, with where its input lies."""
-        return {**arguments, self.place: arguments[self.argument]}
-
-    def packed(self, arguments: Mapping[str, Any], more: frozenset[str]) -> PackedInput:
-        """Return an input with what it seems to refer to, and ``more`` that belongs to it.
-
-        Raises:
-            ValueError: it has too many bytes.
-        """
-        source = Path(arguments[self.argument])
-        names = companions(source, more)
-        links = sorted(name for name in names if leads_out(source, name) and _inside(name))
-        data = _archived(source, sorted(names - set(links)))
-        digest = hashlib.sha256(data).hexdigest()
-        sent = SentInput(self.argument, source.parent.name, source.name, tuple(links), digest)
-        return PackedInput(source, sent, data, names)
+    names = companions(source, more)
+    links = sorted(name for name in names if leads_out(source, name) and _inside(name))
+    data = _archived(source, sorted(names - set(links)))
+    digest = hashlib.sha256(data).hexdigest()
+    sent = SentInput(source.parent.name, source.name, tuple(links), digest)
+    return PackedInput(source, sent, data, names)
 
 
 def _inside(name: str) -> bool:

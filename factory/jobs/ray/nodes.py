@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import socket
 import time
-from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -22,17 +21,11 @@ class NoNodeLeft(ClusterLost):
     """No node of the cluster can be given work; says why of each."""
 
 
-def say(sentence: str) -> None:
-    """Print a sentence for whoever started the job."""
-    complain(f"factory: {sentence}")
-
-
 class Nodes:
-    """The nodes of one run; ``say`` is told, once of each node, why it is set aside."""
+    """The nodes of one run; standard error is told, once of each node, why it is set aside."""
 
-    def __init__(self, ray: Any, say: Callable[[str], None] = say) -> None:
+    def __init__(self, ray: Any) -> None:
         self._ray = ray
-        self._say = say
         self._aside: dict[str, tuple[str, float]] = {}
         self._deaths: dict[str, set[str]] = {}
         self._turn = 0
@@ -48,7 +41,7 @@ class Nodes:
         address = self._alive().get(node, {}).get("NodeManagerAddress", node)
         self._aside[node] = (f"node {address}: {why}", time.monotonic() + seconds)
         if not told:
-            self._say(f"a node is given no work; {self._aside[node][0]}")
+            complain(f"factory: a node is given no work; {self._aside[node][0]}")
         self.require_fit()
 
     def require_fit(self) -> None:

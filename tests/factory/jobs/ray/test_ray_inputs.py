@@ -14,13 +14,12 @@ from asset_factory.factory.build import make_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs.ray.exchange import ExchangeError
-from asset_factory.factory.jobs.ray.inputs import Inputs
-from asset_factory.factory.jobs.ray.weights import Checkpoints, arrived, sent_weights
+from asset_factory.factory.jobs.ray.inputs import pack_input
+from asset_factory.factory.jobs.ray.weights import arrived, sent_weights
 from asset_factory.factory.models.weights.sources import fetch, weights_at
 from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.judge import Judge
 
-INPUTS = Inputs("source", "place", lambda product: product.reads)
 CONFIG = BuildConfig(articulator="rigid", simulators=())
 
 
@@ -30,7 +29,7 @@ def inputs(tmp_path_factory):
 
 
 def packed(source, more=frozenset()):
-    return INPUTS.packed({"source": source}, more)
+    return pack_input(source, more)
 
 
 def keys_of(source):
@@ -138,7 +137,7 @@ def test_a_checkpoint_is_fetched_once(node, tmp_path_factory):
     named = write_checkpoint(tmp_path_factory.mktemp("weights") / "tiny.safetensors")
     content = named.read_bytes()
     ray = Cluster()
-    sent = sent_weights(ray, Checkpoints("weights", (str(named), "", "shipped", "absent.pt")))
+    sent = sent_weights(ray, (str(named), "", "shipped", "absent.pt"))
     assert [each[:2] for each in sent] == [(str(named), named.name)]
     named.unlink()
     for _ in range(2):
