@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from itertools import islice
 from typing import Any, Generic, TypeVar
 
 from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome
@@ -74,15 +75,11 @@ class RayExecutor:
         with connected(self.address, self.workers) as ray:
             tasks: _Tasks[T] = _Tasks(self, ray, function, limits)
             waiting = iter(calls)
-            ends = False
             try:
                 while True:
                     tasks.look()
-                    while not ends and len(tasks) < tasks.most():
-                        call = next(waiting, None)
-                        ends = call is None
-                        if call is not None:
-                            tasks.start(_Task(call))
+                    for call in islice(waiting, max(0, tasks.most() - len(tasks))):
+                        tasks.start(_Task(call))
                     if not len(tasks):
                         return
                     tasks.drop_unwanted()
@@ -167,15 +164,14 @@ class _Tasks(Generic[T]):
                 sending = begin_transfer(executor.exchange, function, arguments)
                 function, arguments, transfer = sending
             how = (self._limits, executor.retries, executor.modules)
-            sent = None if packed is None else packed.sent
-            order = Order(function, arguments, *how, sent, task.call.until)
+            # A call that is lost is packed again: its bytes need not be kept until then.
+            kept = None if packed is None else replace(packed, data=b"")
+            order = Order(function, arguments, *how, kept, task.call.until)
             under_way = self._handed_over(order, task.node, b"" if packed is None else packed.data)
         except (TypeError, ValueError, AttributeError, pickle.PicklingError) as error:
             detail = f"cannot be sent to a node: {_sentence(error)}"
             self._failed.append((task.call, Outcome(None, Failure.RAISED, detail, "", 0.0, error)))
             return
-        # A call that is lost is packed again: what it was made of need not be kept until then.
-        kept = None if packed is None else replace(packed, data=b"")
         self._under_way[under_way] = replace(task, transfer=transfer, input=kept)
 
     def _handed_over(self, order: Order, node: str, data: bytes) -> Any:

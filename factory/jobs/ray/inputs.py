@@ -25,20 +25,22 @@ _NOWHERE = "/nowhere"
 
 
 @dataclass(frozen=True)
-class SentInput:
-    """What a node must know of an input beside its bytes.
+class PackedInput:
+    """An input as it was sent.
 
     Attributes:
-        folder: name of its folder, from which a category may be guessed.
-        name: of its main file.
+        source: where it lies for who sent it; a category may be guessed from its folder's name.
+        names: of all files that were looked for, relative to its folder.
         links: files that are links to outside its folder; the reader is to refuse them there too.
         digest: SHA-256 of its bytes.
+        data: its files as a tar archive; empty where those go beside it.
     """
 
-    folder: str
-    name: str
+    source: Path
+    names: frozenset[str]
     links: tuple[str, ...]
     digest: str
+    data: bytes = field(default=b"", repr=False)
 
     @contextmanager
     def unpacked(self, data: bytes) -> Iterator[Path]:
@@ -52,7 +54,7 @@ class SentInput:
             raise ExchangeError("an input is not the one that was sent: its digest is another")
         around = Path(tempfile.mkdtemp(prefix="input-", dir=scratch()))
         # One folder more, for a folder may be called "..".
-        folder = around / "in" / self.folder
+        folder = around / "in" / self.source.parent.name
         try:
             (around / "in").mkdir()
             folder.mkdir(exist_ok=True)
@@ -61,26 +63,9 @@ class SentInput:
             for name in self.links:
                 (folder / name).parent.mkdir(parents=True, exist_ok=True)
                 (folder / name).symlink_to(_NOWHERE)
-            yield folder / self.name
+            yield folder / self.source.name
         finally:
             shutil.rmtree(around, ignore_errors=True)
-
-
-@dataclass(frozen=True)
-class PackedInput:
-    """An input as it was sent.
-
-    Attributes:
-        source: where it lies.
-        sent: what its receiver must know.
-        data: its files as a tar archive.
-        names: of all files that were looked for, relative to its folder.
-    """
-
-    source: Path
-    sent: SentInput
-    data: bytes = field(repr=False)
-    names: frozenset[str]
 
     def lacking(self, reads: Reads) -> frozenset[str]:
         """Return the files that its reader missed on a node, and that are here."""
@@ -97,9 +82,7 @@ def pack_input(source: Path, more: frozenset[str]) -> PackedInput:
     names = companions(source, more)
     links = sorted(name for name in names if leads_out(source, name) and _inside(name))
     data = _archived(source, sorted(names - set(links)))
-    digest = hashlib.sha256(data).hexdigest()
-    sent = SentInput(source.parent.name, source.name, tuple(links), digest)
-    return PackedInput(source, sent, data, names)
+    return PackedInput(source, names, tuple(links), hashlib.sha256(data).hexdigest(), data)
 
 
 def _inside(name: str) -> bool:

@@ -16,7 +16,7 @@ from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmCh
 
 from ..local import CALLS, RESIDENT_BYTES, tried
 from .exchange import FULL, ExchangeError
-from .inputs import SentInput
+from .inputs import PackedInput
 from .weights import SentWeights, arrived
 
 #: What a child imports to answer at all.
@@ -40,7 +40,7 @@ class Order:
     limits: Limits
     retries: int
     modules: tuple[str, ...] = ()
-    input: SentInput | None = None
+    input: PackedInput | None = None
     until: float | None = None
 
 

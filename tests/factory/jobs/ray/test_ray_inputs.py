@@ -4,6 +4,7 @@ import hashlib
 import io
 import tarfile
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -42,7 +43,7 @@ def read_there(source):
     more = frozenset()
     for rounds in range(1, 9):
         sent = packed(source, more)
-        with sent.sent.unpacked(sent.data) as path:
+        with sent.unpacked(sent.data) as path:
             there = Source(path, CONFIG, source)
             try:
                 said = there.load().provenance
@@ -87,7 +88,7 @@ def test_an_input_that_is_gone_is_the_same_everywhere(inputs):
 def test_a_product_tells_where_its_input_lies_here(inputs, tmp_path):
     source = inputs / "box_0.stl"
     sent = packed(source)
-    with sent.sent.unpacked(sent.data) as path, Judge(CheckConfig()) as judge:
+    with sent.unpacked(sent.data) as path, Judge(CheckConfig()) as judge:
         product = make_asset(path, tmp_path / "staging", CONFIG, None, judge, source)
     assert (product.source, product.result.input) == (source, str(source))
 
@@ -95,7 +96,7 @@ def test_a_product_tells_where_its_input_lies_here(inputs, tmp_path):
 @pytest.mark.parametrize("folder", ["..", "", "fridges"])
 def test_the_folder_keeps_its_name(inputs, folder):
     sent = packed(inputs / "box_0.stl")
-    with replace(sent.sent, folder=folder).unpacked(sent.data) as path:
+    with replace(sent, source=Path(folder) / "box_0.stl").unpacked(sent.data) as path:
         assert path.read_bytes() == (inputs / "box_0.stl").read_bytes()
         assert path.parent.name == folder or not folder
         around = next(each for each in path.resolve().parents if each.name.startswith("input-"))
@@ -107,7 +108,7 @@ def test_no_input_leaves_its_folder(inputs):
     with tarfile.open(fileobj=data, mode="w:") as archive:
         archive.addfile(tarfile.TarInfo("../out"))
     digest = hashlib.sha256(data.getvalue()).hexdigest()
-    forged = replace(packed(inputs / "box_0.stl").sent, digest=digest).unpacked(data.getvalue())
+    forged = replace(packed(inputs / "box_0.stl"), digest=digest).unpacked(data.getvalue())
     with pytest.raises(ExchangeError, match="no file or folder below"), forged:
         pass
 

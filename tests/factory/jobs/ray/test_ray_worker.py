@@ -43,7 +43,7 @@ def made(monkeypatch):
 
 
 def ordered(sent, data=None, **changed):
-    order = Order(len, {}, Limits(wall_s=9.0), 0, input=replace(sent.sent, **changed))
+    order = Order(len, {}, Limits(wall_s=9.0), 0, input=replace(sent, **changed))
     return carry_out(pickle.dumps(order), sent.data if data is None else data, [])
 
 
