@@ -44,17 +44,18 @@ def write_report(registry: Registry, workers: int | None) -> Path:
     from asset_factory.sim_checks.processes.isolation import processors
 
     from ..jobs.pages import draw_pages
+    from ..report.site.site import index_of
     from . import console
 
     try:
         with console.counted("drawing pages") as progress:
-            drawn = draw_pages(registry, workers or processors(), progress)
+            failed = draw_pages(registry, workers or processors(), progress)
     except OSError as error:
         where = error.filename or registry.root
         raise RegistryError(f"{where}: the report cannot be written: {error.strerror}") from error
-    for sentence in drawn.failed:
+    for sentence in failed:
         complain(f"factory: no page of {sentence}")
-    return drawn.index
+    return index_of(registry.root)
 
 
 def report_after(output: Path, workers: int | None) -> Path | None:

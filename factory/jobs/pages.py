@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from importlib.util import find_spec
-from pathlib import Path
 
 from asset_factory.sim_checks.processes.isolation import Limits
 
@@ -20,21 +18,6 @@ LIMITS = Limits(wall_s=180.0)
 LIBRARIES = ("embreex", "jinja2", "PIL")
 
 
-@dataclass(frozen=True)
-class PagesDrawn:
-    """The pages drawn.
-
-    Attributes:
-        index: the first page.
-        drawn: pages that were written.
-        failed: assets whose page could not be drawn, each with the reason.
-    """
-
-    index: Path
-    drawn: int
-    failed: tuple[str, ...] = ()
-
-
 def missing_library() -> str | None:
     """Return what the report needs and is not installed, as a sentence."""
     for library in LIBRARIES:
@@ -44,11 +27,14 @@ def missing_library() -> str | None:
 
 
 def draw_pages(
-    registry: Registry, workers: int, progress: Callable[[int, int], None] | None = None
-) -> PagesDrawn:
+    registry: Registry, workers: int, progress: Callable[[int, int], None]
+) -> tuple[str, ...]:
     """Write or renew the site of a registry, which others may use meanwhile.
 
     ``progress`` is told how many pages are done, of how many.
+
+    Returns:
+        A sentence for each asset whose page could not be drawn.
 
     Raises:
         ConfigError: a library is missing.
@@ -66,7 +52,6 @@ def draw_pages(
             raise outcome.error
         if outcome.failure is not None:
             failed.append(f"{call.name}: {outcome.detail}")
-        if progress is not None:
-            progress(done, len(calls))
-    index = write_index(registry)
-    return PagesDrawn(index, len(calls) - len(failed), tuple(sorted(failed)))
+        progress(done, len(calls))
+    write_index(registry)
+    return tuple(sorted(failed))
