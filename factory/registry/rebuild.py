@@ -12,7 +12,7 @@ from pathlib import Path
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, CLAIMS, DATABASE, REJECTED, STAGING
 from ..runtime.store import sync_folder
-from .claims import alone, held_folder, locked
+from .claims import alone, held_folder
 from .database import (
     CACHE_KIB,
     SCHEMA_VERSION,
@@ -25,9 +25,10 @@ from .database import (
     schema_version,
     writing,
 )
-from .folders import all_ids, current_folder, records
+from .folders import all_ids, current_folder, read_record
+from .notes import note_path
 from .placing import remove, sync_tree
-from .rows import RegistryRow, delete, insert, select
+from .rows import delete, insert, select
 
 #: What SQLite keeps beside a database.
 _COMPANIONS = ("-wal", "-shm", "-journal")
@@ -107,7 +108,7 @@ def rebuild(root: Path) -> Rebuilt:
     """
     if not (root / ASSETS).is_dir():
         raise RegistryError(f"{root}: no registry here, for want of a folder {ASSETS!r}")
-    with locked(root):
+    with alone(root / CLAIMS, "database"):
         if not _usable(root):
             return _replace_database(root)
     ids = all_ids(root)
@@ -177,13 +178,15 @@ def write_rows(root: Path, ids: Sequence[str]) -> Rebuilt:
 def _write_rows(connection: sqlite3.Connection, root: Path, ids: Sequence[str]) -> list[str]:
     """Do so; returns a sentence for each folder that is none of an asset."""
     unreadable = []
-    for asset_id, found in zip(ids, records(root, ids), strict=True):
-        if isinstance(found, RegistryRow):
-            insert(connection, (found,))
-            _clear_other_place(root, asset_id)
-        else:
+    for asset_id in ids:
+        try:
+            found = read_record(current_folder(root, asset_id), note_path(root, asset_id))
+        except RegistryError as error:
             delete(connection, asset_id)
-            unreadable.append(str(found))
+            unreadable.append(str(error))
+            continue
+        insert(connection, (found,))
+        _clear_other_place(root, asset_id)
     return unreadable
 
 
