@@ -28,7 +28,6 @@ from .flags import (
     input_config,
     simulators_named,
     with_repairs,
-    workers_fitting,
 )
 from .report import report_after
 
@@ -200,7 +199,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
     """Return the job that flags ask for. Raises ConfigError: a bad flag, and what is right."""
     from ..jobs import Budget, Executor, LocalExecutor
     from ..jobs.job import Job
-    from ..jobs.memory import BUILD_BYTES
+    from ..jobs.memory import BUILD_BYTES, workers_for
 
     config = build_config(command)
     if command.executor not in EXECUTORS:
@@ -210,7 +209,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
         raise ConfigError("--ray-address and --ray-exchange want --executor ray")
     workers = command.workers
     if command.executor != "ray" or command.ray_address == "local":
-        workers = workers_fitting(workers, BUILD_BYTES)
+        workers = workers_for(workers, BUILD_BYTES)
     executor: Executor
     if command.executor == "ray":
         from ..jobs.ray.builds import ray_executor

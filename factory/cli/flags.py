@@ -245,24 +245,6 @@ def formats_asked(names: str) -> tuple[str, ...]:
     return tuple(each.name for each in formats_named(asked))
 
 
-def workers_fitting(asked: int | None, each: int) -> int:
-    """Return how many workers to start: ``--workers``, or fewer (said) if memory is short.
-
-    As many as there are processors are asked for by default; one may need ``each`` [bytes].
-
-    Raises:
-        ConfigError: fewer than one is asked for.
-    """
-    from ..jobs.memory import workers_for
-
-    if asked is not None and asked < 1:
-        raise ConfigError(f"--workers must be at least 1, not {asked}")
-    workers, sentence = workers_for(asked, each)
-    if sentence is not None:
-        complain(f"factory: {sentence}")
-    return workers
-
-
 def in_own_process(
     function: Callable[..., T], file: Path, *others: object, limits: BuildConfig
 ) -> T | None:

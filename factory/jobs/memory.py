@@ -8,6 +8,9 @@ from pathlib import Path
 
 from asset_factory.sim_checks.processes.isolation import processors
 
+from ..errors import ConfigError
+from ..runtime.terminal import complain
+
 #: What a build takes over all its processes [bytes]: the worker, its validator's children and an
 #: engine in each; furniture was measured to take 1.1 GiB.
 BUILD_BYTES = 1_200 * 2**20
@@ -19,18 +22,23 @@ GROUPS = Path("/sys/fs/cgroup")
 PROC = Path("/proc")
 
 
-def workers_for(asked: int | None, each: int) -> tuple[int, str | None]:
-    """Return how many workers to start, and a sentence where they are fewer than was asked for.
+def workers_for(asked: int | None, each: int) -> int:
+    """Return how many workers to start: as asked for, or fewer (said) if memory is short.
 
-    As many as there are processors are wanted unless ``asked`` says; one may need ``each`` [bytes].
+    As many as there are processors are asked for by default; one may need ``each`` [bytes].
+
+    Raises:
+        ConfigError: fewer than one is asked for.
     """
+    if asked is not None and asked < 1:
+        raise ConfigError(f"--workers must be at least 1, not {asked}")
     wanted = asked or processors()
     free = free_memory()
     room = wanted if free is None else max(1, free // each)
-    if room >= wanted:
-        return wanted, None
-    short = f"{_gib(free or 0)} of memory are free, and one may need {_gib(each)}"
-    return room, f"{room} of {wanted} workers start: {short}"
+    if room < wanted:
+        short = f"{_gib(free or 0)} of memory are free, and one may need {_gib(each)}"
+        complain(f"factory: {room} of {wanted} workers start: {short}")
+    return min(room, wanted)
 
 
 def free_memory(proc: Path = PROC, groups: Path = GROUPS) -> int | None:

@@ -128,9 +128,7 @@ class Work:
         """Return where workers run."""
         config = self._config
         if config.executor == LOCAL:
-            workers, sentence = workers_for(config.workers or None, BUILD_BYTES)
-            if sentence is not None:
-                complain(f"factory: {sentence}")
+            workers = workers_for(config.workers or None, BUILD_BYTES)
             return LocalExecutor(workers, config.build.retries)
         from ..ray.builds import ray_executor
 
