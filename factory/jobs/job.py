@@ -217,7 +217,7 @@ class Job:
             # Somebody else may have built it since this job looked; what this job built it does not
             # build again.
             probe = self._known_reads.renewed(seen)
-            entry = probe.known(self._registry)
+            (entry,) = known_of((probe,), self._registry)
             fresh = probe.claim not in self._built
             if entry is not None and not (self._wants_again(entry) and fresh):
                 held.release()
