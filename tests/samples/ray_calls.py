@@ -16,7 +16,7 @@ from asset_factory.factory.models.service import Address, asking
 
 @dataclass(frozen=True)
 class Filled:
-    folder: Path
+    bundle: Path
     files: int
 
 

@@ -9,9 +9,9 @@ import shutil
 import tarfile
 import tempfile
 import uuid
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import IO, Any, Generic, TypeVar
 
@@ -39,7 +39,8 @@ def begin_transfer(
     """Return what to call on a node for ``function(**arguments)``, and what opens an answer.
 
     Each try of a call fills a ``staging`` folder of its own, so it meets nothing another left or
-    still writes. ``cache`` names a place that only the caller sees if there is a URL: nodes get
+    still writes; the ``bundle`` of its value lies in there and comes back, unless it is ``None``.
+    ``cache`` names a place that only the caller sees if there is a URL: nodes get
     ``None`` for it.
 
     Args:
@@ -90,7 +91,7 @@ class Transfer:
     url: str
 
     def opened(self, outcome: Outcome[Sent[T]]) -> Outcome[T]:
-        """Return the function's own outcome, with its folder here: paths in the value lead there.
+        """Return the function's own outcome, with its folder here: the ``bundle`` lies there.
 
         Raises:
             OSError: the file that brings it is not there any more, or is another one.
@@ -100,10 +101,11 @@ class Transfer:
             self.drop()
             return answer  # type: ignore[no-any-return]
         sent = outcome.value
-        value = outcome.value.value
+        value: Any = sent.value
         if self.url and sent.digest:
             try:
-                value = moved(value, Path(sent.folder), self._fetched(sent))
+                there = value.bundle.relative_to(sent.folder)
+                value = replace(value, bundle=self._fetched(sent) / there)
             except OSError:
                 raise
             except Exception as error:
@@ -158,19 +160,18 @@ def make_and_send(
     arguments: Mapping[str, Any],
     here: Mapping[str, Any] | None = None,
 ) -> Sent[T]:
-    """Let the function fill a local folder, and send what its value names of it; on a node.
+    """Let the function fill a local folder, and send the ``bundle`` of its value; on a node.
 
     Arguments in ``here`` are others on this node.
     """
     with tempfile.TemporaryDirectory(prefix="made-") as folder:
-        value = function(**{**arguments, **(here or {}), "staging": Path(folder)})
-        named = sorted(set(paths_below(value, Path(folder))))
-        if not named:
+        value: Any = function(**{**arguments, **(here or {}), "staging": Path(folder)})
+        bundle = value.bundle
+        if bundle is None:
             return Sent(value, folder)
         with tempfile.TemporaryFile() as packed:
             with tarfile.open(fileobj=packed, mode="w:", format=tarfile.PAX_FORMAT) as archive:
-                for path in named:
-                    archive.add(path, path.relative_to(folder).as_posix())
+                archive.add(bundle, bundle.relative_to(folder).as_posix())
             size = packed.tell()
             packed.seek(0)
             digest = hashlib.file_digest(packed, "sha256").hexdigest()
@@ -222,30 +223,3 @@ def unpacked(archive: tarfile.TarFile, folder: Path) -> None:
         assert content is not None, "it is a file"  # noqa: S101
         with target.open("xb") as file:
             shutil.copyfileobj(content, file, BLOCK)
-
-
-def paths_below(value: Any, folder: Path) -> Iterator[Path]:
-    """Yield the paths below a folder that a value names; dataclasses and tuples are looked into."""
-    if isinstance(value, Path):
-        if value.is_relative_to(folder):
-            yield value
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from paths_below(item, folder)
-    elif is_dataclass(value):
-        for each in fields(value):
-            yield from paths_below(getattr(value, each.name), folder)
-
-
-def moved(value: Any, old: Path, new: Path) -> Any:
-    """Return a value with paths below one folder moved to another; see :func:`paths_below`."""
-    if isinstance(value, Path):
-        return new / value.relative_to(old) if value.is_relative_to(old) else value
-    if isinstance(value, tuple):
-        return tuple(moved(item, old, new) for item in value)
-    if is_dataclass(value) and not isinstance(value, type):
-        before = {each.name: getattr(value, each.name) for each in fields(value) if each.init}
-        now = {name: moved(each, old, new) for name, each in before.items()}
-        changed = {name: each for name, each in now.items() if each is not before[name]}
-        return replace(value, **changed) if changed else value
-    return value

@@ -3,18 +3,11 @@
 import io
 import tarfile
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 import ray_calls
 
-from asset_factory.factory.jobs.ray.exchange import (
-    ExchangeError,
-    begin_transfer,
-    moved,
-    paths_below,
-    unpacked,
-)
+from asset_factory.factory.jobs.ray.exchange import ExchangeError, begin_transfer, unpacked
 from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 
 
@@ -37,7 +30,7 @@ def made(url, arguments):
 
 def test_a_shared_folder_holds_each_try_apart(tmp_path):
     tries = [made("", filling(tmp_path / "staging")) for _ in range(2)]
-    folders = {transfer.opened(outcome).unwrap().folder for outcome, transfer in tries}
+    folders = {transfer.opened(outcome).unwrap().bundle for outcome, transfer in tries}
     assert len(folders) == 2
     assert all(each.is_relative_to(tmp_path / "staging") and each.is_dir() for each in folders)
 
@@ -46,10 +39,10 @@ def test_a_folder_that_is_sent_arrives_whole_and_leaves_nothing(tmp_path, betwee
     outcome, transfer = made(between.as_uri(), filling(tmp_path / "staging", 5000))
     assert not (tmp_path / "staging").exists(), "nothing is written there but by the caller"
     filled = transfer.opened(outcome).unwrap()
-    assert filled.folder.is_relative_to(tmp_path / "staging")
-    found = sorted(path.relative_to(filled.folder).as_posix() for path in filled.folder.rglob("*"))
+    assert filled.bundle.is_relative_to(tmp_path / "staging")
+    found = sorted(path.relative_to(filled.bundle).as_posix() for path in filled.bundle.rglob("*"))
     assert found == ["meshes", "meshes/a.bin", "robot.urdf"]
-    assert (filled.folder / "meshes" / "a.bin").read_bytes() == bytes(range(256)) * 5000
+    assert (filled.bundle / "meshes" / "a.bin").read_bytes() == bytes(range(256)) * 5000
     assert not list(between.iterdir())
 
 
@@ -132,12 +125,3 @@ def test_an_archive_writes_nowhere_else(tmp_path, name, kind):
     with tarfile.open(fileobj=packed) as archive, refused:
         unpacked(archive, tmp_path / "in")
     assert [path.name for path in tmp_path.rglob("*")] == ["in"]
-
-
-def test_paths_move_and_nothing_else_does():
-    old = Path("/old/place")
-    new = Path("/new")
-    value = (ray_calls.Filled(old / "bundle", 2), Path("/elsewhere"), "/old/place/text")
-    wanted = (ray_calls.Filled(new / "bundle", 2), Path("/elsewhere"), "/old/place/text")
-    assert moved(value, old, new) == wanted
-    assert list(paths_below(value, old)) == [old / "bundle"]
