@@ -75,39 +75,44 @@ class Registry:
         """
         return held_folder(self.staging)
 
-    def publish(self, entry: Entry, bundle: Path, told: BuildReport) -> Path:
-        """Move a finished bundle into ``assets`` and list it.
+    def add(self, entry: Entry, told: BuildReport, content: Path | None = None) -> Path:
+        """Move what is kept of an input into the registry, and list it; by its status.
 
         The same bytes again change nothing. Others take the place of the old ones at once, so that
         a reader finds the old asset or the new one.
 
         Args:
-            entry: its row; ``status`` must be ``passed``. Its tags and ``solved`` are those that
-                were noted.
-            bundle: a folder from :meth:`staging_folder`; gone afterwards.
-            told: written into the bundle with the digests of its files and the entry.
+            entry: its row. Its tags and ``solved`` are those that were noted.
+            told: written into its folder with the digests of the files there and the entry.
+            content: a folder from :meth:`staging_folder`, gone afterwards: the finished bundle of
+                what passed; of what did not, what is kept beside the report, if anything.
 
         Returns:
-            The asset's folder.
+            Its folder, in ``assets`` or ``rejected``. Raises RegistryError for what passed and has
+            no content.
         """
-        if entry.status is not Status.PASSED:
-            status = f"status is '{entry.status}', only 'passed' is published"
-            raise RegistryError(f"asset {entry.id!r}: {status}")
-        return self._publish(entry, bundle, told, self.assets / entry.id, self.rejected / entry.id)
-
-    def reject(self, entry: Entry, told: BuildReport, shown: Path | None = None) -> Path:
-        """Keep the report of an input that did not pass, and list it. Returns the folder.
-
-        ``shown`` is a folder as for :meth:`publish`, with what else is kept of it.
-        """
-        if entry.status is Status.PASSED:
-            status = "status is 'passed', want rejected or unjudged"
-            raise RegistryError(f"asset {entry.id!r}: {status}")
+        folder = self.folder(entry)
+        other = (self.rejected if folder.parent == self.assets else self.assets) / entry.id
         with self.staging_folder() as staging:
-            content = shown or staging / entry.id
-            content.mkdir(exist_ok=True)
-            places = (self.rejected / entry.id, self.assets / entry.id)
-            return self._publish(entry, content, told, *places)
+            if content is None:
+                if entry.status is Status.PASSED:
+                    raise RegistryError(f"asset {entry.id!r}: has passed, and has no files")
+                content = staging / "content"
+                content.mkdir()
+            files = file_digests(content)
+            entry = _completed(entry, told, content)
+            write_report(content, entry, told, files)
+            sync_tree(content)
+            with writing(self.root) as connection:
+                # The old place is emptied after the row points to the new one: a row's folder is
+                # always there.
+                if other.exists() or not _same(content, folder, files):
+                    place(content, folder)
+                rows.insert(connection, (read_record(folder, note_path(self.root, entry.id)),))
+            remove(content)
+            if other.exists():
+                os.rename(other, staging / "other")
+        return folder
 
     def note(
         self, asset_id: str, *, tags: Sequence[str] | None = None, solved: str | None = None
@@ -261,25 +266,6 @@ class Registry:
         hint = f"; did you mean {', '.join(near[:3])}?" if near else ""
         hint = hint or f"; `factory list` shows all {rows.count(connection, ())}"
         raise RegistryError(f"no asset {asset_id!r} in {self.root}{hint}")
-
-    def _publish(
-        self, entry: Entry, content: Path, told: BuildReport, folder: Path, other: Path
-    ) -> Path:
-        files = file_digests(content)
-        entry = _completed(entry, told, content)
-        write_report(content, entry, told, files)
-        sync_tree(content)
-        with self.staging_folder() as staging:
-            with writing(self.root) as connection:
-                # The old place is emptied after the row points to the new one: a row's folder is
-                # always there.
-                if other.exists() or not _same(content, folder, files):
-                    place(content, folder)
-                rows.insert(connection, (read_record(folder, note_path(self.root, entry.id)),))
-            remove(content)
-            if other.exists():
-                os.rename(other, staging / entry.id)
-        return folder
 
 
 def read_manifest(folder: Path) -> Manifest | None:

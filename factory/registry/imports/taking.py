@@ -74,10 +74,7 @@ def import_export(
         if not replace:
             _require_no_others(registry, source, fresh)
         for arrival in fresh:
-            if arrival.entry.status is Status.PASSED:
-                registry.publish(arrival.entry, arrival.folder, arrival.told)
-            else:
-                registry.reject(arrival.entry, arrival.told, arrival.folder)
+            registry.add(arrival.entry, arrival.told, arrival.folder)
         for arrival in arrivals:
             _take_note(registry, arrival, content)
     published = {arrival.entry.id for arrival in fresh}

@@ -66,7 +66,7 @@ def outcome(root, *steps):
 WORK = {
     "one": lambda registry: publish(registry, "one"),
     "two": lambda registry: publish(registry, "two"),
-    "reject": lambda registry: registry.reject(REJECTED, BAD_REPORT),
+    "reject": lambda registry: registry.add(REJECTED, BAD_REPORT),
     "forget": lambda registry: registry.forget(PASSED.id),
     "note": lambda registry: registry.note(PASSED.id, tags=("a",), solved="yes"),
 }

@@ -58,7 +58,7 @@ def test_any_small_registry_survives_the_round_trip(tmp_path_factory, assets, co
             bundle.mkdir()
             for name, content in files.items():
                 (bundle / name).write_bytes(content)
-            registry.publish(named(asset_id), bundle, REPORT)
+            registry.add(named(asset_id), REPORT, bundle)
     other = Registry(root / "other", create=True)
     import_export(other, export(registry, root / ("x.tgz" if compressed else "x")), trusted=True)
     assert dump(other) == dump(registry)

@@ -20,7 +20,7 @@ def registry(tmp_path):
     publish(made, entry=named("cabinet-1"))
     publish(made, entry=named("cabinet-2", key="cd" * 32, license="MIT"))
     publish(made, entry=named("fridge-1", category="fridge", key=""))
-    made.reject(replace(REJECTED, id="fridge-2", category="fridge", key=""), BAD_REPORT)
+    made.add(replace(REJECTED, id="fridge-2", category="fridge", key=""), BAD_REPORT)
     return made
 
 
