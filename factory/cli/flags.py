@@ -299,12 +299,11 @@ def require_maniskill(purpose: str, *modules: str) -> None:
 
 def require_page(port: int) -> None:
     """Raise ConfigError where no page can be served: no such port, or a library is missing."""
-    from ..jobs.pages import missing_library
+    from ..report.pages import require_libraries
 
     if not 0 <= port < 2**16:
         raise ConfigError(f"--port must be 0 to 65535, not {port}")
-    if (missing := missing_library()) is not None:
-        raise ConfigError(missing)
+    require_libraries()
 
 
 def check_effort(command: Any, counts: Sequence[str]) -> None:

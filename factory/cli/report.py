@@ -8,10 +8,11 @@ from pathlib import Path
 from ..errors import ConfigError, Exit, RegistryError
 from ..registry import Registry
 from ..runtime.terminal import complain, say
+from .flags import OfRegistry
 
 
 @dataclass(frozen=True)
-class ReportPages:
+class ReportPages(OfRegistry):
     """Write the report of a registry: a grid of all assets, and a page with a viewer for each.
 
     It is written to <output>/report and needs neither a network nor a web server: open its
@@ -19,8 +20,6 @@ class ReportPages:
     nightly` do the same at their end.
     """
 
-    output: Path
-    """The registry's folder."""
     workers: int | None = None
     """Pages drawn at once; all processors by default."""
 

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..report.pages import environment
 from ..report.site.render import STATIC
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
 
 _OWN = Path(__file__).parent / "static"
 _KINDS = {".css": "text/css", ".js": "text/javascript"}
@@ -21,15 +16,11 @@ STATIC_FILES = {path.name: path for path in (*_SHARED, *sorted(_OWN.iterdir()))}
 
 def page_html(name: str) -> str:
     """Return the page on which the mesh of that name is edited."""
-    return _templates().get_template("edit.html.j2").render(name=name, top="", alone=None)
+    template = environment(__package__).get_template("edit.html.j2")
+    return template.render(name=name, top="", alone=None)
 
 
 def static_file(name: str) -> tuple[bytes, str]:
     """Return the content and the kind of one of ``STATIC_FILES``."""
     path = STATIC_FILES[name]
     return path.read_bytes(), _KINDS[path.suffix]
-
-
-@cache
-def _templates() -> Environment:
-    return environment(__package__)

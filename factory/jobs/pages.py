@@ -3,27 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib.util import find_spec
 
 from asset_factory.sim_checks.processes.isolation import Limits
 
-from ..errors import ConfigError
 from ..registry import Registry
+from ..report.pages import require_libraries
 from ..report.site.site import stale, write_asset, write_index
 from .executor import Call
 from .local import LocalExecutor
 
 #: Of one asset's page: far more than any took.
 LIMITS = Limits(wall_s=180.0)
-LIBRARIES = ("embreex", "jinja2", "PIL")
-
-
-def missing_library() -> str | None:
-    """Return what the report needs and is not installed, as a sentence."""
-    for library in LIBRARIES:
-        if find_spec(library) is None:
-            return f"the report needs {library}: pip install 'asset-factory[build]'"
-    return None
 
 
 def draw_pages(
@@ -40,9 +30,7 @@ def draw_pages(
         ConfigError: a library is missing.
         OSError: the site cannot be written.
     """
-    missing = missing_library()
-    if missing is not None:
-        raise ConfigError(missing)
+    require_libraries()
     old = tuple(stale(registry))
     calls = [Call(entry.id, {"root": registry.root, "entry": entry}) for entry in old]
     failed = []
