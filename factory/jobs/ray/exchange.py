@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import hashlib
-import os
 import shutil
 import tarfile
 import tempfile
@@ -33,32 +32,33 @@ class ExchangeError(Exception):
     """Other bytes arrived than were sent, or none could be sent."""
 
 
-def begin_transfer(
-    url: str, function: Callable[..., T], arguments: Mapping[str, Any]
-) -> tuple[Callable[..., Sent[T]], dict[str, Any], Transfer]:
-    """Return what to call on a node for ``function(**arguments)``, and what opens an answer.
+def with_own_folder(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the arguments of a try, with a ``staging`` folder of its own within the one given.
 
-    Each try of a call fills a ``staging`` folder of its own, so it meets nothing another left or
-    still writes; the ``bundle`` of its value lies in there and comes back, unless it is ``None``.
-    ``cache`` names a place that only the caller sees if there is a URL: nodes get
-    ``None`` for it.
+    So it meets nothing that another try left or still writes.
+    """
+    return {**arguments, "staging": Path(arguments["staging"]) / uuid.uuid4().hex}
+
+
+def begin_transfer(
+    url: str, function: Callable[..., Any], arguments: Mapping[str, Any]
+) -> tuple[dict[str, Any], Transfer]:
+    """Return the arguments of :func:`make_and_send` for a call, and what opens its answer.
+
+    The ``bundle`` of the call's value lies in its ``staging`` folder and comes back, unless it is
+    ``None``. ``cache`` names a place that only the caller sees: nodes get ``None`` for it.
 
     Args:
-        url: of a folder that all nodes can write and the caller can read, as fsspec names it; each
-            try sends one file there, which is removed when it was read. Empty: the folder itself
-            lies where all nodes see it.
+        url: of a folder that all nodes can write and the caller can read, as fsspec names it; one
+            file is sent there, which is removed when it was read.
         function: to be called.
-        arguments: of it.
+        arguments: of it, as :func:`with_own_folder` gives them.
     """
-    folder = Path(arguments["staging"])
-    name = uuid.uuid4().hex
-    if not url:
-        asked = {"target": str(folder / name), "function": function, "arguments": dict(arguments)}
-        return make_in_folder, asked, Transfer(folder, "")
-    target = f"{url.rstrip('/')}/{name}.tar"
+    folder: Path = arguments["staging"]
+    target = f"{url.rstrip('/')}/{folder.name}.tar"
     seen = {name: None if name == "cache" else value for name, value in arguments.items()}
     asked = {"target": target, "function": function, "arguments": seen}
-    return make_and_send, asked, Transfer(folder, target)
+    return asked, Transfer(folder, target)
 
 
 @dataclass(frozen=True)
@@ -83,8 +83,8 @@ class Transfer:
     """One try's folder, as the caller awaits it.
 
     Attributes:
-        folder: where it should be.
-        url: of the file that brings it; empty if it is there already.
+        folder: where it should be; not there yet.
+        url: of the file that brings it.
     """
 
     folder: Path
@@ -102,7 +102,7 @@ class Transfer:
             return answer  # type: ignore[no-any-return]
         sent = outcome.value
         value: Any = sent.value
-        if self.url and sent.digest:
+        if sent.digest:
             try:
                 there = value.bundle.relative_to(sent.folder)
                 value = replace(value, bundle=self._fetched(sent) / there)
@@ -117,18 +117,16 @@ class Transfer:
 
     def drop(self) -> None:
         """Remove the file that brings it, if there is one."""
-        if self.url:
-            with suppress(Exception):
-                file_system, path = located(self.url)
-                file_system.rm_file(path)
+        with suppress(Exception):
+            file_system, path = located(self.url)
+            file_system.rm_file(path)
 
     def _fetched(self, sent: Sent[T]) -> Path:
         if not 0 <= sent.size <= MOST_BYTES:
             raise ExchangeError(f"it has {sent.size} bytes, at most {MOST_BYTES} are taken")
         file_system, path = located(self.url)
-        self.folder.mkdir(parents=True, exist_ok=True)
-        folder = Path(tempfile.mkdtemp(dir=self.folder))
-        folder.chmod(0o755)
+        self.folder.mkdir(parents=True)
+        self.folder.chmod(0o755)
         with tempfile.TemporaryFile(dir=self.folder) as local:
             digest = hashlib.sha256()
             size = 0
@@ -142,16 +140,8 @@ class Transfer:
                 raise ExchangeError(f"it is not the file that was sent: {why}")
             local.seek(0)
             with tarfile.open(fileobj=local, mode="r:") as archive:
-                unpacked(archive, folder)
-        return folder
-
-
-def make_in_folder(
-    target: str, function: Callable[..., T], arguments: Mapping[str, Any]
-) -> Sent[T]:
-    """Let the function fill a folder that the caller sees too; on a node."""
-    os.makedirs(target, exist_ok=True)
-    return Sent(function(**{**arguments, "staging": Path(target)}), target)
+                unpacked(archive, self.folder)
+        return self.folder
 
 
 def make_and_send(

@@ -16,7 +16,7 @@ from ...config import ParticulateConfig
 from ..executor import AHEAD, Call
 from .alike import LEAST_FREE, difference, looking_first, versions
 from .cluster import LOCAL, ClusterLost, connected
-from .exchange import FULL, Transfer, begin_transfer
+from .exchange import FULL, Transfer, begin_transfer, make_and_send, with_own_folder
 from .inputs import PackedInput, pack_input
 from .network import Networks
 from .nodes import FULL_S, Nodes
@@ -50,8 +50,9 @@ class RayExecutor:
         memory_bytes: that one call takes, by which Ray places it [bytes]; 0: Ray does not look.
         retries: as :class:`~.local.LocalExecutor`.
         modules: what every child needs, imported once per process of Ray's.
-        exchange: through which folders that calls fill come back, see
-            :func:`~.exchange.begin_transfer`; ``None`` where calls fill none.
+        exchange: URL through which folders that calls fill come back, see
+            :func:`~.exchange.begin_transfer`; empty where all nodes see them; ``None`` where calls
+            fill none.
         network: that calls ask; ``None`` where they ask none, or each its own.
     """
 
@@ -157,12 +158,13 @@ class _Tasks(Generic[T]):
         try:
             if self._networks is not None:
                 arguments["address"] = self._networks.address
+            if executor.exchange is not None:
+                arguments = with_own_folder(arguments)
             if executor.exchange:
                 arguments["place"] = arguments["source"]
                 packed = pack_input(arguments["source"], task.more)
-            if executor.exchange is not None:
-                sending = begin_transfer(executor.exchange, function, arguments)
-                function, arguments, transfer = sending
+                arguments, transfer = begin_transfer(executor.exchange, function, arguments)
+                function = make_and_send
             how = (self._limits, executor.retries, executor.modules)
             # A call that is lost is packed again: its bytes need not be kept until then.
             kept = None if packed is None else replace(packed, data=b"")

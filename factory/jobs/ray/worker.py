@@ -6,8 +6,8 @@ import atexit
 import pickle
 import sys
 import tarfile
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import cache, partial
 from typing import Any
@@ -60,7 +60,10 @@ def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, An
 
     order: Order = pickle.loads(packed)  # noqa: S301 - from the one who gives the work
     try:
-        with _unpacked(order, data) as here:
+        with ExitStack() as stack:
+            here: dict[str, Any] = {}
+            if order.input is not None:
+                here["source"] = stack.enter_context(order.input.unpacked(data))
             if weights:
                 here["weights"] = arrived(ray, weights)
             arguments = {**order.arguments, **({"here": here} if here else {})}
@@ -79,16 +82,6 @@ def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, An
         return "lost", str(outcome.error)
     # Without a URL it may be the caller's own folder that is full.
     return ("full", None) if order.input and _is_full(outcome.error) else ("done", outcome)
-
-
-@contextmanager
-def _unpacked(order: Order, data: bytes) -> Iterator[dict[str, Any]]:
-    """Yield arguments that are others on this node."""
-    if order.input is None:
-        yield {}
-        return
-    with order.input.unpacked(data) as path:
-        yield {"source": path}
 
 
 def _is_full(error: BaseException | None) -> bool:

@@ -7,7 +7,13 @@ from dataclasses import replace
 import pytest
 import ray_calls
 
-from asset_factory.factory.jobs.ray.exchange import ExchangeError, begin_transfer, unpacked
+from asset_factory.factory.jobs.ray.exchange import (
+    ExchangeError,
+    begin_transfer,
+    make_and_send,
+    unpacked,
+    with_own_folder,
+)
 from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 
 
@@ -24,13 +30,13 @@ def filling(folder, size=10):
 
 def made(url, arguments):
     """The outcome of a call made on a node, and what opens it."""
-    function, sent, transfer = begin_transfer(url, ray_calls.fill, arguments)
-    return Outcome(function(**sent), None, "", "", 0.0), transfer
+    sent, transfer = begin_transfer(url, ray_calls.fill, with_own_folder(arguments))
+    return Outcome(make_and_send(**sent), None, "", "", 0.0), transfer
 
 
 def test_a_shared_folder_holds_each_try_apart(tmp_path):
-    tries = [made("", filling(tmp_path / "staging")) for _ in range(2)]
-    folders = {transfer.opened(outcome).unwrap().bundle for outcome, transfer in tries}
+    tries = [with_own_folder(filling(tmp_path / "staging")) for _ in range(2)]
+    folders = {ray_calls.fill(**each).bundle for each in tries}
     assert len(folders) == 2
     assert all(each.is_relative_to(tmp_path / "staging") and each.is_dir() for each in folders)
 
@@ -47,15 +53,14 @@ def test_a_folder_that_is_sent_arrives_whole_and_leaves_nothing(tmp_path, betwee
 
 
 def test_nodes_are_not_told_of_places_that_only_the_caller_sees(tmp_path, between):
-    arguments = {**filling(tmp_path / "staging"), "cache": tmp_path / "cache"}
-    sent = begin_transfer(between.as_uri(), ray_calls.fill, arguments)
-    assert sent[1]["arguments"]["cache"] is None
-    shared = begin_transfer("", ray_calls.fill, arguments)
-    assert shared[1]["arguments"]["cache"] == tmp_path / "cache"
+    shared = with_own_folder({**filling(tmp_path / "staging"), "cache": tmp_path / "cache"})
+    assert shared["cache"] == tmp_path / "cache"
+    sent, _ = begin_transfer(between.as_uri(), ray_calls.fill, shared)
+    assert sent["arguments"]["cache"] is None
 
 
 def test_a_failed_call_keeps_its_failure(tmp_path, between):
-    transfer = begin_transfer(between.as_uri(), ray_calls.fill, filling(tmp_path))[2]
+    _, transfer = begin_transfer(between.as_uri(), ray_calls.fill, filling(tmp_path))
     failed = Outcome(None, Failure.TIMEOUT, "no answer", "", 1.0)
     assert transfer.opened(failed) == failed
 
