@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import tyro
 
@@ -115,7 +115,11 @@ def run(command: Build) -> int:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)
     summary = Summary(tuple(results), JobState.INTERRUPTED if stopped else job.state, left)
-    _write_summary(command.output / SUMMARY, summary.to_dict())
+    path = command.output / SUMMARY
+    try:
+        write_json(path, summary.to_dict())
+    except OSError as error:
+        raise RegistryError(f"{path}: cannot be written: {error.strerror}") from error
     if summary.state is JobState.INTERRUPTED:
         done = f"what was finished is registered, {left} inputs are left"
         complain(f"factory: interrupted; {done}; the same command goes on with them")
@@ -142,14 +146,6 @@ def _show(summary: Summary, command: Build) -> None:
         if summary.left:
             left = f"{summary.left} inputs are left ({summary.state.replace('_', ' ')})"
             say(f"{left}; the same command goes on with them.")
-
-
-def _write_summary(path: Path, summary: dict[str, Any]) -> None:
-    """Write ``summary.json``. Raises RegistryError: the output cannot be written."""
-    try:
-        write_json(path, summary)
-    except OSError as error:
-        raise RegistryError(f"{path}: cannot be written: {error.strerror}") from error
 
 
 def wanted_inputs(command: Build) -> tuple[Path, ...]:

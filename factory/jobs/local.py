@@ -41,13 +41,11 @@ class LocalExecutor:
         retries: further tries of a call that crashed, hung or ran out of memory, each in a new
             process.
         calls: after so many a worker is replaced.
-        resident_bytes: that a worker may hold after a call [bytes].
     """
 
     workers: int
     retries: int = 1
     calls: int = CALLS
-    resident_bytes: int = RESIDENT_BYTES
     _pools: list[_WorkerPool[Any]] = field(default_factory=list, compare=False, repr=False)
 
     def under_way(self) -> tuple[UnderWay, ...]:
@@ -117,7 +115,7 @@ class _WorkerPool(Generic[T]):
 
     def _begin(self) -> None:
         """Give a new thread its child."""
-        child = WarmChild(self._executor.calls, self._executor.resident_bytes)
+        child = WarmChild(self._executor.calls, RESIDENT_BYTES)
         self._children[get_ident()] = child
 
     def _answered(self, call: Call) -> tuple[Call, Outcome[T]]:

@@ -50,10 +50,9 @@ def free_memory(proc: Path = PROC, groups: Path = GROUPS) -> int | None:
 
 
 def _of_machine(proc: Path) -> Iterator[int]:
-    with suppress(OSError, ValueError, IndexError):
-        for line in (proc / "meminfo").read_text().splitlines():
-            if line.startswith("MemAvailable:"):
-                yield 1024 * int(line.split()[1])
+    available = _named(proc / "meminfo", "MemAvailable:")
+    if available is not None:
+        yield 1024 * available
 
 
 def _of_groups(proc: Path, groups: Path) -> Iterator[int]:
@@ -85,16 +84,17 @@ def _left(group: Path, limit: str, used: str, unused: str) -> Iterator[int]:
         if most < NO_LIMIT:
             taken = int((group / used).read_text())
             # Files that were read are counted, and given up when memory runs short.
-            yield max(0, most - taken + _named(group / "memory.stat", unused))
+            yield max(0, most - taken + (_named(group / "memory.stat", unused) or 0))
 
 
-def _named(file: Path, name: str) -> int:
-    with suppress(OSError, ValueError):
+def _named(file: Path, name: str) -> int | None:
+    """Return the number beside a name; ``None`` where a file has none."""
+    with suppress(OSError, ValueError, IndexError):
         for line in file.read_text().splitlines():
             words = line.split()
             if words[0] == name:
                 return int(words[1])
-    return 0
+    return None
 
 
 def _gib(number: int) -> str:
