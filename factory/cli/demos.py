@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Literal
 
 from ..errors import ConfigError, Exit
 from ..registry import Registry
+from ..registry.where import wanted
 from ..runtime.terminal import say
-from .flags import AssetIds, check_effort, require_maniskill, require_writable, wanted
+from .flags import AssetIds, check_effort, require_maniskill, require_writable
 
 if TYPE_CHECKING:
     from asset_factory.envs.assets import RegisteredAsset

@@ -21,8 +21,7 @@ from ..config import REPAIR_KINDS, BuildConfig, ParticulateConfig
 from ..errors import AssetFactoryError, ConfigError
 from ..presets import load_config
 from ..registry import Entry, Registry
-from ..registry.rows import Condition
-from ..registry.where import parse_where, unknown_values
+from ..registry.where import wanted
 from ..runtime.terminal import complain
 
 DEFAULT_SIMULATORS = "sapien"
@@ -123,18 +122,6 @@ class OfPassed(OfRegistry):
         """Yield the assets that are wanted. Raises ConfigError for what no asset can be."""
         registry = Registry(self.output)
         return registry.walk(wanted(registry, self.where, status=Status.PASSED))
-
-
-def wanted(registry: Registry, where: str, **defaults: str) -> tuple[Condition, ...]:
-    """Return the conditions of ``--where``; a value that no asset has is told on stderr.
-
-    Raises:
-        ConfigError: it cannot be read, or asks for what no asset can be.
-    """
-    conditions = parse_where(where, **defaults)
-    if sentence := unknown_values(registry, conditions):
-        complain(f"factory: --where: {sentence}")
-    return conditions
 
 
 def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:

@@ -8,9 +8,10 @@ from dataclasses import asdict, dataclass
 from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..registry.aside import superseded
+from ..registry.where import wanted
 from ..runtime.terminal import say
 from . import console
-from .flags import OfRegistry, Printed, wanted
+from .flags import OfRegistry, Printed
 
 #: Rows of a table that nobody set a limit for.
 TABLE_ROWS = 200

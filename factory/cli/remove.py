@@ -9,9 +9,10 @@ from pathlib import Path
 from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..registry.placing import remove
+from ..registry.where import wanted
 from ..runtime.layout import SUPERSEDED
 from ..runtime.terminal import say
-from .flags import AssetIds, OfRegistry, wanted
+from .flags import AssetIds, OfRegistry
 
 #: Ids that are listed before they go.
 LISTED = 20

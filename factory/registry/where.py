@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from difflib import get_close_matches
 
 from asset_factory.sim_checks import Status
 
 from ..errors import ConfigError
+from ..runtime.terminal import complain
 from .entry import SOLVED, SPLITS
 from .registry import Registry
 from .rows import Condition, having
@@ -23,6 +23,23 @@ EXAMPLE = 'want e.g. "category = fridge and joints > 1"'
 _CONDITION = re.compile(r'\s*([\w-]+)\s*(<=|>=|!=|=|<|>)\s*("[^"]*"|[^\s"<>=!]+)\s*(and\b|$)')
 #: Values that an error lists.
 _LISTED = 12
+
+
+def wanted(registry: Registry, text: str, **defaults: str) -> tuple[Condition, ...]:
+    """Return what :func:`parse_where` does; a value that no asset has is told on stderr.
+
+    Raises:
+        ConfigError: it cannot be read, or asks for what no asset can be.
+    """
+    conditions = parse_where(text, **defaults)
+    for each in conditions:
+        if each.operator == "=" and each.column in TEXTS:
+            there = registry.values(each.column)
+            if each.value not in there:
+                meant = _meant(str(each.value), there)
+                complain(f"factory: --where: no asset has {each.column} {each.value!r}; {meant}")
+                break
+    return conditions
 
 
 def parse_where(text: str, **defaults: str) -> tuple[Condition, ...]:
@@ -69,17 +86,6 @@ def _checked(column: str, operator: str, value: str) -> Condition:
     if column in CHOICES and value not in CHOICES[column]:
         raise ConfigError(f"--where: {column} is {value!r}; {_meant(value, CHOICES[column])}")
     return Condition(column, operator, value)
-
-
-def unknown_values(registry: Registry, conditions: Sequence[Condition]) -> str:
-    """Return a sentence about a value that no asset of a registry has; empty if each has some."""
-    for each in conditions:
-        if each.operator == "=" and each.column in TEXTS:
-            there = registry.values(each.column)
-            if each.value not in there:
-                meant = _meant(str(each.value), there)
-                return f"no asset has {each.column} {each.value!r}; {meant}"
-    return ""
 
 
 def _meant(typed: str, known: tuple[str, ...]) -> str:
