@@ -76,7 +76,7 @@ class Registry:
         return held_folder(self.staging)
 
     def add(self, entry: Entry, told: BuildReport, content: Path | None = None) -> Path:
-        """Move what is kept of an input into the registry, and list it; by its status.
+        """Keep an input's bundle or its rejection, by its status, and list it.
 
         The same bytes again change nothing. Others take the place of the old ones at once, so that
         a reader finds the old asset or the new one.
@@ -85,11 +85,11 @@ class Registry:
             entry: its row. Its tags and ``solved`` are those that were noted.
             told: written into its folder with the digests of the files there and the entry.
             content: a folder from :meth:`staging_folder`, gone afterwards: the finished bundle of
-                what passed; of what did not, what is kept beside the report, if anything.
+                an input that passed; of another one the files to keep beside the report, if any.
 
         Returns:
-            Its folder, in ``assets`` or ``rejected``. Raises RegistryError for what passed and has
-            no content.
+            Its folder, in ``assets`` or ``rejected``. Raises RegistryError for an input that passed
+            and has no content.
         """
         folder = self.folder(entry)
         other = (self.rejected if folder.parent == self.assets else self.assets) / entry.id

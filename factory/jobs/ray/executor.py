@@ -37,7 +37,7 @@ LOSSES = 3
 class RayExecutor:
     """Worker processes on a Ray cluster's nodes; each needs this package.
 
-    What is sent along is known by arguments of the calls: ``staging`` is the folder that they fill,
+    Calls name things to send by their arguments: ``staging`` is the folder that they fill,
     ``address`` where they ask a network. With a URL as exchange, ``source`` is an input that is
     sent, ``place`` where it lies for the caller, and ``weights`` where checkpoints lie on the node;
     the ``reads`` of a call's value are the files that its input was made of.
