@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..registry.aside import superseded
+from ..registry.registry import read_manifest
 from ..registry.where import wanted
 from ..runtime.terminal import say
 from . import console
@@ -54,7 +55,7 @@ def run(command: List) -> int:
     if not entries:
         say(f"no assets{f' with {command.where}' if command.where else ''}")
         return Exit.OK
-    console.print_entries([(entry, registry.manifest(entry)) for entry in entries])
+    console.print_entries([(each, read_manifest(registry.folder(each))) for each in entries])
     if len(found) > len(entries):
         say(f"the first {len(entries)}; --after {entries[-1].id} goes on, --limit 0 shows all")
     return Exit.OK

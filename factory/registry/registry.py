@@ -62,18 +62,13 @@ class Registry:
         """Return the reports of those that did not."""
         return self.root / REJECTED
 
-    @property
-    def staging(self) -> Path:
-        """Return the folder of half-made things, on the same file system as ``assets``."""
-        return self.root / STAGING
-
     def staging_folder(self) -> AbstractContextManager[Path]:
         """Return a fresh folder to build in; whatever is still in it afterwards is removed.
 
-        It is locked while the process lives, so that ``factory gc`` can tell what dead
-        ones left.
+        It is on the file system of ``assets``, and locked while the process lives, so that
+        ``factory gc`` can tell what dead ones left.
         """
-        return held_folder(self.staging)
+        return held_folder(self.root / STAGING)
 
     def add(self, entry: Entry, told: BuildReport, content: Path | None = None) -> Path:
         """Keep an input's bundle or its rejection, by its status, and list it.
@@ -251,10 +246,6 @@ class Registry:
                 # It may have been validated again, and lie elsewhere now.
                 entry = self.entry(entry.id)
         return read_report(self.folder(entry)).told
-
-    def manifest(self, entry: Entry) -> Manifest | None:
-        """Return an asset's manifest; ``None`` where there is none that can be read."""
-        return read_manifest(self.folder(entry))
 
     def _entry(self, connection: sqlite3.Connection, asset_id: str) -> Entry:
         entry = rows.find(connection, "id", asset_id)

@@ -26,7 +26,7 @@ def test_a_published_asset_is_listed_and_whole(registry):
     assert registry.entries() == (PASSED,)
     assert (folder / "meshes" / "a.obj").read_text() == "one"
     assert json.loads((folder / "report.json").read_text())["passed"] is True
-    assert list(registry.staging.iterdir()) == []
+    assert list((registry.root / ".staging").iterdir()) == []
 
 
 def test_repairs_are_told_as_they_were_registered_and_of_older_reports_by_their_sentences(registry):
@@ -112,7 +112,7 @@ def test_without_an_exchanging_rename_two_do(registry, monkeypatch):
     monkeypatch.setattr(exchanged, lambda first, second: errno.ENOSYS)
     folder = publish(registry, "two")
     assert (folder / "meshes" / "a.obj").read_text() == "two"
-    assert list(registry.staging.iterdir()) == []
+    assert list((registry.root / ".staging").iterdir()) == []
 
 
 def test_the_report_has_the_files_digests_and_the_entry(registry):

@@ -36,7 +36,7 @@ def test_a_round_trip_changes_nothing(registry, other, tmp_path, name):
     assert import_export(other, source, trusted=True).published == wanted
     assert dump(other) == dump(registry)
     assert verify(other) == ()
-    assert list(other.staging.iterdir()) == []
+    assert list((other.root / ".staging").iterdir()) == []
     again = import_export(other, source)
     assert (again.published, again.same) == ((), ("cabinet-1", "chest-1", "fridge-1"))
 
@@ -71,7 +71,7 @@ def refused(other, source, match, **arguments):
     with pytest.raises(RegistryError, match=match):
         import_export(other, source, **arguments)
     assert (dump(other), sorted(path.name for path in other.assets.iterdir())) == before
-    assert list(other.staging.iterdir()) == []
+    assert list((other.root / ".staging").iterdir()) == []
 
 
 def test_other_assets_of_the_same_id_are_not_replaced_unasked(registry, other, tmp_path):
