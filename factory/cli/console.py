@@ -26,7 +26,6 @@ from rich.text import Text
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
 from asset_factory.sim_checks.grouping import group_disagreements, group_findings
 
-from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
 from ..registry.result import Result
 from ..report.summary import Summary
@@ -268,16 +267,6 @@ def _told(entry: Entry) -> tuple[str, ...]:
     """Return an entry's counts and its coloured status, for a table."""
     counts = (entry.parts, entry.joints, entry.hulls)
     return *map(str, counts), f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]"
-
-
-def print_weights(info: WeightsInfo) -> None:
-    """Print what a checkpoint holds."""
-    console = terminal()
-    console.print(f"{info.file}: {info.network}", markup=False, soft_wrap=True)
-    numbers = {"tensors": info.tensors, "parameters": f"{info.parameters:,}"}
-    for name, value in {**info.details, **numbers, "types": ", ".join(info.dtypes)}.items():
-        console.print(f"  {name}: {value}", markup=False, soft_wrap=True)
-    console.print(info.terms, markup=False, soft_wrap=True)
 
 
 def terminal() -> Console:
