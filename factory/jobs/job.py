@@ -31,7 +31,7 @@ from ..registry.verify import verify
 from ..report.summary import JobState
 from ..runtime.layout import CACHE, CLAIMS
 from ..runtime.store import Store
-from .budget import Budget
+from .budget import ANY, Budget
 from .executor import Call, Executor, UnderWay
 from .local import LocalExecutor
 from .probe import KnownReads, Probe, known_of
@@ -160,7 +160,8 @@ class Job:
         if self._budget.repair and entry.id not in self._sound and entry.id not in self._damaged:
             problems = verify(self._registry, (entry.id,))
             (self._damaged if problems else self._sound).add(entry.id)
-        return self._budget.wants_again(entry) or entry.id in self._damaged
+        asked = entry.reason in self._budget.retry or ANY in self._budget.retry
+        return (asked and entry.status is not Status.PASSED) or entry.id in self._damaged
 
     def _build(self, waiting: list[Probe]) -> Iterator[Result]:
         preload(modules_for(self._config))
