@@ -176,12 +176,8 @@ def tried(
         tries += outcome.tries
         deaths += outcome.deaths
         outcome = replace(outcome, tries=tries, deaths=deaths)
-        if tries > retries or not worth_another_try(outcome):
+        # A crash, a hang or a moment without memory may have been bad luck.
+        ended = outcome.failure in (Failure.CRASHED, Failure.TIMEOUT)
+        if tries > retries or not (ended or isinstance(outcome.error, MemoryError)):
             return outcome
         child.close()
-
-
-def worth_another_try(outcome: Outcome[T]) -> bool:
-    """Tell whether an outcome may have been bad luck: a crash, a hang, a moment without memory."""
-    ended = outcome.failure in (Failure.CRASHED, Failure.TIMEOUT)
-    return ended or isinstance(outcome.error, MemoryError)

@@ -44,23 +44,18 @@ def make_registry(root: Path) -> None:
     Raises:
         RegistryError: it cannot be made or used.
     """
+    folders = [root / name for name in (ASSETS, REJECTED, STAGING)]
     try:
-        _make(root)
+        if not ((root / DATABASE).exists() and all(folder.is_dir() for folder in folders)):
+            for folder in folders:
+                folder.mkdir(parents=True, exist_ok=True)
+            with alone(root / CLAIMS, "registry"):
+                if not (root / DATABASE).exists():
+                    rebuild(root)
         open_registry(root)
     except OSError as error:
         why = f"{error.strerror}; want a folder to write in"
         raise RegistryError(f"{root}: no registry can be made here: {why}") from error
-
-
-def _make(root: Path) -> None:
-    folders = [root / name for name in (ASSETS, REJECTED, STAGING)]
-    if (root / DATABASE).exists() and all(folder.is_dir() for folder in folders):
-        return
-    for folder in folders:
-        folder.mkdir(parents=True, exist_ok=True)
-    with alone(root / CLAIMS, "registry"):
-        if not (root / DATABASE).exists():
-            rebuild(root)
 
 
 def open_registry(root: Path) -> None:
