@@ -22,7 +22,7 @@ from pathlib import Path
 from asset_factory.factory.jobs.executor import Call, Executor
 from asset_factory.factory.jobs.local import LocalExecutor
 from asset_factory.factory.jobs.ray.executor import RayExecutor
-from asset_factory.factory.jobs.ray.inputs import Inputs
+from asset_factory.factory.jobs.ray.inputs import pack_input
 from asset_factory.sim_checks.processes.isolation import Limits
 
 LIMITS = Limits(wall_s=300.0)
@@ -60,11 +60,10 @@ def packing(meshes: int, size: int) -> float:
         named = (f'<mesh filename="{number}.stl"/>' for number in range(meshes))
         (folder / "all.urdf").write_text(f"<robot>{''.join(named)}</robot>", encoding="utf-8")
         source = folder / ("all.urdf" if meshes > 1 else "0.stl")
-        sender = Inputs("source", "place", lambda value: {})
         tries = []
         for _ in range(5):
             began = time.perf_counter()
-            packed = sender.packed({"source": source}, frozenset())
+            packed = pack_input(source, frozenset())
             tries.append(1e3 * (time.perf_counter() - began))
         assert len(packed.names) == (meshes + 1 if meshes > 1 else 1)
         return min(tries)

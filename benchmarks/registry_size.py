@@ -21,8 +21,8 @@ from statistics import median
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Entry, Registry
 from asset_factory.factory.registry.database import connected, writing
-from asset_factory.factory.registry.rebuild import write_database
-from asset_factory.factory.registry.rows import Filters, RegistryRow, insert
+from asset_factory.factory.registry.rebuild import new_database
+from asset_factory.factory.registry.rows import RegistryRow, having, insert
 from asset_factory.factory.runtime.store import digest_bytes
 
 ROWS = 1_000_000
@@ -90,7 +90,7 @@ def questions(registry: Registry) -> dict[str, Callable[[], object]]:
         "open": lambda: Registry(registry.root),
         "lookup": lambda: registry.entry(some.id),
         "did_you_mean": lambda: unknown(registry, some.id[:-3] + "xyz"),
-        "known_key": lambda: registry.known_key(some.key),
+        "known_key": lambda: registry.known_keys((some.key,)),
         "page": lambda: registry.entries(limit=200),
         "page_in_the_middle": lambda: registry.entries(limit=200, after=some.id),
         "status": lambda: registry.entries(status="rejected", limit=200),
@@ -108,9 +108,9 @@ def questions(registry: Registry) -> dict[str, Callable[[], object]]:
             split="test", status="passed", category=some.category, limit=200
         ),
         "solved_and_license": lambda: registry.entries(solved="no", license="CC0-1.0", limit=200),
-        "count_category": lambda: registry.count(Filters(category=some.category)),
+        "count_category": lambda: registry.count(having(category=some.category)),
         "count_all": registry.count,
-        "count_status_license": lambda: registry.count(Filters(status="passed", license="")),
+        "count_status_license": lambda: registry.count(having(status="passed", license="")),
         "count_by_reading_rows": lambda: rows_read(registry),
         "note": lambda: write_row(registry, some),
     }
@@ -135,7 +135,8 @@ def main() -> None:
         root = Path(folder) / "out"
         started = time.perf_counter()
         root.mkdir()
-        write_database(root / "registry.db", made_up(count))
+        with new_database(root / "registry.db") as connection:
+            insert(connection, made_up(count))
         filled = time.perf_counter() - started
         registry = Registry(root, create=True)
         answers = {name: milliseconds(ask) for name, ask in questions(registry).items()}

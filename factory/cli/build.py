@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import tyro
 
@@ -28,7 +28,6 @@ from .flags import (
     input_config,
     simulators_named,
     with_repairs,
-    workers_fitting,
 )
 from .report import report_after
 
@@ -116,7 +115,11 @@ def run(command: Build) -> int:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)
     summary = Summary(tuple(results), JobState.INTERRUPTED if stopped else job.state, left)
-    _write_summary(command.output / SUMMARY, summary.to_dict())
+    path = command.output / SUMMARY
+    try:
+        write_json(path, summary.to_dict())
+    except OSError as error:
+        raise RegistryError(f"{path}: cannot be written: {error.strerror}") from error
     if summary.state is JobState.INTERRUPTED:
         done = f"what was finished is registered, {left} inputs are left"
         complain(f"factory: interrupted; {done}; the same command goes on with them")
@@ -143,14 +146,6 @@ def _show(summary: Summary, command: Build) -> None:
         if summary.left:
             left = f"{summary.left} inputs are left ({summary.state.replace('_', ' ')})"
             say(f"{left}; the same command goes on with them.")
-
-
-def _write_summary(path: Path, summary: dict[str, Any]) -> None:
-    """Write ``summary.json``. Raises RegistryError: the output cannot be written."""
-    try:
-        write_json(path, summary)
-    except OSError as error:
-        raise RegistryError(f"{path}: cannot be written: {error.strerror}") from error
 
 
 def wanted_inputs(command: Build) -> tuple[Path, ...]:
@@ -200,7 +195,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
     """Return the job that flags ask for. Raises ConfigError: a bad flag, and what is right."""
     from ..jobs import Budget, Executor, LocalExecutor
     from ..jobs.job import Job
-    from ..jobs.memory import BUILD_BYTES
+    from ..jobs.memory import BUILD_BYTES, workers_for
 
     config = build_config(command)
     if command.executor not in EXECUTORS:
@@ -210,7 +205,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
         raise ConfigError("--ray-address and --ray-exchange want --executor ray")
     workers = command.workers
     if command.executor != "ray" or command.ray_address == "local":
-        workers = workers_fitting(workers, BUILD_BYTES)
+        workers = workers_for(workers, BUILD_BYTES)
     executor: Executor
     if command.executor == "ray":
         from ..jobs.ray.builds import ray_executor

@@ -24,7 +24,7 @@ from ..runtime.store import write_json, write_whole
 from ..runtime.terminal import complain, printable, say
 from . import console
 from .check_formats import FORMATS, PAGE, read_baseline, total, without_known, write_baseline
-from .flags import DEFAULT_SIMULATORS, RootFlags, require_files, simulators_named, workers_fitting
+from .flags import DEFAULT_SIMULATORS, RootFlags, require_files, simulators_named
 
 if TYPE_CHECKING:
     from asset_factory.sim_checks.config import CheckConfig
@@ -69,11 +69,11 @@ class Check:
 
 def run(command: Check) -> int:
     """Validate every file; returns the exit code."""
-    from ..jobs.memory import CHECK_BYTES
+    from ..jobs.memory import CHECK_BYTES, workers_for
 
     simulators = simulators_named(command.sim)
     config = load_config(command.config).checks
-    workers = workers_fitting(command.workers, CHECK_BYTES)
+    workers = workers_for(command.workers, CHECK_BYTES)
     known = read_baseline(command.baseline) if command.baseline else frozenset()
     files = _described(command.files)
     options = replace(command.roots.options(command.files), srdf=command.srdf)

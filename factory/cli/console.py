@@ -26,7 +26,6 @@ from rich.text import Text
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity, Status
 from asset_factory.sim_checks.grouping import group_disagreements, group_findings
 
-from ..models.weights.checkpoint import WeightsInfo
 from ..registry import Entry
 from ..registry.result import Result
 from ..report.summary import Summary
@@ -63,27 +62,29 @@ def follow(
     ``collected`` is given each, so that an interruption loses none.
     """
     console = Terminal(stderr=True, quiet=quiet)
-    if console.is_terminal:
-        _follow_on_terminal(console, results, collected, total, under_way)
-    else:
-        _follow(console, results, collected, total)
-
-
-def _follow(
-    console: Console, results: Iterable[Result], collected: list[Result], total: int
-) -> None:
-    silent = True
-    for result in results:
-        collected.append(result)
-        if result.known:
-            continue
-        if silent and len(collected) > 1:
-            console.print(_known_sentence(len(collected) - 1, total), markup=False)
-        silent = False
-        line = f"[{len(collected)}/{total}] {result.entry.status}: {_sentence(result)}"
-        console.print(line, markup=False, soft_wrap=True)
-    if silent and collected:
-        console.print(_known_sentence(len(collected), total), markup=False)
+    drawn = console.is_terminal
+    amounts = (BarColumn(bar_width=20), MofNCompleteColumn(), TimeElapsedColumn())
+    columns = (*amounts, _TimeLeft(), _Stages(under_way))
+    known = 0
+    with Progress(*columns, console=console, disable=not drawn) as progress:
+        task = progress.add_task("building", total=total)
+        for result in results:
+            collected.append(result)
+            if result.known:
+                known += 1
+                progress.update(task, total=total - known)
+                continue
+            progress.update(task, advance=1)
+            line = f"{result.entry.status}: {_sentence(result)}"
+            if not drawn:
+                if 0 < known == len(collected) - 1:
+                    console.print(_known_sentence(known, total), markup=False)
+                line = f"[{len(collected)}/{total}] {line}"
+                console.print(line, markup=False, soft_wrap=True)
+            elif result.entry.status is not Status.PASSED or result.replaced:
+                console.print(line, markup=False)
+    if not drawn and 0 < known == len(collected):
+        console.print(_known_sentence(known, total), markup=False)
 
 
 class _Stages(ProgressColumn):
@@ -114,28 +115,6 @@ class _TimeLeft(ProgressColumn):
             return Text("")
         left = task.elapsed / task.completed * (task.total - task.completed)
         return Text(f"about {timedelta(seconds=round(left))} left")
-
-
-def _follow_on_terminal(
-    console: Console,
-    results: Iterable[Result],
-    collected: list[Result],
-    total: int,
-    under_way: Callable[[], tuple[UnderWay, ...]],
-) -> None:
-    amounts = (BarColumn(bar_width=20), MofNCompleteColumn())
-    columns = (*amounts, TimeElapsedColumn(), _TimeLeft(), _Stages(under_way))
-    with Progress(*columns, console=console) as progress:
-        task = progress.add_task("building", total=total)
-        for result in results:
-            collected.append(result)
-            if result.known:
-                total -= 1
-                progress.update(task, total=total)
-                continue
-            progress.update(task, advance=1)
-            if result.entry.status is not Status.PASSED or result.replaced:
-                progress.console.print(f"{result.entry.status}: {_sentence(result)}", markup=False)
 
 
 @contextmanager
@@ -288,16 +267,6 @@ def _told(entry: Entry) -> tuple[str, ...]:
     """Return an entry's counts and its coloured status, for a table."""
     counts = (entry.parts, entry.joints, entry.hulls)
     return *map(str, counts), f"[{STATUS_STYLE[entry.status]}]{entry.status}[/]"
-
-
-def print_weights(info: WeightsInfo) -> None:
-    """Print what a checkpoint holds."""
-    console = terminal()
-    console.print(f"{info.file}: {info.network}", markup=False, soft_wrap=True)
-    numbers = {"tensors": info.tensors, "parameters": f"{info.parameters:,}"}
-    for name, value in {**info.details, **numbers, "types": ", ".join(info.dtypes)}.items():
-        console.print(f"  {name}: {value}", markup=False, soft_wrap=True)
-    console.print(info.terms, markup=False, soft_wrap=True)
 
 
 def terminal() -> Console:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Literal
 
 from ..errors import ConfigError, Exit
 from ..registry import Registry
+from ..registry.where import wanted
 from ..runtime.terminal import say
-from .flags import AssetIds, check_effort, entries_where, require_maniskill, require_writable
+from .flags import AssetIds, check_effort, require_maniskill, require_writable
 
 if TYPE_CHECKING:
     from asset_factory.envs.assets import RegisteredAsset
@@ -133,11 +134,12 @@ def _wanted(command: Demos) -> list[RegisteredAsset]:
     assets = read_registry(command.output)
     ids = command.ids
     if command.where:
-        found = {entry.id for entry in entries_where(Registry(command.output), command.where)}
+        registry = Registry(command.output)
+        found = {entry.id for entry in registry.walk(wanted(registry, command.where))}
         ids = tuple(id for id in (ids or assets) if id in found)
         if not ids:
             raise ConfigError(f"--where: none of these assets has {command.where}")
     assets = named(assets, ids, command.output)
     task = getattr(envs, next(task.class_name for task in TASKS if task.id == command.task))
-    wanted = Wanted(joint=command.joint, joint_types=task.joint_types, min_lever=task.min_lever)
-    return list(select(assets, wanted).values())
+    asked = Wanted(joint=command.joint, joint_types=task.joint_types, min_lever=task.min_lever)
+    return list(select(assets, asked).values())

@@ -21,8 +21,7 @@ from ..config import REPAIR_KINDS, BuildConfig, ParticulateConfig
 from ..errors import AssetFactoryError, ConfigError
 from ..presets import load_config
 from ..registry import Entry, Registry
-from ..registry.rows import Filters
-from ..registry.where import parse_where, unknown_values
+from ..registry.where import wanted
 from ..runtime.terminal import complain
 
 DEFAULT_SIMULATORS = "sapien"
@@ -121,24 +120,8 @@ class OfPassed(OfRegistry):
 
     def entries(self) -> Iterator[Entry]:
         """Yield the assets that are wanted. Raises ConfigError for what no asset can be."""
-        return entries_where(Registry(self.output), self.where, status=Status.PASSED)
-
-
-def entries_where(registry: Registry, where: str, **defaults: str) -> Iterator[Entry]:
-    """Yield the assets that meet conditions; a value that none has is told on stderr."""
-    return registry.walk(wanted(registry, where, **defaults))
-
-
-def wanted(registry: Registry, where: str, **defaults: str) -> Filters:
-    """Return the filters of ``--where``; a value that no asset has is told on stderr.
-
-    Raises:
-        ConfigError: it cannot be read, or asks for what no asset can be.
-    """
-    filters = parse_where(where, **defaults)
-    if sentence := unknown_values(registry, filters):
-        complain(f"factory: --where: {sentence}")
-    return filters
+        registry = Registry(self.output)
+        return registry.walk(wanted(registry, self.where, status=Status.PASSED))
 
 
 def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
@@ -249,24 +232,6 @@ def formats_asked(names: str) -> tuple[str, ...]:
     return tuple(each.name for each in formats_named(asked))
 
 
-def workers_fitting(asked: int | None, each: int) -> int:
-    """Return how many workers to start: ``--workers``, or fewer (said) if memory is short.
-
-    As many as there are processors are asked for by default; one may need ``each`` [bytes].
-
-    Raises:
-        ConfigError: fewer than one is asked for.
-    """
-    from ..jobs.memory import workers_for
-
-    if asked is not None and asked < 1:
-        raise ConfigError(f"--workers must be at least 1, not {asked}")
-    workers, sentence = workers_for(asked, each)
-    if sentence is not None:
-        complain(f"factory: {sentence}")
-    return workers
-
-
 def in_own_process(
     function: Callable[..., T], file: Path, *others: object, limits: BuildConfig
 ) -> T | None:
@@ -321,12 +286,11 @@ def require_maniskill(purpose: str, *modules: str) -> None:
 
 def require_page(port: int) -> None:
     """Raise ConfigError where no page can be served: no such port, or a library is missing."""
-    from ..jobs.pages import missing_library
+    from ..report.pages import require_libraries
 
     if not 0 <= port < 2**16:
         raise ConfigError(f"--port must be 0 to 65535, not {port}")
-    if (missing := missing_library()) is not None:
-        raise ConfigError(missing)
+    require_libraries()
 
 
 def check_effort(command: Any, counts: Sequence[str]) -> None:

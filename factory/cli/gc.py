@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rich.table import Table
+
 from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..registry.cleaning import collect_garbage
-from ..runtime.terminal import say
+from ..runtime.terminal import Terminal, say
 from .flags import OfRegistry
-from .registry import print_freed, size
+from .registry import size
 
 _GB = 1e9
 _DAY_S = 86_400.0
@@ -41,7 +43,12 @@ def run(command: Gc) -> int:
         older_than_s=None if command.older_than is None else command.older_than * _DAY_S,
         keep_bytes=None if command.keep_gb is None else int(command.keep_gb * _GB),
     )
-    print_freed(freed)
+    table = Table("what", "files", "size")
+    for name in ("staging", "unfinished", "cache"):
+        removed = getattr(freed, name)
+        table.add_row(name, str(removed.files), size(removed.bytes))
+    Terminal().print(table)
+    say(f"freed {size(freed.bytes)}")
     if freed.kept.files:
         smaller = "" if command.keep_gb is not None else "; --keep-gb 1 makes it smaller"
         say(f"the cache holds {freed.kept.files} results, {size(freed.kept.bytes)}{smaller}")

@@ -8,9 +8,11 @@ from dataclasses import asdict, dataclass
 from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..registry.aside import superseded
+from ..registry.registry import read_manifest
+from ..registry.where import wanted
 from ..runtime.terminal import say
 from . import console
-from .flags import OfRegistry, Printed, wanted
+from .flags import OfRegistry, Printed
 
 #: Rows of a table that nobody set a limit for.
 TABLE_ROWS = 200
@@ -36,7 +38,7 @@ class List(Printed, OfRegistry):
 def run(command: List) -> int:
     """Print the rows; returns the exit code."""
     registry = Registry(command.output)
-    filters = wanted(registry, command.where)
+    conditions = wanted(registry, command.where)
     if command.limit is not None and command.limit < 0:
         raise ConfigError(f"--limit must be at least 0, not {command.limit}")
     limit = command.limit if command.limit is not None else 0 if command.json else TABLE_ROWS
@@ -45,7 +47,7 @@ def run(command: List) -> int:
     if command.superseded:
         found = superseded(registry.root)
     else:
-        found = registry.select(filters, limit=more, after=command.after)
+        found = registry.entries(conditions, limit=more, after=command.after)
     entries = found[: limit or None]
     if command.json:
         say(json.dumps([asdict(entry) for entry in entries], indent=2))
@@ -53,7 +55,7 @@ def run(command: List) -> int:
     if not entries:
         say(f"no assets{f' with {command.where}' if command.where else ''}")
         return Exit.OK
-    console.print_entries([(entry, registry.manifest(entry)) for entry in entries])
+    console.print_entries([(each, read_manifest(registry.folder(each))) for each in entries])
     if len(found) > len(entries):
         say(f"the first {len(entries)}; --after {entries[-1].id} goes on, --limit 0 shows all")
     return Exit.OK

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..runtime.layout import NIGHTS
 from ..runtime.terminal import say
 from .flags import given, on_device, simulators_named, with_repairs
 from .report import report_after
@@ -60,11 +61,12 @@ def run(command: Nightly) -> int:
     from ..jobs.nightly.run import run_night
     from ..jobs.nightly.work import Work
     from ..jobs.signals import interruptible
-    from ..report.nightly.files import PAGE, nights_of, require_libraries
+    from ..report.nightly.files import PAGE
     from ..report.nightly.report import message
+    from ..report.pages import require_libraries
 
     config = night_config(command)
-    require_libraries()
+    require_libraries("the nightly report", ("jinja2", "pyarrow"), "nightly")
     with interruptible():
         report = run_night(config, Work(config), name=command.name, fresh=command.fresh)
     if not command.no_report:
@@ -72,7 +74,7 @@ def run(command: Nightly) -> int:
     say(message(report))
     for sentence in report.attention:
         say(f"  {sentence}")
-    say(nights_of(config.output) / report.night.name / PAGE)
+    say(config.output / NIGHTS / report.night.name / PAGE)
     return report.night.exit_code
 
 

@@ -11,19 +11,17 @@ from pathlib import Path
 from typing import Annotated
 
 import tyro
-from rich.table import Table
 from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit
 from ..registry import Registry
-from ..registry.cleaning import Freed
 from ..registry.diff import Diff, EntryChange, diff
 from ..registry.entry import SPLITS, Entry
 from ..registry.rebuild import rebuild
 from ..registry.sources import entries_of
-from ..registry.verify import Problem, verify
+from ..registry.verify import verify
 from ..runtime.remote import is_url, shown
-from ..runtime.terminal import Terminal, one_line, say
+from ..runtime.terminal import one_line, say
 from .flags import AssetId, AssetIds, OfPassed, OfRegistry, Printed
 
 _GB = 1e9
@@ -69,8 +67,12 @@ class Verify(Printed, OfRegistry):
         problems = verify(registry, ids or None)
         if self.json:
             say(json.dumps([asdict(problem) for problem in problems], indent=2))
-        else:
-            print_problems(problems, len(ids) or registry.count())
+            return Exit.REJECTED if problems else Exit.OK
+        for kind, _ in Counter(problem.kind for problem in problems).most_common():
+            _lines(kind, [problem.message for problem in problems if problem.kind == kind])
+        wrong = {problem.id for problem in problems}
+        entries = len(ids) or registry.count()
+        say(f"{entries} entries: {len(wrong)} are not as they were published")
         return Exit.REJECTED if problems else Exit.OK
 
 
@@ -267,24 +269,6 @@ def size(number: float) -> str:
         number = number / 1000
         unit = unit + 1
     return f"{number:.3g} {_UNITS[unit]}"
-
-
-def print_problems(problems: Sequence[Problem], assets: int) -> None:
-    """Print the files that differ from the published ones."""
-    for kind, _ in Counter(problem.kind for problem in problems).most_common():
-        _lines(kind, [problem.message for problem in problems if problem.kind == kind])
-    wrong = {problem.id for problem in problems}
-    say(f"{assets} entries: {len(wrong)} are not as they were published")
-
-
-def print_freed(freed: Freed) -> None:
-    """Print the removed files."""
-    table = Table("what", "files", "size")
-    for name in ("staging", "unfinished", "cache"):
-        removed = getattr(freed, name)
-        table.add_row(name, str(removed.files), size(removed.bytes))
-    Terminal().print(table)
-    say(f"freed {size(freed.bytes)}")
 
 
 def print_diff(diff: Diff) -> None:

@@ -9,9 +9,10 @@ from pathlib import Path
 from ..errors import ConfigError, Exit
 from ..registry import Registry
 from ..registry.placing import remove
+from ..registry.where import wanted
 from ..runtime.layout import SUPERSEDED
 from ..runtime.terminal import say
-from .flags import AssetIds, OfRegistry, entries_where
+from .flags import AssetIds, OfRegistry
 
 #: Ids that are listed before they go.
 LISTED = 20
@@ -42,7 +43,7 @@ def run(command: Remove) -> int:
         raise ConfigError("want ids, or --where with conditions")
     aside = [each for each in command.ids if _aside(registry, each).is_dir()]
     if command.where:
-        ids = [entry.id for entry in entries_where(registry, command.where)]
+        ids = [entry.id for entry in registry.walk(wanted(registry, command.where))]
     else:
         ids = [registry.entry(each).id for each in command.ids if each not in aside]
     if not ids and not aside:

@@ -8,10 +8,11 @@ from pathlib import Path
 from ..errors import ConfigError, Exit, RegistryError
 from ..registry import Registry
 from ..runtime.terminal import complain, say
+from .flags import OfRegistry
 
 
 @dataclass(frozen=True)
-class ReportPages:
+class ReportPages(OfRegistry):
     """Write the report of a registry: a grid of all assets, and a page with a viewer for each.
 
     It is written to <output>/report and needs neither a network nor a web server: open its
@@ -19,8 +20,6 @@ class ReportPages:
     nightly` do the same at their end.
     """
 
-    output: Path
-    """The registry's folder."""
     workers: int | None = None
     """Pages drawn at once; all processors by default."""
 
@@ -44,17 +43,18 @@ def write_report(registry: Registry, workers: int | None) -> Path:
     from asset_factory.sim_checks.processes.isolation import processors
 
     from ..jobs.pages import draw_pages
+    from ..report.site.site import index_of
     from . import console
 
     try:
         with console.counted("drawing pages") as progress:
-            drawn = draw_pages(registry, workers or processors(), progress)
+            failed = draw_pages(registry, workers or processors(), progress)
     except OSError as error:
         where = error.filename or registry.root
         raise RegistryError(f"{where}: the report cannot be written: {error.strerror}") from error
-    for sentence in drawn.failed:
+    for sentence in failed:
         complain(f"factory: no page of {sentence}")
-    return drawn.index
+    return index_of(registry.root)
 
 
 def report_after(output: Path, workers: int | None) -> Path | None:

@@ -17,8 +17,9 @@ from asset_factory.sim_checks import Status
 from ..errors import Exit
 from ..registry import Entry, Registry
 from ..registry.logged import logged_build
+from ..registry.registry import read_manifest
 from ..registry.report_file import BuildReport
-from ..runtime.layout import ASSETS, MANIFEST, REJECTED
+from ..runtime.layout import MANIFEST
 from ..runtime.terminal import say
 from . import console
 from .flags import AssetId, OfRegistry, Printed
@@ -55,20 +56,20 @@ def run(command: Show) -> int:
         }
         say(json.dumps(data, indent=2))
     else:
-        print_entry(entry, registry.root, told, registry.manifest(entry))
+        print_entry(registry, entry, told)
     return Exit.OK
 
 
-def print_entry(entry: Entry, root: Path, told: BuildReport, manifest: Manifest | None) -> None:
+def print_entry(registry: Registry, entry: Entry, told: BuildReport) -> None:
     """Print one asset: what it is, its joints and files, its findings, and how to load it."""
-    passed = entry.status is Status.PASSED
-    folder = root / (ASSETS if passed else REJECTED) / entry.id
+    folder = registry.folder(entry)
+    manifest = read_manifest(folder)
     terminal = console.terminal()
     size = f", {manifest.size} m, {manifest.mass:.3g} kg" if manifest else ""
     counts = f"{entry.parts} parts, {entry.joints} movable joints, {entry.hulls} hulls"
     terminal.print(f"{entry.id}: {counts}{size}", markup=False, soft_wrap=True)
     terminal.print(f"{folder}: {', '.join(_files(folder))}", markup=False, soft_wrap=True)
-    logged = logged_build(root, entry.id)
+    logged = logged_build(registry.root, entry.id)
     if logged is not None and logged.stages:
         stages = ", ".join(f"{name} {seconds:.2g}" for name, seconds in logged.stages.items())
         terminal.print(f"seconds of its last build: {stages}", markup=False, soft_wrap=True)
@@ -79,10 +80,10 @@ def print_entry(entry: Entry, root: Path, told: BuildReport, manifest: Manifest 
         terminal.print(f"  [green]repair[/] {escape(repair.sentence)}", soft_wrap=True)
     for part, proposal in manifest.proposed.items() if manifest else ():
         terminal.print(f"  [blue]part[/] {escape(f'{part}: {proposal.told}')}", soft_wrap=True)
-    if manifest is not None and passed:
+    if manifest is not None and entry.status is Status.PASSED:
         from ..report.loading import loading_snippets
 
-        for snippet in loading_snippets(root, entry.id, manifest):
+        for snippet in loading_snippets(registry.root, entry.id, manifest):
             terminal.print(f"\nin {snippet.program}:", highlight=False)
             terminal.print(snippet.code, markup=False, soft_wrap=True, highlight=False)
 

@@ -106,15 +106,15 @@ def run(command: Solve) -> int:
 
 
 def _require_sound(command: Solve) -> None:
-    from ..jobs.pages import missing_library
+    from ..report.pages import require_libraries
 
     if command.robot not in (*ROBOTS, "any"):
         known = ", ".join((*ROBOTS, "any"))
         raise ConfigError(f"--robot: no robot {command.robot!r}; want one of {known}")
     check_effort(command, ("workers", "tries"))
     require_maniskill("solving wants")
-    if command.video and (missing := missing_library()) is not None:
-        raise ConfigError(f"--video: {missing}")
+    if command.video:
+        require_libraries("--video: the report")
 
 
 def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, RegisteredAsset]:

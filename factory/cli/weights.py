@@ -48,7 +48,14 @@ def run(command: WeightsCommand) -> int:
 
     wanted = command.action
     source = fetch(wanted.checkpoint)
-    console.print_weights(
-        convert(source, wanted.target) if isinstance(wanted, WeightsConvert) else describe(source)
-    )
+    if isinstance(wanted, WeightsConvert):
+        info = convert(source, wanted.target)
+    else:
+        info = describe(source)
+    shown = console.terminal()
+    shown.print(f"{info.file}: {info.network}", markup=False, soft_wrap=True)
+    numbers = {"tensors": info.tensors, "parameters": f"{info.parameters:,}"}
+    for name, value in {**info.details, **numbers, "types": ", ".join(info.dtypes)}.items():
+        shown.print(f"  {name}: {value}", markup=False, soft_wrap=True)
+    shown.print(info.terms, markup=False, soft_wrap=True)
     return Exit.OK

@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 from contextlib import suppress
-from dataclasses import dataclass
 from tempfile import TemporaryFile
 from threading import Lock, Thread
 from typing import IO
@@ -19,33 +18,63 @@ TAIL_BYTES = 2000
 PATIENCE_S = 10.0
 
 
-@dataclass
 class BuildRun:
     """A build, under way or ended.
 
+    Args:
+        arguments: of the command line, after ``factory``; with ``--json``.
+
     Attributes:
-        process: of ``factory build``, leader of a group of its own.
-        errors: what it complains of.
         asset: id of what it registered, or rejected; empty as long as there is none.
         said: why there is none, once it has ended without.
-        stopped: whether it was killed.
-        follower: reads what it prints.
     """
 
-    process: subprocess.Popen[str]
-    errors: IO[bytes]
-    asset: str = ""
-    said: str = ""
-    stopped: bool = False
-    follower: Thread | None = None
+    def __init__(self, arguments: tuple[str, ...]) -> None:
+        self.asset = ""
+        self.said = ""
+        self._stopped = False
+        self._errors = TemporaryFile()  # noqa: SIM115 - closed by who follows the build
+        # Leader of a group of its own.
+        self._process = subprocess.Popen(  # noqa: S603 - our own program
+            [sys.executable, "-m", "asset_factory.factory.cli", *arguments],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=self._errors,
+            text=True,
+            start_new_session=True,
+        )
+        self._follower = Thread(target=self._follow, daemon=True)
+        self._follower.start()
+
+    def stop(self) -> None:
+        """Kill it, if it runs; finished assets are registered."""
+        if self._process.poll() is not None:
+            return
+        self._stopped = True
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.wait()
+        # Its pipe closes when the last of its own children has noticed.
+        self._follower.join(PATIENCE_S)
+
+    def _follow(self) -> None:
+        """Read the summary as soon as it is printed, before its pages are drawn."""
+        printed = ""
+        assert self._process.stdout is not None, "it is a pipe"  # noqa: S101
+        with self._process.stdout as lines:
+            for line in lines:
+                printed += line
+                if line == "}\n":
+                    self.asset = _built(printed)
+        code = self._process.wait()
+        if not self.asset:
+            ended = f"It left with exit code {code}: {_tail(self._errors)}"
+            self.said = "It was stopped." if self._stopped else ended
+        self._errors.close()
 
 
 class Builds:
-    """Runs ``factory build`` with the flags that a page was opened with.
-
-    Args:
-        arguments: of the command line, after ``factory``; with ``--json``.
-    """
+    """Runs ``factory build`` with the flags that a page was opened with; arguments as there."""
 
     def __init__(self, arguments: tuple[str, ...]) -> None:
         self._arguments = arguments
@@ -71,52 +100,15 @@ class Builds:
     def start(self) -> None:
         """Begin a build; one that is under way is killed first."""
         with self._lock:
-            self._kill()
-            errors = TemporaryFile()  # noqa: SIM115 - closed by who follows the build
-            process = subprocess.Popen(  # noqa: S603 - our own program
-                [sys.executable, "-m", "asset_factory.factory.cli", *self._arguments],
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE,
-                stderr=errors,
-                text=True,
-                start_new_session=True,
-            )
-            self._run = BuildRun(process, errors)
-            self._run.follower = Thread(target=_follow, args=(self._run,), daemon=True)
-            self._run.follower.start()
+            if self._run is not None:
+                self._run.stop()
+            self._run = BuildRun(self._arguments)
 
     def stop(self) -> None:
         """Kill the running build; finished assets are registered."""
         with self._lock:
-            self._kill()
-
-    def _kill(self) -> None:
-        run = self._run
-        if run is None or run.process.poll() is not None:
-            return
-        run.stopped = True
-        with suppress(ProcessLookupError, PermissionError):
-            os.killpg(run.process.pid, signal.SIGKILL)
-        run.process.wait()
-        if run.follower is not None:
-            # Its pipe closes when the last of its own children has noticed.
-            run.follower.join(PATIENCE_S)
-
-
-def _follow(run: BuildRun) -> None:
-    """Read the summary of a build as soon as it is printed, before its pages are drawn."""
-    printed = ""
-    if run.process.stdout is not None:
-        with run.process.stdout as lines:
-            for line in lines:
-                printed += line
-                if line == "}\n":
-                    run.asset = _built(printed)
-    code = run.process.wait()
-    if not run.asset:
-        ended = f"It left with exit code {code}: {_tail(run.errors)}"
-        run.said = "It was stopped." if run.stopped else ended
-    run.errors.close()
+            if self._run is not None:
+                self._run.stop()
 
 
 def _built(printed: str) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from http import HTTPStatus
+from pathlib import Path
 from threading import Lock, Thread
 from typing import Any, TypeVar
 
@@ -16,11 +17,12 @@ from asset_factory.sim_checks.processes.isolation import Limits, WarmChild, prel
 from ..config import BuildConfig
 from ..errors import AssetFactoryError, ConfigError
 from ..intake.stated import MOST_BYTES, Hinge, Stated, StatedKind, decoded, form_of, stated_from
+from ..report.pages import environment
+from ..report.site.render import STATIC
 from ..report.site.server import NOT_FOUND, PageRequest, PageResponse, PageServer, serve
 from ..runtime.store import write_whole
 from . import work
 from .builds import Builds
-from .page import STATIC_FILES, page_html, static_file
 from .pictures import SidePicture
 from .subject import Subject
 
@@ -28,6 +30,11 @@ T = TypeVar("T")
 
 JSON = "application/json"
 GLB = "model/gltf-binary"
+_OWN = Path(__file__).parent / "static"
+_KINDS = {".css": "text/css", ".js": "text/javascript"}
+_SHARED = tuple(STATIC / name for name in ("base.css", "site.css", "asset.js"))
+#: By name: nothing else of any folder is within a browser's reach.
+STATIC_FILES = {path.name: path for path in (*_SHARED, *sorted(_OWN.iterdir()))}
 FRONTS = ("-y", "y", "-x", "x")
 #: A light preview, or a picture [s]: whoever waits longer has left.
 PREVIEW_S = 120.0
@@ -82,7 +89,7 @@ class Editor:
         self._sides = {"-y": self._pictures("-y")}
         self._verdict: work.ShownVerdict | None = None
         self._gets: dict[str, Callable[[], PageResponse]] = {
-            "": lambda: PageResponse(page_html(subject.mesh.name).encode()),
+            "": self._page,
             "state": lambda: _json(self._state()),
             "model.glb": lambda: PageResponse(self._opened.model, GLB),
             "built.glb": lambda: PageResponse(self._shown().model, GLB),
@@ -114,7 +121,15 @@ class Editor:
     def _got(self, name: str) -> PageResponse:
         if name in self._gets:
             return self._gets[name]()
-        return PageResponse(*static_file(name)) if name in STATIC_FILES else self._picture(name)
+        if name in STATIC_FILES:
+            path = STATIC_FILES[name]
+            return PageResponse(path.read_bytes(), _KINDS[path.suffix])
+        return self._picture(name)
+
+    def _page(self) -> PageResponse:
+        template = environment(__package__).get_template("edit.html.j2")
+        html = template.render(name=self._subject.mesh.name, top="", alone=None)
+        return PageResponse(html.encode())
 
     def look(self) -> None:
         """Have the first preview prepared, while somebody looks at the page."""

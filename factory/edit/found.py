@@ -80,7 +80,8 @@ def _part(
     covers = (box[1] - box[0])[:2] / np.maximum(mesh.extents[:2], 1e-9)
     if kind is PartKind.LID and covers.min() > _WHOLE:
         shares = _shares(mesh, Side.FRONT, box)
-        behind = Hinge(str(side_facing(_level(origin - box.mean(axis=0)))))
+        away = (origin - box.mean(axis=0)) * np.array([1.0, 1.0, 0.0])
+        behind = Hinge(str(side_facing(away)))
         return StatedPart(StatedKind(kind), Side.FRONT, (0.0, shares[1], 1.0, 1.0), behind)
     side = _side(mesh, box, joint, axis, kind)
     hinge = _hinge(side, box, axis, origin) if kind in _HINGED else None
@@ -109,10 +110,6 @@ def _hinge(side: Side, box: FloatArray, axis: FloatArray, origin: FloatArray) ->
         return Hinge.LEFT if across < 0.0 else Hinge.RIGHT
     edge = Hinge.BOTTOM if above < 0.0 else Hinge.TOP
     return _ABOVE[edge] if side is Side.TOP else edge
-
-
-def _level(direction: FloatArray) -> FloatArray:
-    return np.asarray(direction * np.array([1.0, 1.0, 0.0]))
 
 
 def _shares(mesh: Mesh, side: Side, box: FloatArray) -> Box:

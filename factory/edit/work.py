@@ -28,13 +28,15 @@ from ..intake.stated import Stated
 from ..part import PartKind
 from ..registry import Registry
 from ..registry.registry import read_manifest
-from ..report.site.told import AssetPage, about, asset_page
+from ..report.site.told import about, asset_page
 from ..runtime.layout import MODEL
 from .found import found_parts
 from .pictures import SidePicture, side_pictures
 
 #: Link of the part that is stated at a place in the list, in a light preview.
 PREVIEW_NAME = "stated.{}"
+#: What the page shows of the report's.
+SHOWN_DATA = ("excess", "ignored", "places", "start")
 
 
 @dataclass(frozen=True)
@@ -152,14 +154,9 @@ def verdict_of(output: Path, asset_id: str) -> ShownVerdict:
         "about": about(entry),
         "groups": groups,
         "repairs": [repair.sentence for repair in page.repairs],
-        "shown": _shown(page),
+        "shown": {name: value for name, value in page.data.items() if name in SHOWN_DATA},
     }
     return ShownVerdict(page.model, told)
-
-
-def _shown(page: AssetPage) -> dict[str, Any]:
-    names = ("excess", "ignored", "places", "start")
-    return {name: page.data[name] for name in names if name in page.data}
 
 
 def _found_in(asset: Path, intake: Intake) -> dict[str, Any]:

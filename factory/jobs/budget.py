@@ -8,10 +8,7 @@ from datetime import datetime
 from pathlib import Path
 from time import time
 
-from asset_factory.sim_checks import Status
-
 from ..errors import ConfigError
-from ..registry import Entry
 
 #: In place of a reason: all of them.
 ANY = "any"
@@ -43,11 +40,6 @@ class Budget:
             raise ConfigError(f"limit must be 0 or more, not {self.limit}")
         if self.max_s is not None and not self.max_s >= 0.0:
             raise ConfigError(f"longest time must be 0 or more, not {self.max_s / 3600.0:g} h")
-
-    def wants_again(self, entry: Entry) -> bool:
-        """Tell whether a known input is built all the same, for its verdict."""
-        asked = entry.reason in self.retry or ANY in self.retry
-        return asked and entry.status is not Status.PASSED
 
 
 def parse_since(text: str, now: float | None = None) -> float:

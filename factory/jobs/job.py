@@ -6,7 +6,7 @@ import errno
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
@@ -31,7 +31,7 @@ from ..registry.verify import verify
 from ..report.summary import JobState
 from ..runtime.layout import CACHE, CLAIMS
 from ..runtime.store import Store
-from .budget import Budget
+from .budget import ANY, Budget
 from .executor import Call, Executor, UnderWay
 from .local import LocalExecutor
 from .probe import KnownReads, Probe, known_of
@@ -160,7 +160,8 @@ class Job:
         if self._budget.repair and entry.id not in self._sound and entry.id not in self._damaged:
             problems = verify(self._registry, (entry.id,))
             (self._damaged if problems else self._sound).add(entry.id)
-        return self._budget.wants_again(entry) or entry.id in self._damaged
+        asked = entry.reason in self._budget.retry or ANY in self._budget.retry
+        return (asked and entry.status is not Status.PASSED) or entry.id in self._damaged
 
     def _build(self, waiting: list[Probe]) -> Iterator[Result]:
         preload(modules_for(self._config))
@@ -168,8 +169,7 @@ class Job:
         limits = Limits(wall_s=config.asset_wall_s, memory_bytes=config.asset_memory_bytes)
         with ExitStack() as stack:
             stack.callback(self._release_all)
-            log = Log(self._output)
-            stack.callback(log.close)
+            log = stack.enter_context(closing(Log(self._output)))
             log.begun(len(self._inputs), len(self._inputs) - len(waiting))
             try:
                 staging = stack.enter_context(self._registry.staging_folder())
@@ -209,6 +209,7 @@ class Job:
         self, waiting: list[Probe], staging: Path, network: Callable[[], Address | None]
     ) -> Iterator[Call]:
         """Yield what workers shall do, made as they ask for it."""
+        local = self._executor if isinstance(self._executor, LocalExecutor) else None
         for number, seen in enumerate(waiting):
             held = claim(self._output / CLAIMS, seen.claim)
             if held is None:
@@ -217,7 +218,7 @@ class Job:
             # Somebody else may have built it since this job looked; what this job built it does not
             # build again.
             probe = self._known_reads.renewed(seen)
-            entry = probe.known(self._registry)
+            (entry,) = known_of((probe,), self._registry)
             fresh = probe.claim not in self._built
             if entry is not None and not (self._wants_again(entry) and fresh):
                 held.release()
@@ -238,7 +239,7 @@ class Job:
                 "config": self._config,
                 "cache": self._output / CACHE,
                 "address": network(),
-                "engines": _engines(self._executor),
+                "engines": 1 if local is None else local.engines,
             }
             yield Call(str(probe.source), arguments, until, lambda: not self._winding_up)
 
@@ -309,8 +310,3 @@ def _known_inputs(found: Sequence[tuple[Probe, Entry | None]]) -> Iterator[Input
         digest = probe.reads[probe.source.name]
         if entry is not None and digest and entry.status is not Status.UNJUDGED:
             yield InputNow(probe.source, digest, entry.id)
-
-
-def _engines(executor: Executor) -> int:
-    """Return how many simulators each worker may run at once; of those on other machines, one."""
-    return executor.engines if isinstance(executor, LocalExecutor) else 1

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import islice
 from queue import SimpleQueue
-from threading import Event, Thread
+from threading import Event, get_ident
 from typing import Any, Generic, TypeVar
 
 from asset_factory.sim_checks.processes.isolation import (
@@ -23,6 +25,12 @@ from .executor import AHEAD, Call, UnderWay
 
 T = TypeVar("T")
 
+#: After so many calls a worker is replaced by a new one: native libraries leak a little with every
+#: input.
+CALLS = 50
+#: A worker that holds more memory than this after a call is replaced at once [bytes].
+RESIDENT_BYTES = 2 * 1024**3
+
 
 @dataclass(frozen=True)
 class LocalExecutor:
@@ -32,16 +40,12 @@ class LocalExecutor:
         workers: calls under way at once.
         retries: further tries of a call that crashed, hung or ran out of memory, each in a new
             process.
-        calls: after so many a worker is replaced by a new one: native libraries leak a little with
-            every input.
-        resident_bytes: a worker that holds more memory than this after a call is replaced at once
-            [bytes].
+        calls: after so many a worker is replaced.
     """
 
     workers: int
     retries: int = 1
-    calls: int = 50
-    resident_bytes: int = 2 * 1024**3
+    calls: int = CALLS
     _pools: list[_WorkerPool[Any]] = field(default_factory=list, compare=False, repr=False)
 
     def under_way(self) -> tuple[UnderWay, ...]:
@@ -60,17 +64,12 @@ class LocalExecutor:
         pool: _WorkerPool[T] = _WorkerPool(self, function, limits)
         self._pools[:] = [pool]
         waiting = iter(calls)
-        ends = False
         under_way = 0
         try:
             while True:
-                while not ends and under_way < AHEAD * self.workers:
-                    call = next(waiting, None)
-                    if call is None:
-                        ends = True
-                    else:
-                        pool.ask(call)
-                        under_way += 1
+                for call in islice(waiting, AHEAD * self.workers - under_way):
+                    pool.ask(call)
+                    under_way += 1
                 if not under_way:
                     return
                 answered = pool.answer()
@@ -85,63 +84,56 @@ class _WorkerPool(Generic[T]):
     """Threads that each look after one warm child."""
 
     def __init__(self, executor: LocalExecutor, function: Callable[..., T], limits: Limits) -> None:
+        self._executor = executor
         self._function = function
         self._limits = limits
-        self._retries = executor.retries
-        self._most = executor.workers
-        self._settings = (executor.calls, executor.resident_bytes)
-        self._todo: SimpleQueue[Call | None] = SimpleQueue()
-        self._done: SimpleQueue[tuple[Call, Outcome[T]]] = SimpleQueue()
+        self._threads = ThreadPoolExecutor(executor.workers, "build", self._begin)
+        self._done: SimpleQueue[Future[tuple[Call, Outcome[T]]]] = SimpleQueue()
         self._dismissed = Event()
-        self._members: list[tuple[Thread, WarmChild]] = []
+        self._children: dict[int, WarmChild] = {}
         self._making: dict[WarmChild, str] = {}
 
     def ask(self, call: Call) -> None:
-        if len(self._members) < self._most:
-            child = WarmChild(*self._settings)
-            name = f"build-{len(self._members)}"
-            thread = Thread(target=self._serve, args=(child,), name=name, daemon=True)
-            self._members.append((thread, child))
-            thread.start()
-        self._todo.put(call)
+        self._threads.submit(self._answered, call).add_done_callback(self._done.put)
 
     def answer(self) -> tuple[Call, Outcome[T]]:
-        return self._done.get()
+        return self._done.get().result()
 
     def dismiss(self) -> None:
         """End all workers at once; running tasks are lost."""
         self._dismissed.set()
-        for _, child in self._members:
+        for child in [*self._children.values()]:
             child.abandon()
-            self._todo.put(None)
-        for thread, child in self._members:
-            thread.join()
+        self._threads.shutdown(cancel_futures=True)
+        for child in self._children.values():
             child.close()
-
-    def _serve(self, child: WarmChild) -> None:
-        while (call := self._todo.get()) is not None and not self._dismissed.is_set():
-            self._making[child] = call.name
-            outcome = self._tried(child, call)
-            del self._making[child]
-            self._done.put((call, outcome))
 
     def under_way(self) -> Iterator[UnderWay]:
         """Yield the calls that are being made."""
         for child, name in [*self._making.items()]:
             yield UnderWay(name, child.place)
 
-    def _tried(self, child: WarmChild, call: Call) -> Outcome[T]:
+    def _begin(self) -> None:
+        """Give a new thread its child."""
+        child = WarmChild(self._executor.calls, RESIDENT_BYTES)
+        self._children[get_ident()] = child
+
+    def _answered(self, call: Call) -> tuple[Call, Outcome[T]]:
         def wanted() -> bool:
             return call.wanted() and not self._dismissed.is_set()
 
-        return tried(
+        child = self._children[get_ident()]
+        self._making[child] = call.name
+        outcome = tried(
             child,
             partial(self._function, **call.arguments),
             self._limits,
-            retries=self._retries,
+            retries=self._executor.retries,
             until=call.until,
             wanted=wanted,
         )
+        del self._making[child]
+        return call, outcome
 
 
 def tried(
@@ -184,12 +176,8 @@ def tried(
         tries += outcome.tries
         deaths += outcome.deaths
         outcome = replace(outcome, tries=tries, deaths=deaths)
-        if tries > retries or not worth_another_try(outcome):
+        # A crash, a hang or a moment without memory may have been bad luck.
+        ended = outcome.failure in (Failure.CRASHED, Failure.TIMEOUT)
+        if tries > retries or not (ended or isinstance(outcome.error, MemoryError)):
             return outcome
         child.close()
-
-
-def worth_another_try(outcome: Outcome[T]) -> bool:
-    """Tell whether an outcome may have been bad luck: a crash, a hang, a moment without memory."""
-    ended = outcome.failure in (Failure.CRASHED, Failure.TIMEOUT)
-    return ended or isinstance(outcome.error, MemoryError)

@@ -8,6 +8,9 @@ from pathlib import Path
 
 from asset_factory.sim_checks.processes.isolation import processors
 
+from ..errors import ConfigError
+from ..runtime.terminal import complain
+
 #: What a build takes over all its processes [bytes]: the worker, its validator's children and an
 #: engine in each; furniture was measured to take 1.1 GiB.
 BUILD_BYTES = 1_200 * 2**20
@@ -19,18 +22,23 @@ GROUPS = Path("/sys/fs/cgroup")
 PROC = Path("/proc")
 
 
-def workers_for(asked: int | None, each: int) -> tuple[int, str | None]:
-    """Return how many workers to start, and a sentence where they are fewer than was asked for.
+def workers_for(asked: int | None, each: int) -> int:
+    """Return how many workers to start: as asked for, or fewer (said) if memory is short.
 
-    As many as there are processors are wanted unless ``asked`` says; one may need ``each`` [bytes].
+    As many as there are processors are asked for by default; one may need ``each`` [bytes].
+
+    Raises:
+        ConfigError: fewer than one is asked for.
     """
+    if asked is not None and asked < 1:
+        raise ConfigError(f"--workers must be at least 1, not {asked}")
     wanted = asked or processors()
     free = free_memory()
     room = wanted if free is None else max(1, free // each)
-    if room >= wanted:
-        return wanted, None
-    short = f"{_gib(free or 0)} of memory are free, and one may need {_gib(each)}"
-    return room, f"{room} of {wanted} workers start: {short}"
+    if room < wanted:
+        short = f"{_gib(free or 0)} of memory are free, and one may need {_gib(each)}"
+        complain(f"factory: {room} of {wanted} workers start: {short}")
+    return min(room, wanted)
 
 
 def free_memory(proc: Path = PROC, groups: Path = GROUPS) -> int | None:
@@ -42,10 +50,9 @@ def free_memory(proc: Path = PROC, groups: Path = GROUPS) -> int | None:
 
 
 def _of_machine(proc: Path) -> Iterator[int]:
-    with suppress(OSError, ValueError, IndexError):
-        for line in (proc / "meminfo").read_text().splitlines():
-            if line.startswith("MemAvailable:"):
-                yield 1024 * int(line.split()[1])
+    available = _named(proc / "meminfo", "MemAvailable:")
+    if available is not None:
+        yield 1024 * available
 
 
 def _of_groups(proc: Path, groups: Path) -> Iterator[int]:
@@ -77,16 +84,17 @@ def _left(group: Path, limit: str, used: str, unused: str) -> Iterator[int]:
         if most < NO_LIMIT:
             taken = int((group / used).read_text())
             # Files that were read are counted, and given up when memory runs short.
-            yield max(0, most - taken + _named(group / "memory.stat", unused))
+            yield max(0, most - taken + (_named(group / "memory.stat", unused) or 0))
 
 
-def _named(file: Path, name: str) -> int:
-    with suppress(OSError, ValueError):
+def _named(file: Path, name: str) -> int | None:
+    """Return the number beside a name; ``None`` where a file has none."""
+    with suppress(OSError, ValueError, IndexError):
         for line in file.read_text().splitlines():
             words = line.split()
             if words[0] == name:
                 return int(words[1])
-    return 0
+    return None
 
 
 def _gib(number: int) -> str:

@@ -44,10 +44,6 @@ class Probe:
     failure_key: str
     claim: str
 
-    def known(self, registry: Registry) -> Entry | None:
-        """Return its row, if the registry has one for exactly this."""
-        return next(known_of((self,), registry))
-
 
 def known_of(probes: Sequence[Probe], registry: Registry) -> Iterator[Entry | None]:
     """Yield the row of each, if the registry has one for exactly this."""

@@ -48,11 +48,6 @@ class Diff:
     changed: tuple[EntryChange, ...] = ()
     same: int = 0
 
-    @property
-    def empty(self) -> bool:
-        """Return whether nothing differs."""
-        return not (self.new or self.gone or self.newly_passed or self.newly_failed or self.changed)
-
     def to_dict(self) -> dict[str, Any]:
         """Return JSON data."""
         names = ("newly_passed", "newly_failed", "changed")

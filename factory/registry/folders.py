@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from asset_factory.sim_checks import Status
@@ -11,7 +10,7 @@ from asset_factory.sim_checks import Status
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, REJECTED, REPORT
 from .entry import entry_from, is_id
-from .notes import note_path, read_note
+from .notes import read_note
 from .report_file import read_report
 from .rows import RegistryRow
 
@@ -25,15 +24,6 @@ def all_ids(root: Path) -> list[str]:
                 folders = (item for item in items if item.is_dir(follow_symlinks=False))
                 found |= {folder.name for folder in folders if is_id(folder.name)}
     return sorted(found)
-
-
-def records(root: Path, ids: Sequence[str]) -> Iterator[RegistryRow | RegistryError]:
-    """Yield a record for each id, or its folder's fault."""
-    for asset_id in ids:
-        try:
-            yield read_record(current_folder(root, asset_id), note_path(root, asset_id))
-        except RegistryError as error:
-            yield error
 
 
 def current_folder(root: Path, asset_id: str) -> Path:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import os
 import sqlite3
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import closing
+from collections.abc import Iterator, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, CLAIMS, DATABASE, REJECTED, STAGING
 from ..runtime.store import sync_folder
-from .claims import alone, held_folder, locked
+from .claims import alone, held_folder
 from .database import (
     CACHE_KIB,
     SCHEMA_VERSION,
@@ -25,9 +25,10 @@ from .database import (
     schema_version,
     writing,
 )
-from .folders import all_ids, current_folder, records
+from .folders import all_ids, current_folder, read_record
+from .notes import note_path
 from .placing import remove, sync_tree
-from .rows import Filters, RegistryRow, delete, insert, select
+from .rows import delete, insert, select
 
 #: What SQLite keeps beside a database.
 _COMPANIONS = ("-wal", "-shm", "-journal")
@@ -43,23 +44,18 @@ def make_registry(root: Path) -> None:
     Raises:
         RegistryError: it cannot be made or used.
     """
+    folders = [root / name for name in (ASSETS, REJECTED, STAGING)]
     try:
-        _make(root)
+        if not ((root / DATABASE).exists() and all(folder.is_dir() for folder in folders)):
+            for folder in folders:
+                folder.mkdir(parents=True, exist_ok=True)
+            with alone(root / CLAIMS, "registry"):
+                if not (root / DATABASE).exists():
+                    rebuild(root)
         open_registry(root)
     except OSError as error:
         why = f"{error.strerror}; want a folder to write in"
         raise RegistryError(f"{root}: no registry can be made here: {why}") from error
-
-
-def _make(root: Path) -> None:
-    folders = [root / name for name in (ASSETS, REJECTED, STAGING)]
-    if (root / DATABASE).exists() and all(folder.is_dir() for folder in folders):
-        return
-    for folder in folders:
-        folder.mkdir(parents=True, exist_ok=True)
-    with alone(root / CLAIMS, "registry"):
-        if not (root / DATABASE).exists():
-            rebuild(root)
 
 
 def open_registry(root: Path) -> None:
@@ -107,7 +103,7 @@ def rebuild(root: Path) -> Rebuilt:
     """
     if not (root / ASSETS).is_dir():
         raise RegistryError(f"{root}: no registry here, for want of a folder {ASSETS!r}")
-    with locked(root):
+    with alone(root / CLAIMS, "database"):
         if not _usable(root):
             return _replace_database(root)
     ids = all_ids(root)
@@ -133,37 +129,30 @@ def _usable(root: Path) -> bool:
 
 def _replace_database(root: Path) -> Rebuilt:
     path = root / DATABASE
-    entries = 0
-    unreadable = []
-
-    def read() -> Iterator[RegistryRow]:
-        nonlocal entries
-        for found in records(root, all_ids(root)):
-            if isinstance(found, RegistryRow):
-                entries += 1
-                _clear_other_place(root, found.entry.id)
-                yield found
-            else:
-                unreadable.append(str(found))
-
+    ids = all_ids(root)
     with held_folder(root / STAGING) as staging:
-        write_database(staging / DATABASE, read())
+        with new_database(staging / DATABASE) as connection:
+            unreadable = _write_rows(connection, root, ids)
         for companion in _COMPANIONS:
             remove(path.with_name(path.name + companion))
         os.replace(staging / DATABASE, path)
     sync_folder(root)
-    return Rebuilt(entries, tuple(unreadable))
+    return Rebuilt(len(ids) - len(unreadable), tuple(unreadable))
 
 
-def write_database(path: Path, found: Iterable[RegistryRow]) -> None:
-    """Write a database that is not there yet; on the disk on return, useless if interrupted."""
+@contextmanager
+def new_database(path: Path) -> Iterator[sqlite3.Connection]:
+    """Yield a database that is not there yet, to be filled: on the disk afterwards.
+
+    It is useless if interrupted.
+    """
     with closing(sqlite3.connect(path, isolation_level=None)) as connection:
         connection.execute("PRAGMA journal_mode=OFF")
         connection.execute("PRAGMA synchronous=OFF")
         connection.execute(f"PRAGMA cache_size = -{CACHE_KIB}")
         connection.execute("BEGIN")
         create_tables(connection)
-        insert(connection, found)
+        yield connection
         create_indices(connection)
         connection.execute("COMMIT")
         connection.execute("PRAGMA synchronous=FULL")
@@ -173,28 +162,34 @@ def write_database(path: Path, found: Iterable[RegistryRow]) -> None:
 
 def write_rows(root: Path, ids: Sequence[str]) -> Rebuilt:
     """Bring the rows of some ids in line with their folders; one without a folder has none."""
-    unreadable = []
-    entries = 0
+    unreadable: list[str] = []
     for start in range(0, len(ids), _CHUNK):
-        chunk = ids[start : start + _CHUNK]
         # Folders are put in place under the same lock, so that what is read here is what is there.
         with writing(root) as connection:
-            for asset_id, found in zip(chunk, records(root, chunk), strict=True):
-                if isinstance(found, RegistryRow):
-                    insert(connection, (found,))
-                    entries += 1
-                    _clear_other_place(root, asset_id)
-                else:
-                    delete(connection, asset_id)
-                    unreadable.append(str(found))
-    return Rebuilt(entries, tuple(unreadable))
+            unreadable += _write_rows(connection, root, ids[start : start + _CHUNK])
+    return Rebuilt(len(ids) - len(unreadable), tuple(unreadable))
+
+
+def _write_rows(connection: sqlite3.Connection, root: Path, ids: Sequence[str]) -> list[str]:
+    """Do so; returns a sentence for each folder that is none of an asset."""
+    unreadable = []
+    for asset_id in ids:
+        try:
+            found = read_record(current_folder(root, asset_id), note_path(root, asset_id))
+        except RegistryError as error:
+            delete(connection, asset_id)
+            unreadable.append(str(error))
+            continue
+        insert(connection, (found,))
+        _clear_other_place(root, asset_id)
+    return unreadable
 
 
 def _drop_rows_without_folders(root: Path, ids: frozenset[str]) -> None:
     after = ""
     while True:
         with writing(root) as connection:
-            page = select(connection, Filters(), limit=_CHUNK, after=after)
+            page = select(connection, (), limit=_CHUNK, after=after)
             for entry in page:
                 if entry.id not in ids and not current_folder(root, entry.id).is_dir():
                     delete(connection, entry.id)

@@ -35,10 +35,7 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
     for earlier in product.unloaded_ids:
         if (registry.rejected / earlier).exists():
             registry.forget(earlier, except_id=entry.id)
-    if entry.status is Status.PASSED and product.bundle is not None:
-        registry.publish(entry, product.bundle, product.told)
-    else:
-        registry.reject(entry, product.told, product.bundle)
+    registry.add(entry, product.told, product.bundle)
     digest = product.reads.get(product.source.name, "")
     judged = digest and entry.status is not Status.UNJUDGED
     now = (InputNow(product.source, digest, entry.id),) if judged else ()
@@ -75,5 +72,5 @@ def register_failure(
     entry, told = without_asset(origin, finding, Status.UNJUDGED)
     measurements = crash_measurements(outcome)
     told = replace(told, report=replace(told.report, measurements=measurements))
-    registry.reject(entry, told)
+    registry.add(entry, told)
     return Result(str(source), entry, seconds=outcome.seconds, attempts=outcome.tries)

@@ -10,12 +10,12 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from asset_factory.sim_checks import Report, Status
+from asset_factory.sim_checks import Status
 
 from ..errors import RegistryError
-from ..runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT, STAGING
+from ..runtime.layout import ASSETS, MANIFEST, REJECTED, REPORT, STAGING
 from . import rows
 from .claims import held_folder
 from .database import connected, writing
@@ -25,7 +25,7 @@ from .notes import fingerprint, note_path, read_note, write_note
 from .placing import place, remove, sync_tree
 from .rebuild import make_registry, open_registry
 from .report_file import BuildReport, file_digests, read_report, write_report
-from .rows import Filters
+from .rows import Condition
 
 if TYPE_CHECKING:
     from ..export.manifest import Manifest
@@ -62,57 +62,52 @@ class Registry:
         """Return the reports of those that did not."""
         return self.root / REJECTED
 
-    @property
-    def notes(self) -> Path:
-        """Return the notes on registered assets."""
-        return self.root / NOTES
-
-    @property
-    def staging(self) -> Path:
-        """Return the folder of half-made things, on the same file system as ``assets``."""
-        return self.root / STAGING
-
     def staging_folder(self) -> AbstractContextManager[Path]:
         """Return a fresh folder to build in; whatever is still in it afterwards is removed.
 
-        It is locked while the process lives, so that ``factory gc`` can tell what dead
-        ones left.
+        It is on the file system of ``assets``, and locked while the process lives, so that
+        ``factory gc`` can tell what dead ones left.
         """
-        return held_folder(self.staging)
+        return held_folder(self.root / STAGING)
 
-    def publish(self, entry: Entry, bundle: Path, told: BuildReport) -> Path:
-        """Move a finished bundle into ``assets`` and list it.
+    def add(self, entry: Entry, told: BuildReport, content: Path | None = None) -> Path:
+        """Keep an input's bundle or its rejection, by its status, and list it.
 
         The same bytes again change nothing. Others take the place of the old ones at once, so that
         a reader finds the old asset or the new one.
 
         Args:
-            entry: its row; ``status`` must be ``passed``. Its tags and ``solved`` are those that
-                were noted.
-            bundle: a folder from :meth:`staging_folder`; gone afterwards.
-            told: written into the bundle with the digests of its files and the entry.
+            entry: its row. Its tags and ``solved`` are those that were noted.
+            told: written into its folder with the digests of the files there and the entry.
+            content: a folder from :meth:`staging_folder`, gone afterwards: the finished bundle of
+                an input that passed; of another one the files to keep beside the report, if any.
 
         Returns:
-            The asset's folder.
+            Its folder, in ``assets`` or ``rejected``. Raises RegistryError for an input that passed
+            and has no content.
         """
-        if entry.status is not Status.PASSED:
-            status = f"status is '{entry.status}', only 'passed' is published"
-            raise RegistryError(f"asset {entry.id!r}: {status}")
-        return self._publish(entry, bundle, told, self.assets / entry.id, self.rejected / entry.id)
-
-    def reject(self, entry: Entry, told: BuildReport, shown: Path | None = None) -> Path:
-        """Keep the report of an input that did not pass, and list it. Returns the folder.
-
-        ``shown`` is a folder as for :meth:`publish`, with what else is kept of it.
-        """
-        if entry.status is Status.PASSED:
-            status = "status is 'passed', want rejected or unjudged"
-            raise RegistryError(f"asset {entry.id!r}: {status}")
+        folder = self.folder(entry)
+        other = (self.rejected if folder.parent == self.assets else self.assets) / entry.id
         with self.staging_folder() as staging:
-            content = shown or staging / entry.id
-            content.mkdir(exist_ok=True)
-            places = (self.rejected / entry.id, self.assets / entry.id)
-            return self._publish(entry, content, told, *places)
+            if content is None:
+                if entry.status is Status.PASSED:
+                    raise RegistryError(f"asset {entry.id!r}: has passed, and has no files")
+                content = staging / "content"
+                content.mkdir()
+            files = file_digests(content)
+            entry = _completed(entry, told, content)
+            write_report(content, entry, told, files)
+            sync_tree(content)
+            with writing(self.root) as connection:
+                # The old place is emptied after the row points to the new one: a row's folder is
+                # always there.
+                if other.exists() or not _same(content, folder, files):
+                    place(content, folder)
+                rows.insert(connection, (read_record(folder, note_path(self.root, entry.id)),))
+            remove(content)
+            if other.exists():
+                os.rename(other, staging / "other")
+        return folder
 
     def note(
         self, asset_id: str, *, tags: Sequence[str] | None = None, solved: str | None = None
@@ -177,34 +172,33 @@ class Registry:
         return [place for place in places if os.path.lexists(place)]
 
     def entries(
-        self, *, limit: int | None = None, after: str = "", **wanted: str
+        self,
+        conditions: Sequence[Condition] = (),
+        *,
+        limit: int | None = None,
+        after: str = "",
+        **wanted: str,
     ) -> tuple[Entry, ...]:
-        """Return the rows that pass every filter, by id; all of them by default.
+        """Return the rows that meet every condition, by id; all of them by default.
 
-        ``wanted`` are fields of :class:`~.rows.Filters`; with ``limit``, and the last id as
-        ``after``, rows come page by page.
+        ``wanted`` are columns with the values that they shall have, see :class:`~.rows.Condition`;
+        with ``limit``, and the last id as ``after``, rows come page by page.
         """
-        named: dict[str, Any] = {**wanted}
-        return self.select(Filters(**named), limit=limit, after=after)
-
-    def select(
-        self, filters: Filters, *, limit: int | None = None, after: str = ""
-    ) -> tuple[Entry, ...]:
-        """Return what :meth:`entries` gives, with the filters as a value."""
         with connected(self.root) as connection:
-            return rows.select(connection, filters, limit=limit, after=after)
+            asked = (*conditions, *rows.having(**wanted))
+            return rows.select(connection, asked, limit=limit, after=after)
 
-    def walk(self, filters: Filters | None = None) -> Iterator[Entry]:
+    def walk(self, conditions: Sequence[Condition] = ()) -> Iterator[Entry]:
         """Yield the same, one after the other, however many there are."""
         after = ""
-        while page := self.select(filters or Filters(), limit=_PAGE, after=after):
+        while page := self.entries(conditions, limit=_PAGE, after=after):
             yield from page
             after = page[-1].id
 
-    def count(self, filters: Filters | None = None) -> int:
+    def count(self, conditions: Sequence[Condition] = ()) -> int:
         """Return how many rows pass."""
         with connected(self.root) as connection:
-            return rows.count(connection, filters or Filters())
+            return rows.count(connection, conditions)
 
     def values(self, column: str) -> tuple[str, ...]:
         """Return every value that entries have in a column, sorted, but the empty one."""
@@ -232,12 +226,8 @@ class Registry:
             unique = len(begun) == 1 and text and text not in begun
             return self._entry(connection, begun[0] if unique else text)
 
-    def known_key(self, key: str) -> Entry | None:
-        """Find the entry that was made from exactly this, if its files are there."""
-        return self.known_keys((key,)).get(key)
-
     def known_keys(self, keys: Sequence[str]) -> dict[str, Entry]:
-        """Return the same for many keys at once, by key."""
+        """Find the entries that were made from exactly this, by key, if their files are there."""
         with connected(self.root) as connection:
             found = {key: rows.find(connection, "key", key) for key in keys if key}
         listed = ((key, entry) for key, entry in found.items() if entry is not None)
@@ -246,10 +236,6 @@ class Registry:
     def folder(self, entry: Entry) -> Path:
         """Return where an entry's files lie."""
         return (self.assets if entry.status is Status.PASSED else self.rejected) / entry.id
-
-    def report(self, entry: Entry) -> Report:
-        """Return the report that an entry's verdict is from. Raises RegistryError if it is gone."""
-        return self.told(entry).report
 
     def told(self, entry: Entry) -> BuildReport:
         """Return an entry's report and repairs. Raises RegistryError if they are gone."""
@@ -261,10 +247,6 @@ class Registry:
                 entry = self.entry(entry.id)
         return read_report(self.folder(entry)).told
 
-    def manifest(self, entry: Entry) -> Manifest | None:
-        """Return an asset's manifest; ``None`` where there is none that can be read."""
-        return read_manifest(self.folder(entry))
-
     def _entry(self, connection: sqlite3.Connection, asset_id: str) -> Entry:
         entry = rows.find(connection, "id", asset_id)
         if entry is not None:
@@ -273,27 +255,8 @@ class Registry:
         near = [c for c in candidates if c.startswith(asset_id) or asset_id.startswith(c)]
         near = near or get_close_matches(asset_id, candidates)
         hint = f"; did you mean {', '.join(near[:3])}?" if near else ""
-        hint = hint or f"; `factory list` shows all {rows.count(connection, Filters())}"
+        hint = hint or f"; `factory list` shows all {rows.count(connection, ())}"
         raise RegistryError(f"no asset {asset_id!r} in {self.root}{hint}")
-
-    def _publish(
-        self, entry: Entry, content: Path, told: BuildReport, folder: Path, other: Path
-    ) -> Path:
-        files = file_digests(content)
-        entry = _completed(entry, told, content)
-        write_report(content, entry, told, files)
-        sync_tree(content)
-        with self.staging_folder() as staging:
-            with writing(self.root) as connection:
-                # The old place is emptied after the row points to the new one: a row's folder is
-                # always there.
-                if other.exists() or not _same(content, folder, files):
-                    place(content, folder)
-                rows.insert(connection, (read_record(folder, note_path(self.root, entry.id)),))
-            remove(content)
-            if other.exists():
-                os.rename(other, staging / entry.id)
-        return folder
 
 
 def read_manifest(folder: Path) -> Manifest | None:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterable
-from dataclasses import dataclass, fields
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from .database import COLUMNS, COUNTED, ENTRY_COLUMNS, INDICES, index_name
 from .entry import Entry
@@ -41,64 +41,46 @@ class RegistryRow:
 
 @dataclass(frozen=True)
 class Condition:
-    """A column of the table compared with a value."""
+    """A column of the table compared with a value.
+
+    Attributes:
+        column: of our own: an entry's field, ``gpu_ready``, or ``tag`` for one of its tags.
+        operator: of SQL, by which they are compared.
+        value: to compare with.
+    """
 
     column: str
     operator: str
     value: str | int
 
 
-@dataclass(frozen=True)
-class Filters:
-    """Which entries are wanted; ``None`` lets everything pass.
-
-    Attributes:
-        status, category, reason, split, solved, license, name: as the entry has it.
-        tag: one of its tags.
-        gpu_ready: as the row has it.
-        others: what else must hold, of our own columns and operators.
-    """
-
-    status: str | None = None
-    category: str | None = None
-    reason: str | None = None
-    tag: str | None = None
-    split: str | None = None
-    solved: str | None = None
-    license: str | None = None
-    gpu_ready: str | None = None
-    name: str | None = None
-    others: tuple[Condition, ...] = ()
-
-    def query(self, *, after: str = "") -> tuple[str, list[str | int]]:
-        """Return what follows SELECT columns: the tables, the conditions, and their values."""
-        said = {item.name: getattr(self, item.name) for item in fields(self)}
-        del said["others"]
-        asked = {name: value for name, value in said.items() if value is not None}
-        conditions = [f"{'tags' if name == 'tag' else 'assets'}.{name} = ?" for name in asked]
-        conditions += [f"assets.{each.column} {each.operator} ?" for each in self.others]
-        values = [*asked.values(), *(each.value for each in self.others)]
-        if after:
-            conditions = [*conditions, f"{self.order} > ?"]
-            values = [*values, after]
-        where = f" WHERE {' AND '.join(conditions)}" if conditions else ""
-        return f" FROM {_walked(frozenset(asked))}{where}", values
-
-    @property
-    def order(self) -> str:
-        """Return the column that the rows of :meth:`query` are found in the order of."""
-        return "assets.id" if self.tag is None else "tags.id"
+def having(**values: str | None) -> tuple[Condition, ...]:
+    """Return the conditions that columns have these values; ``None`` lets everything pass."""
+    asked = values.items()
+    return tuple(Condition(column, "=", value) for column, value in asked if value is not None)
 
 
-def _walked(asked: frozenset[str]) -> str:
+def _query(conditions: Sequence[Condition]) -> tuple[str, list[str | int]]:
+    """Return what follows SELECT columns: the tables, the conditions, and their values."""
+    equal = frozenset(each.column for each in conditions if each.operator == "=")
+    of_tags = ("tag", "id") if "tag" in equal else ()
+    said = [
+        f"{'tags' if each.column in of_tags else 'assets'}.{each.column} {each.operator} ?"
+        for each in conditions
+    ]
+    where = f" WHERE {' AND '.join(said)}" if said else ""
+    return f" FROM {_walked(equal)}{where}", [each.value for each in conditions]
+
+
+def _walked(equal: frozenset[str]) -> str:
     """Name the table, and its narrowest index that gives rows in the order of ids."""
-    if "tag" in asked:
+    if "tag" in equal:
         return "tags CROSS JOIN assets ON assets.id = tags.id"
-    index = next((names for names in INDICES if asked.issuperset(names)), None)
+    index = next((names for names in INDICES if equal.issuperset(names)), None)
     if index is not None:
         return f"assets INDEXED BY {index_name(index)}"
     # Left alone, SQLite may take an index that it has to sort.
-    return "assets NOT INDEXED" if asked else "assets"
+    return "assets NOT INDEXED" if equal else "assets"
 
 
 def insert(connection: sqlite3.Connection, records: Iterable[RegistryRow]) -> None:
@@ -132,25 +114,27 @@ def report_digest(connection: sqlite3.Connection, asset_id: str) -> str:
 
 
 def select(
-    connection: sqlite3.Connection, filters: Filters, *, limit: int | None, after: str
+    connection: sqlite3.Connection, wanted: Sequence[Condition], *, limit: int | None, after: str
 ) -> tuple[Entry, ...]:
     """Return the entries that pass, by id, those after an id, at most so many."""
-    query, values = filters.query(after=after)
-    ordered = f"{_SELECT}{query} ORDER BY {filters.order} LIMIT ?"
+    later = (Condition("id", ">", after),) if after else ()
+    query, values = _query((*wanted, *later))
+    # The table that is walked comes in this order.
+    walked = "tags" if any(each.column == "tag" for each in wanted) else "assets"
+    ordered = f"{_SELECT}{query} ORDER BY {walked}.id LIMIT ?"
     found = connection.execute(ordered, (*values, -1 if limit is None else limit))
     return tuple(_entry(row) for row in found)
 
 
-def count(connection: sqlite3.Connection, filters: Filters) -> int:
+def count(connection: sqlite3.Connection, conditions: Sequence[Condition]) -> int:
     """Return how many entries pass."""
-    if filters.tag is not None or filters.name is not None or filters.others:
-        query, values = filters.query()
+    if any(each.operator != "=" or each.column not in COUNTED for each in conditions):
+        query, values = _query(conditions)
         return int(connection.execute(f"SELECT count(*){query}", values).fetchone()[0])
-    asked = {name: getattr(filters, name) for name in COUNTED}
-    wanted = {name: value for name, value in asked.items() if value is not None}
-    where = " AND ".join(f"{name} = ?" for name in wanted) or "1"
+    where = " AND ".join(f"{each.column} = ?" for each in conditions) or "1"
     kept = f"SELECT coalesce(sum(number), 0) FROM counts WHERE {where}"  # noqa: S608 - our own names
-    return int(connection.execute(kept, tuple(wanted.values())).fetchone()[0])
+    found = connection.execute(kept, [each.value for each in conditions])
+    return int(found.fetchone()[0])
 
 
 def near(connection: sqlite3.Connection, asset_id: str) -> tuple[str, ...]:

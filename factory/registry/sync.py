@@ -11,8 +11,7 @@ from typing import Any
 
 from ..errors import AssetFactoryError, ConfigError, RegistryError
 from ..runtime.layout import ASSETS, NOTES, REJECTED
-from ..runtime.remote import file_digest, located, shown, stored_md5, told
-from ..runtime.store import digest_bytes
+from ..runtime.remote import located, shown, stored_md5, told
 from .export.contents import SUMS_NAME, TOP_NAMES
 
 #: Files sent at once: most of the time is waiting.
@@ -145,7 +144,8 @@ class _Sync:
         if kept and kept == hashlib.md5(data, usedforsecurity=False).hexdigest():
             return True
         # A file that was sent in pieces has another tag.
-        return file_digest(self.system, path) == digest_bytes(data)
+        content: bytes = self.system.cat_file(path)
+        return content == data
 
 
 def _listed(system: Any, root: str) -> dict[str, dict[str, Any]]:

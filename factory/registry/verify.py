@@ -86,14 +86,10 @@ def verify(registry: Registry, ids: Iterable[str] | None = None) -> tuple[Proble
         Faults, by id. ``factory registry rebuild`` mends rows; a file that is not as
         published is built again.
     """
-    found = (_confirmed(registry, asset_id) for asset_id in _ids(registry, ids))
+    if ids is None:
+        ids = chain((entry.id for entry in registry.walk()), all_ids(registry.root))
+    found = (_confirmed(registry, asset_id) for asset_id in sorted(set(ids)))
     return tuple(chain.from_iterable(found))
-
-
-def _ids(registry: Registry, ids: Iterable[str] | None) -> list[str]:
-    if ids is not None:
-        return sorted(set(ids))
-    return sorted({entry.id for entry in registry.walk()} | set(all_ids(registry.root)))
 
 
 def _confirmed(registry: Registry, asset_id: str) -> list[Problem]:

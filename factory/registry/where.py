@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import re
 from difflib import get_close_matches
-from typing import Any
 
 from asset_factory.sim_checks import Status
 
 from ..errors import ConfigError
+from ..runtime.terminal import complain
 from .entry import SOLVED, SPLITS
 from .registry import Registry
-from .rows import Condition, Filters
+from .rows import Condition, having
 
 YES_NO = ("yes", "no")
 #: Columns that have one of a few values, any text, and a number.
@@ -25,8 +25,25 @@ _CONDITION = re.compile(r'\s*([\w-]+)\s*(<=|>=|!=|=|<|>)\s*("[^"]*"|[^\s"<>=!]+)
 _LISTED = 12
 
 
-def parse_where(text: str, **defaults: str) -> Filters:
-    """Return the filters that a text asks for: conditions joined by ``and``, each given once.
+def wanted(registry: Registry, text: str, **defaults: str) -> tuple[Condition, ...]:
+    """Return what :func:`parse_where` does; a value that no asset has is told on stderr.
+
+    Raises:
+        ConfigError: it cannot be read, or asks for what no asset can be.
+    """
+    conditions = parse_where(text, **defaults)
+    for each in conditions:
+        if each.operator == "=" and each.column in TEXTS:
+            there = registry.values(each.column)
+            if each.value not in there:
+                meant = _meant(str(each.value), there)
+                complain(f"factory: --where: no asset has {each.column} {each.value!r}; {meant}")
+                break
+    return conditions
+
+
+def parse_where(text: str, **defaults: str) -> tuple[Condition, ...]:
+    """Return the conditions that a text asks for: joined by ``and``, each given once.
 
     Args:
         text: such as ``status = rejected and hulls >= 32``; values with blanks in quotes; empty
@@ -36,26 +53,25 @@ def parse_where(text: str, **defaults: str) -> Filters:
     Raises:
         ConfigError: it cannot be read; what would be right.
     """
-    equal: dict[str, Any] = {}
-    others: list[Condition] = []
+    found: list[Condition] = []
+    equal: set[str] = set()
     rest = text
     last = ""
     while rest.strip() or last:
-        found = _CONDITION.match(rest)
-        if found is None:
+        said = _CONDITION.match(rest)
+        if said is None:
             raise ConfigError(f"--where: cannot read {rest.strip() or last!r}; {EXAMPLE}")
-        condition = _checked(found[1].replace("-", "_"), found[2], found[3].strip('"'))
+        condition = _checked(said[1].replace("-", "_"), said[2], said[3].strip('"'))
         if condition.operator == "=" and condition.column not in COUNTS:
             if condition.column in equal:
                 raise ConfigError(f"--where: {condition.column} is there twice, want it once")
-            equal[condition.column] = condition.value
-        else:
-            others.append(condition)
-        last = found[4]
-        rest = rest[found.end() :]
-    spoken = {*equal, *(condition.column for condition in others)}
+            equal.add(condition.column)
+        found.append(condition)
+        last = said[4]
+        rest = rest[said.end() :]
+    spoken = {condition.column for condition in found}
     usual = {name: value for name, value in defaults.items() if name not in spoken}
-    return Filters(**usual, **equal, others=tuple(others))
+    return (*having(**usual), *found)
 
 
 def _checked(column: str, operator: str, value: str) -> Condition:
@@ -70,17 +86,6 @@ def _checked(column: str, operator: str, value: str) -> Condition:
     if column in CHOICES and value not in CHOICES[column]:
         raise ConfigError(f"--where: {column} is {value!r}; {_meant(value, CHOICES[column])}")
     return Condition(column, operator, value)
-
-
-def unknown_values(registry: Registry, filters: Filters) -> str:
-    """Return a sentence about a value that no asset of a registry has; empty if each has some."""
-    for column in TEXTS:
-        value = getattr(filters, column)
-        if value is not None:
-            there = registry.values(column)
-            if value not in there:
-                return f"no asset has {column} {value!r}; {_meant(value, there)}"
-    return ""
 
 
 def _meant(typed: str, known: tuple[str, ...]) -> str:

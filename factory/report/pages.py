@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
+from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from ..errors import ConfigError
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -13,8 +18,24 @@ if TYPE_CHECKING:
 #: Colours, type and tables of every page.
 BASE_CSS = Path(__file__).parent / "site" / "static" / "base.css"
 _LONGEST = 1200
+#: What pages with pictures need.
+PICTURE_LIBRARIES = ("embreex", "jinja2", "PIL")
 
 
+def require_libraries(
+    purpose: str = "the report", libraries: Sequence[str] = PICTURE_LIBRARIES, extra: str = "build"
+) -> None:
+    """Raise ConfigError where a library is missing: before the work, not after it.
+
+    ``purpose`` is what needs them, and ``extra`` is ours that installs them.
+    """
+    for library in libraries:
+        if find_spec(library) is None:
+            hint = f"pip install 'asset-factory[{extra}]'"
+            raise ConfigError(f"{purpose} needs {library}: {hint}")
+
+
+@cache
 def environment(package: str, **known: object) -> Environment:
     """Return the templates of a package and of all reports; an unknown name is an error."""
     from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined

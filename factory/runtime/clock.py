@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from time import perf_counter
-from typing import TypeVar
 
 from asset_factory.sim_checks.processes.place import at
-
-T = TypeVar("T")
 
 
 class Stopwatch:
@@ -43,8 +40,3 @@ class Stopwatch:
             seconds = perf_counter() - started
             self.stages[name] = self.stages.get(name, 0.0) + seconds - self._within
             self._within = within + seconds
-
-    def timed(self, name: str, function: Callable[[], T]) -> T:
-        """Return what ``function`` returns; its time counts for ``name``, except stages within."""
-        with self.stage(name):
-            return function()

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
-from importlib.util import find_spec
+from importlib.util import find_spec, resolve_name
 
 from .store import digest_bytes
 
@@ -105,7 +105,7 @@ def _module(name: str) -> _Module:
     imports: list[tuple[str, str]] = []
     bound: dict[str, tuple[str, str]] = {}
     for source, target, alias in _imports(text):
-        absolute = _absolute(source, package)
+        absolute = resolve_name(source, package)
         if absolute.partition(".")[0] == top:
             imports.append((absolute, target))
             # A name of its own that is no module is in the package itself.
@@ -121,16 +121,6 @@ def _imports(text: str) -> Iterator[tuple[str, str, str]]:
             words = item.split()
             if words:
                 yield (source, words[0], words[-1]) if source else (words[0], "", words[-1])
-
-
-def _absolute(source: str, package: str) -> str:
-    """Return the full name of a module that is imported from within a package."""
-    rest = source.lstrip(".")
-    dots = len(source) - len(rest)
-    if not dots:
-        return source
-    parts = package.split(".")
-    return ".".join((*parts[: len(parts) + 1 - dots], *filter(None, [rest])))
 
 
 def _modules_within(name: str) -> list[str]:

@@ -12,6 +12,7 @@ import types
 from collections.abc import Mapping
 from enum import Enum
 from functools import cache
+from types import MappingProxyType
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -42,23 +43,19 @@ def unpack(kind: type[T], arrays: Mapping[str, npt.NDArray[Any]]) -> T:
     Raises:
         ValueError: no such value was packed here.
     """
-    try:
-        value: T = _built(kind, json.loads(str(arrays[TEXT])), arrays)
-    except (KeyError, TypeError, AttributeError) as error:
-        raise ValueError(
-            f"no {kind.__name__} was packed here: {type(error).__name__}: {error}"
-        ) from error
-    return value
+    return from_json(kind, json.loads(str(arrays.get(TEXT, ""))), arrays)
 
 
-def from_json(kind: type[T], data: Any) -> T:
-    """Return a dataclass, its fields as :func:`pack` takes but no arrays, from its JSON data.
+def from_json(
+    kind: type[T], data: Any, arrays: Mapping[str, npt.NDArray[Any]] = MappingProxyType({})
+) -> T:
+    """Return a value of that type from its JSON data, and the arrays that this names.
 
     Raises:
         ValueError: it says something else; names the first field that is missing or too much.
     """
     try:
-        value: T = _built(kind, data, {})
+        value: T = _built(kind, data, arrays)
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"no {kind.__name__}: {type(error).__name__}: {error}") from error
     return value

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import importlib
 import os
 import re
@@ -59,15 +58,6 @@ def located(url: str) -> tuple[Any, str]:
     except ValueError as error:
         raise ConfigError(f"{shown(url)}: {told(error, url)}") from None
     return system, path
-
-
-def file_digest(system: Any, path: str, block: int = 1 << 20) -> str:
-    """Return SHA-256 of a remote file's content, read in full. Raises what the file system does."""
-    digest = hashlib.sha256()
-    with system.open(path, "rb") as stream:
-        while data := stream.read(block):
-            digest.update(data)
-    return digest.hexdigest()
 
 
 def stored_md5(details: dict[str, Any]) -> str:

@@ -94,7 +94,8 @@ class Stages:
     def _made(self, stage: str, key: str, make: Callable[[], T], worth: Callable[[T], bool]) -> T:
         _add(self.done, stage)
         try:
-            value = self.clock.timed(stage, make)
+            with self.clock.stage(stage):
+                value = make()
         except InputRejected as error:
             if self.store is not None:
                 refusal = _Refusal(error.code, error.message, error.value, error.unit, error.limit)

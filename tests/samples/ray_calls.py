@@ -16,7 +16,7 @@ from asset_factory.factory.models.service import Address, asking
 
 @dataclass(frozen=True)
 class Filled:
-    folder: Path
+    bundle: Path
     files: int
 
 
@@ -41,8 +41,8 @@ def behave(how):
     return how
 
 
-def fill(source, folder, size):
-    inner = folder / "bundle"
+def fill(source, staging, size):
+    inner = staging / "bundle"
     (inner / "meshes").mkdir(parents=True)
     (inner / "meshes" / "a.bin").write_bytes(bytes(range(256)) * size)
     (inner / "robot.urdf").write_text(f"<robot name='{source}'/>")

@@ -49,7 +49,7 @@ def publish(
         (bundle / "asset.json").write_text(
             json.dumps({**MANIFEST, "license": entry.license or None})
         )
-        return registry.publish(entry, bundle, report)
+        return registry.add(entry, report, bundle)
 
 
 def three_entries(root: Path) -> Registry:
@@ -57,7 +57,7 @@ def three_entries(root: Path) -> Registry:
     made = Registry(root, create=True)
     publish(made)
     publish(made, "two", named("fridge-1", category="fridge", license=""))
-    made.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
+    made.add(replace(REJECTED, id="chest-1"), BAD_REPORT)
     made.note("fridge-1", tags=("blue",), solved="yes")
     return made
 

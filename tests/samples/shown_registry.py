@@ -59,16 +59,16 @@ def make_registry(root):
         (Repair(RepairKind.HULLS_CUT_APART, pairs=((HOSTILE, "base"),)),),
     )
     with registry.staging_folder() as staging:
-        registry.publish(passed, bundle_in(staging / "one"), told)
+        registry.add(passed, told, bundle_in(staging / "one"))
     measurements = {"asset.urdf": {"penetration": _MEASURED.to_dict()}}
     # The MJCF says the same with other last digits, and names the pair the other way round.
     again = replace(HIT, message=f"{HIT.message} ", parts=HIT.parts[::-1], value=4.2001)
     report = Report("asset.urdf", ("mujoco",), (WORDS, HIT, again), measurements)
     hit = _rejected("hitting-2", HIT)
     with registry.staging_folder() as staging:
-        registry.reject(hit, BuildReport(report), bundle_in(staging / "two"))
+        registry.add(hit, BuildReport(report), bundle_in(staging / "two"))
     none = Finding("no_movable_joint", Severity.ERROR, HOSTILE)
-    registry.reject(_rejected("still-3", none), BuildReport(Report("a.glb", findings=(none,))))
+    registry.add(_rejected("still-3", none), BuildReport(Report("a.glb", findings=(none,))))
     return registry
 
 

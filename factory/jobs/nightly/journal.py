@@ -42,7 +42,7 @@ def read_journal(path: Path) -> tuple[NightResult, ...]:
     for line in path.read_bytes().splitlines() if path.is_file() else ():
         try:
             attempts.append(attempt_from(json.loads(line)))
-        except (ValueError, AttributeError, TypeError):
+        except ValueError:
             continue
     return tuple(attempts)
 

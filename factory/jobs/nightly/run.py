@@ -25,6 +25,7 @@ from ...report.nightly.outcome import concerns, exit_code
 from ...report.nightly.report import NightlyReport
 from ...report.nightly.table import read_table
 from ...report.summary import JobState
+from ...runtime.layout import NIGHTS
 from .journal import journal, locked, log, read_journal, utc_now
 from .licenses import sort_out
 from .settings import NightConfig
@@ -52,7 +53,7 @@ def run_night(
         RegistryError: the output cannot be written any more; the next run goes on.
     """
     found = work.find()
-    nights = files.nights_of(config.output)
+    nights = config.output / NIGHTS
     files.chosen_name(nights, name)  # Before anything is made.
     with _writable(nights):
         nights.mkdir(parents=True, exist_ok=True)

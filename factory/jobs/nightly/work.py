@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -33,16 +33,13 @@ EVERY_S = 60.0
 WINDOW_S = 600.0
 
 
-def followed(
-    results: Iterable[Result], total: int, say: Callable[[str], None] | None = None
-) -> Iterator[Result]:
+def followed(results: Iterable[Result], total: int) -> Iterator[Result]:
     """Pass results on as they come, with a bar on a terminal and a line a minute elsewhere.
 
-    There will be ``total`` results at most; ``say`` takes the lines instead of standard error.
+    There will be ``total`` results at most.
     """
     console = Terminal(stderr=True)
-    drawn = console.is_terminal and say is None
-    say = say or complain
+    drawn = console.is_terminal
     columns = TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[pace]}")
     marks = deque([(monotonic(), 0)])
     told = monotonic()
@@ -61,7 +58,7 @@ def followed(
                 console.print(line, markup=False, soft_wrap=True)
             elif not drawn and monotonic() - told >= EVERY_S:
                 told = monotonic()
-                say(pace(marks, total))
+                complain(pace(marks, total))
             yield result
 
 
@@ -128,9 +125,7 @@ class Work:
         """Return where workers run."""
         config = self._config
         if config.executor == LOCAL:
-            workers, sentence = workers_for(config.workers or None, BUILD_BYTES)
-            if sentence is not None:
-                complain(f"factory: {sentence}")
+            workers = workers_for(config.workers or None, BUILD_BYTES)
             return LocalExecutor(workers, config.build.retries)
         from ..ray.builds import ray_executor
 

@@ -58,7 +58,7 @@ def looking_first() -> Callable[..., tuple[str, str, Any]]:
     """
 
     def look_and_work(
-        packed: bytes, wanted: Any, least_free: int, data: bytes, weights: Any
+        packed: bytes, wanted: Any, data: bytes, weights: Any
     ) -> tuple[str, str, Any]:
         import signal
 
@@ -77,10 +77,10 @@ def looking_first() -> Callable[..., tuple[str, str, Any]]:
         if there != wanted:
             return "other", node, there
         left = room()
-        if left < least_free:
+        if left < LEAST_FREE:
             return "full", node, left
         word, value = carry_out(packed, data, weights)
         left = room()
-        return ("full", node, left) if left < least_free or word == "full" else (word, node, value)
+        return ("full", node, left) if left < LEAST_FREE or word == "full" else (word, node, value)
 
     return look_and_work

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import errno
 import hashlib
-import os
 import shutil
 import tarfile
 import tempfile
 import uuid
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import IO, Any, Generic, TypeVar
 
@@ -25,10 +24,6 @@ T = TypeVar("T")
 MOST_BYTES = 4 * 1024**3
 MOST_FILES = 100_000
 BLOCK = 1 << 20
-#: Argument of :func:`make_and_send` with what is elsewhere on a node.
-HERE = "here"
-
-
 #: Errors of a disk that is full.
 FULL = (errno.ENOSPC, errno.EDQUOT)
 
@@ -37,36 +32,33 @@ class ExchangeError(Exception):
     """Other bytes arrived than were sent, or none could be sent."""
 
 
-@dataclass(frozen=True)
-class Exchange:
-    """Each try of a call fills its own folder, so it meets nothing another left or still writes.
+def with_own_folder(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the arguments of a try, with a ``staging`` folder of its own within the one given.
 
-    Attributes:
-        argument: which argument of the function is the folder to fill.
-        url: of a folder that all nodes can write and the caller can read, as fsspec names it; each
-            try sends one file there, which is removed when it was read. Empty: the folder itself
-            lies where all nodes see it.
-        absent: arguments that name places which only the caller sees if there is a URL; nodes get
-            ``None`` for them.
+    So it meets nothing that another try left or still writes.
     """
+    return {**arguments, "staging": Path(arguments["staging"]) / uuid.uuid4().hex}
 
-    argument: str
-    url: str = ""
-    absent: tuple[str, ...] = ()
 
-    def sent(
-        self, function: Callable[..., T], arguments: Mapping[str, Any]
-    ) -> tuple[Callable[..., Sent[T]], dict[str, Any], Transfer]:
-        """Return what to call on a node for ``function(**arguments)``, and what opens an answer."""
-        folder = Path(arguments[self.argument])
-        name = uuid.uuid4().hex
-        asked = {"argument": self.argument, "function": function}
-        if not self.url:
-            asked |= {"target": str(folder / name), "arguments": dict(arguments)}
-            return make_in_folder, asked, Transfer(folder, "")
-        target = f"{self.url.rstrip('/')}/{name}.tar"
-        asked |= {"target": target, "arguments": {**arguments, **dict.fromkeys(self.absent)}}
-        return make_and_send, asked, Transfer(folder, target)
+def begin_transfer(
+    url: str, function: Callable[..., Any], arguments: Mapping[str, Any]
+) -> tuple[dict[str, Any], Transfer]:
+    """Return the arguments of :func:`make_and_send` for a call, and what opens its answer.
+
+    The ``bundle`` of the call's value lies in its ``staging`` folder and comes back, unless it is
+    ``None``. ``cache`` names a place that only the caller sees: nodes get ``None`` for it.
+
+    Args:
+        url: of a folder that all nodes can write and the caller can read, as fsspec names it; one
+            file is sent there, which is removed when it was read.
+        function: to be called.
+        arguments: of it, as :func:`with_own_folder` gives them.
+    """
+    folder: Path = arguments["staging"]
+    target = f"{url.rstrip('/')}/{folder.name}.tar"
+    seen = {name: None if name == "cache" else value for name, value in arguments.items()}
+    asked = {"target": target, "function": function, "arguments": seen}
+    return asked, Transfer(folder, target)
 
 
 @dataclass(frozen=True)
@@ -91,15 +83,15 @@ class Transfer:
     """One try's folder, as the caller awaits it.
 
     Attributes:
-        folder: where it should be.
-        url: of the file that brings it; empty if it is there already.
+        folder: where it should be; not there yet.
+        url: of the file that brings it.
     """
 
     folder: Path
     url: str
 
     def opened(self, outcome: Outcome[Sent[T]]) -> Outcome[T]:
-        """Return the function's own outcome, with its folder here: paths in the value lead there.
+        """Return the function's own outcome, with its folder here: the ``bundle`` lies there.
 
         Raises:
             OSError: the file that brings it is not there any more, or is another one.
@@ -109,10 +101,11 @@ class Transfer:
             self.drop()
             return answer  # type: ignore[no-any-return]
         sent = outcome.value
-        value = outcome.value.value
-        if self.url and sent.digest:
+        value: Any = sent.value
+        if sent.digest:
             try:
-                value = moved(value, Path(sent.folder), self._fetched(sent))
+                there = value.bundle.relative_to(sent.folder)
+                value = replace(value, bundle=self._fetched(sent) / there)
             except OSError:
                 raise
             except Exception as error:
@@ -124,18 +117,16 @@ class Transfer:
 
     def drop(self) -> None:
         """Remove the file that brings it, if there is one."""
-        if self.url:
-            with suppress(Exception):
-                file_system, path = located(self.url)
-                file_system.rm_file(path)
+        with suppress(Exception):
+            file_system, path = located(self.url)
+            file_system.rm_file(path)
 
     def _fetched(self, sent: Sent[T]) -> Path:
         if not 0 <= sent.size <= MOST_BYTES:
             raise ExchangeError(f"it has {sent.size} bytes, at most {MOST_BYTES} are taken")
         file_system, path = located(self.url)
-        self.folder.mkdir(parents=True, exist_ok=True)
-        folder = Path(tempfile.mkdtemp(dir=self.folder))
-        folder.chmod(0o755)
+        self.folder.mkdir(parents=True)
+        self.folder.chmod(0o755)
         with tempfile.TemporaryFile(dir=self.folder) as local:
             digest = hashlib.sha256()
             size = 0
@@ -149,38 +140,28 @@ class Transfer:
                 raise ExchangeError(f"it is not the file that was sent: {why}")
             local.seek(0)
             with tarfile.open(fileobj=local, mode="r:") as archive:
-                unpacked(archive, folder)
-        return folder
-
-
-def make_in_folder(
-    target: str, argument: str, function: Callable[..., T], arguments: Mapping[str, Any]
-) -> Sent[T]:
-    """Let the function fill a folder that the caller sees too; on a node."""
-    os.makedirs(target, exist_ok=True)
-    return Sent(function(**{**arguments, argument: Path(target)}), target)
+                unpacked(archive, self.folder)
+        return self.folder
 
 
 def make_and_send(
     target: str,
-    argument: str,
     function: Callable[..., T],
     arguments: Mapping[str, Any],
     here: Mapping[str, Any] | None = None,
 ) -> Sent[T]:
-    """Let the function fill a local folder, and send what its value names of it; on a node.
+    """Let the function fill a local folder, and send the ``bundle`` of its value; on a node.
 
-    ``argument`` names the one that is the folder; those in ``here`` are others on this node.
+    Arguments in ``here`` are others on this node.
     """
     with tempfile.TemporaryDirectory(prefix="made-") as folder:
-        value = function(**{**arguments, **(here or {}), argument: Path(folder)})
-        named = sorted(set(paths_below(value, Path(folder))))
-        if not named:
+        value: Any = function(**{**arguments, **(here or {}), "staging": Path(folder)})
+        bundle = value.bundle
+        if bundle is None:
             return Sent(value, folder)
         with tempfile.TemporaryFile() as packed:
             with tarfile.open(fileobj=packed, mode="w:", format=tarfile.PAX_FORMAT) as archive:
-                for path in named:
-                    archive.add(path, path.relative_to(folder).as_posix())
+                archive.add(bundle, bundle.relative_to(folder).as_posix())
             size = packed.tell()
             packed.seek(0)
             digest = hashlib.file_digest(packed, "sha256").hexdigest()
@@ -232,30 +213,3 @@ def unpacked(archive: tarfile.TarFile, folder: Path) -> None:
         assert content is not None, "it is a file"  # noqa: S101
         with target.open("xb") as file:
             shutil.copyfileobj(content, file, BLOCK)
-
-
-def paths_below(value: Any, folder: Path) -> Iterator[Path]:
-    """Yield the paths below a folder that a value names; dataclasses and tuples are looked into."""
-    if isinstance(value, Path):
-        if value.is_relative_to(folder):
-            yield value
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from paths_below(item, folder)
-    elif is_dataclass(value):
-        for each in fields(value):
-            yield from paths_below(getattr(value, each.name), folder)
-
-
-def moved(value: Any, old: Path, new: Path) -> Any:
-    """Return a value with paths below one folder moved to another; see :func:`paths_below`."""
-    if isinstance(value, Path):
-        return new / value.relative_to(old) if value.is_relative_to(old) else value
-    if isinstance(value, tuple):
-        return tuple(moved(item, old, new) for item in value)
-    if is_dataclass(value) and not isinstance(value, type):
-        before = {each.name: getattr(value, each.name) for each in fields(value) if each.init}
-        now = {name: moved(each, old, new) for name, each in before.items()}
-        changed = {name: each for name, each in now.items() if each is not before[name]}
-        return replace(value, **changed) if changed else value
-    return value

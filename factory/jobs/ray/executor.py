@@ -7,19 +7,21 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from itertools import islice
 from typing import Any, Generic, TypeVar
 
 from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome
 
+from ...config import ParticulateConfig
 from ..executor import AHEAD, Call
 from .alike import LEAST_FREE, difference, looking_first, versions
 from .cluster import LOCAL, ClusterLost, connected
-from .exchange import FULL, Exchange, Transfer
-from .inputs import Inputs, PackedInput
-from .network import Asked, Networks
-from .nodes import FULL_S, Nodes, say
-from .weights import Checkpoints, sent_weights
-from .worker import Order, WorkerSettings
+from .exchange import FULL, Transfer, begin_transfer, make_and_send, with_own_folder
+from .inputs import PackedInput, pack_input
+from .network import Networks
+from .nodes import FULL_S, Nodes
+from .weights import sent_weights
+from .worker import Order
 
 T = TypeVar("T")
 
@@ -27,46 +29,40 @@ T = TypeVar("T")
 LOOK_S = 2.0
 #: How long an answer that is there may take to be fetched [s].
 FETCH_S = 120.0
+#: How often a call may be lost with its node, or with Ray's process, and is made again elsewhere.
+LOSSES = 3
 
 
 @dataclass(frozen=True)
 class RayExecutor:
     """Worker processes on a Ray cluster's nodes; each needs this package.
 
+    Calls name things to send by their arguments: ``staging`` is the folder that they fill,
+    ``address`` where they ask a network. With a URL as exchange, ``source`` is an input that is
+    sent, ``place`` where it lies for the caller, and ``weights`` where checkpoints lie on the node;
+    the ``reads`` of a call's value are the files that its input was made of.
+
     Attributes:
         workers: calls under way at once; by default as many as the cluster has room for, also when
             it grows.
         address: ``local`` for a cluster of this machine's own; ``auto`` or ``host:port`` for one
             that runs.
-        processors: that one call takes.
         memory_bytes: that one call takes, by which Ray places it [bytes]; 0: Ray does not look.
-        retries, calls, resident_bytes: as :class:`~.local.LocalExecutor`.
-        losses: how often a call may be lost with its node, or with Ray's process, and is made again
-            elsewhere.
+        retries: as :class:`~.local.LocalExecutor`.
         modules: what every child needs, imported once per process of Ray's.
-        exchange: how folders that calls fill come back; ``None`` where calls fill none.
+        exchange: URL through which folders that calls fill come back, see
+            :func:`~.exchange.begin_transfer`; empty where all nodes see them; ``None`` where calls
+            fill none.
         network: that calls ask; ``None`` where they ask none, or each its own.
-        inputs: how they are sent along; ``None`` where nodes see them. Takes an exchange by URL.
-        weights: checkpoints that are sent along; ``None`` where nodes see them. As above.
-        least_free: a node with less room for temporary files is given no work for a while [bytes].
-        say: told, in a sentence, of each node that is given no work, and why.
     """
 
     workers: int | None = None
     address: str = LOCAL
-    processors: float = 1.0
     memory_bytes: int = 0
     retries: int = 1
-    calls: int = 50
-    resident_bytes: int = 2 * 1024**3
-    losses: int = 3
     modules: tuple[str, ...] = ()
-    exchange: Exchange | None = None
-    network: Asked | None = None
-    inputs: Inputs | None = None
-    weights: Checkpoints | None = None
-    least_free: int = LEAST_FREE
-    say: Callable[[str], None] = say
+    exchange: str | None = None
+    network: ParticulateConfig | None = None
 
     def run(
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits
@@ -80,15 +76,11 @@ class RayExecutor:
         with connected(self.address, self.workers) as ray:
             tasks: _Tasks[T] = _Tasks(self, ray, function, limits)
             waiting = iter(calls)
-            ends = False
             try:
                 while True:
                     tasks.look()
-                    while not ends and len(tasks) < tasks.most():
-                        call = next(waiting, None)
-                        ends = call is None
-                        if call is not None:
-                            tasks.start(_Task(call))
+                    for call in islice(waiting, max(0, tasks.most() - len(tasks))):
+                        tasks.start(_Task(call))
                     if not len(tasks):
                         return
                     tasks.drop_unwanted()
@@ -121,20 +113,17 @@ class _Tasks(Generic[T]):
         self._ray = ray
         self._function = function
         self._limits = limits
-        room: dict[str, Any] = {"num_cpus": executor.processors, "max_retries": 0}
-        if executor.memory_bytes:
-            room["memory"] = executor.memory_bytes
         self._work = ray.remote(looking_first())
-        self._room_of_one = room
-        self._nodes = Nodes(ray, executor.say)
-        self._settings = WorkerSettings(
-            executor.retries, executor.calls, executor.resident_bytes, executor.modules
-        )
+        self._room_of_one: dict[str, Any] = {"num_cpus": 1, "max_retries": 0}
+        if executor.memory_bytes:
+            self._room_of_one["memory"] = executor.memory_bytes
+        self._nodes = Nodes(ray)
         self._under_way: dict[Any, _Task] = {}
         self._failed: list[tuple[Call, Outcome[T]]] = []
-        self._weights = sent_weights(ray, executor.weights)
-        asked = executor.network
-        self._networks = None if asked is None else Networks(ray, asked, self._weights)
+        network = executor.network
+        named = (network.checkpoint, network.features) if network and executor.exchange else ()
+        self._weights = sent_weights(ray, named)
+        self._networks = None if network is None else Networks(ray, network, self._weights)
         self._looked = -LOOK_S
         self._room = 1
 
@@ -147,7 +136,7 @@ class _Tasks(Generic[T]):
             return
         self._looked = time.monotonic()
         processors = self._asked(self._ray.cluster_resources).get("CPU", 0.0)
-        self._room = max(1, int(processors / self._executor.processors))
+        self._room = max(1, int(processors))
         self._asked(self._nodes.require_fit)
         self._asked(self._nodes.hang_up)
         if self._networks is not None:
@@ -162,34 +151,36 @@ class _Tasks(Generic[T]):
 
     def start(self, task: _Task) -> None:
         """Hand a call to the cluster; one that cannot be handed over has failed."""
+        executor = self._executor
         function: Callable[..., Any] = self._function
-        arguments = task.call.arguments
+        arguments = dict(task.call.arguments)
         transfer = packed = None
         try:
             if self._networks is not None:
-                arguments = self._networks.with_address(arguments)
-            if self._executor.inputs is not None:
-                packed = self._executor.inputs.packed(arguments, task.more)
-                arguments = self._executor.inputs.with_place(arguments)
-            if self._executor.exchange is not None:
-                function, arguments, transfer = self._executor.exchange.sent(function, arguments)
-            how = (self._limits, self._settings)
-            files = (None if packed is None else packed.sent, self._executor.weights)
-            order = Order(function, arguments, *how, *files, task.call.until)
+                arguments["address"] = self._networks.address
+            if executor.exchange is not None:
+                arguments = with_own_folder(arguments)
+            if executor.exchange:
+                arguments["place"] = arguments["source"]
+                packed = pack_input(arguments["source"], task.more)
+                arguments, transfer = begin_transfer(executor.exchange, function, arguments)
+                function = make_and_send
+            how = (self._limits, executor.retries, executor.modules)
+            # A call that is lost is packed again: its bytes need not be kept until then.
+            kept = None if packed is None else replace(packed, data=b"")
+            order = Order(function, arguments, *how, kept, task.call.until)
             under_way = self._handed_over(order, task.node, b"" if packed is None else packed.data)
         except (TypeError, ValueError, AttributeError, pickle.PicklingError) as error:
             detail = f"cannot be sent to a node: {_sentence(error)}"
             self._failed.append((task.call, Outcome(None, Failure.RAISED, detail, "", 0.0, error)))
             return
-        # A call that is lost is packed again: what it was made of need not be kept until then.
-        kept = None if packed is None else replace(packed, data=b"")
         self._under_way[under_way] = replace(task, transfer=transfer, input=kept)
 
     def _handed_over(self, order: Order, node: str, data: bytes) -> Any:
         """Return Ray's reference to a call that was handed over."""
         packed = self._ray.cloudpickle.dumps(order)
         placed = self._work.options(**self._room_of_one, **self._nodes.options(node))
-        return placed.remote(packed, versions(), self._executor.least_free, data, self._weights)
+        return placed.remote(packed, versions(), data, self._weights)
 
     def drop_unwanted(self) -> None:
         """Have Ray begin none of the calls that nobody wants any more; those that run go on."""
@@ -247,7 +238,7 @@ class _Tasks(Generic[T]):
         self._dropped(task)
         if task.node:
             self._nodes.died(task.node, task.call.name)
-        if task.number < self._executor.losses:
+        if task.number < LOSSES:
             node = self._asked(self._nodes.next)
             self.start(replace(task, number=task.number + 1, node=node))
             return None
@@ -267,10 +258,13 @@ class _Tasks(Generic[T]):
             self._refused(task, word, node, answer)
             return None
         outcome: Outcome[Any] = answer
-        if lacking := self._lacking(task, outcome):
-            self._dropped(task)
-            self.start(replace(task, more=task.more | lacking))
-            return None
+        if task.input is not None and outcome.value is not None:
+            # What a node missed, and should have been sent along.
+            lacking = task.input.lacking(outcome.value.value.reads)
+            if lacking:
+                self._dropped(task)
+                self.start(replace(task, more=task.more | lacking))
+                return None
         return outcome if task.transfer is None else task.transfer.opened(outcome)
 
     def _refused(self, task: _Task, word: str, node: str, answer: Any) -> None:
@@ -283,16 +277,10 @@ class _Tasks(Generic[T]):
             self._nodes.set_aside(node, f"it has {difference(versions(), answer)}{same}")
         else:
             room = f"{answer / 1e6:.0f} MB are free for temporary files"
-            few = answer < self._executor.least_free
-            want = f"want {self._executor.least_free / 1e6:.0f}" if few else "too few for an input"
+            few = answer < LEAST_FREE
+            want = f"want {LEAST_FREE / 1e6:.0f}" if few else "too few for an input"
             self._nodes.set_aside(node, f"{room}, {want}", FULL_S)
         self.start(replace(task, node=""))
-
-    def _lacking(self, task: _Task, outcome: Outcome[Any]) -> frozenset[str]:
-        """Return the files that a node missed, and that should have been sent along."""
-        if task.input is None or self._executor.inputs is None or outcome.value is None:
-            return frozenset()
-        return task.input.lacking(self._executor.inputs.reads(outcome.value.value))
 
     def _dropped(self, task: _Task) -> None:
         """Drop what a try has sent."""

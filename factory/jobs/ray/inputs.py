@@ -8,11 +8,10 @@ import io
 import shutil
 import tarfile
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from asset_factory.sim_checks.processes.scratch import scratch
 from asset_factory.sim_checks.read.regular import read_regular
@@ -26,22 +25,22 @@ _NOWHERE = "/nowhere"
 
 
 @dataclass(frozen=True)
-class SentInput:
-    """What a node must know of an input beside its bytes.
+class PackedInput:
+    """An input as it was sent.
 
     Attributes:
-        argument: of the function, that is the input's path.
-        folder: name of its folder, from which a category may be guessed.
-        name: of its main file.
+        source: where it lies for who sent it; a category may be guessed from its folder's name.
+        names: of all files that were looked for, relative to its folder.
         links: files that are links to outside its folder; the reader is to refuse them there too.
         digest: SHA-256 of its bytes.
+        data: its files as a tar archive; empty where those go beside it.
     """
 
-    argument: str
-    folder: str
-    name: str
+    source: Path
+    names: frozenset[str]
     links: tuple[str, ...]
     digest: str
+    data: bytes = field(default=b"", repr=False)
 
     @contextmanager
     def unpacked(self, data: bytes) -> Iterator[Path]:
@@ -55,7 +54,7 @@ class SentInput:
             raise ExchangeError("an input is not the one that was sent: its digest is another")
         around = Path(tempfile.mkdtemp(prefix="input-", dir=scratch()))
         # One folder more, for a folder may be called "..".
-        folder = around / "in" / self.folder
+        folder = around / "in" / self.source.parent.name
         try:
             (around / "in").mkdir()
             folder.mkdir(exist_ok=True)
@@ -64,26 +63,9 @@ class SentInput:
             for name in self.links:
                 (folder / name).parent.mkdir(parents=True, exist_ok=True)
                 (folder / name).symlink_to(_NOWHERE)
-            yield folder / self.name
+            yield folder / self.source.name
         finally:
             shutil.rmtree(around, ignore_errors=True)
-
-
-@dataclass(frozen=True)
-class PackedInput:
-    """An input as it was sent.
-
-    Attributes:
-        source: where it lies.
-        sent: what its receiver must know.
-        data: its files as a tar archive.
-        names: of all files that were looked for, relative to its folder.
-    """
-
-    source: Path
-    sent: SentInput
-    data: bytes = field(repr=False)
-    names: frozenset[str]
 
     def lacking(self, reads: Reads) -> frozenset[str]:
         """Return the files that its reader missed on a node, and that are here."""
@@ -91,37 +73,16 @@ class PackedInput:
         return frozenset(n for n, digest in other.items() if digest_now(self.source, n) != digest)
 
 
-@dataclass(frozen=True)
-class Inputs:
-    """How calls name their inputs.
+def pack_input(source: Path, more: frozenset[str]) -> PackedInput:
+    """Return an input with what it seems to refer to, and ``more`` that belongs to it.
 
-    Attributes:
-        argument: of the function, that is an input's path.
-        place: its argument that tells where the input lies for the caller.
-        reads: what a call's value says of the files that the input was made of.
+    Raises:
+        ValueError: it has too many bytes.
     """
-
-    argument: str
-    place: str
-    reads: Callable[[Any], Reads]
-
-    def with_place(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a call's arguments, with where its input lies."""
-        return {**arguments, self.place: arguments[self.argument]}
-
-    def packed(self, arguments: Mapping[str, Any], more: frozenset[str]) -> PackedInput:
-        """Return an input with what it seems to refer to, and ``more`` that belongs to it.
-
-        Raises:
-            ValueError: it has too many bytes.
-        """
-        source = Path(arguments[self.argument])
-        names = companions(source, more)
-        links = sorted(name for name in names if leads_out(source, name) and _inside(name))
-        data = _archived(source, sorted(names - set(links)))
-        digest = hashlib.sha256(data).hexdigest()
-        sent = SentInput(self.argument, source.parent.name, source.name, tuple(links), digest)
-        return PackedInput(source, sent, data, names)
+    names = companions(source, more)
+    links = sorted(name for name in names if leads_out(source, name) and _inside(name))
+    data = _archived(source, sorted(names - set(links)))
+    return PackedInput(source, names, tuple(links), hashlib.sha256(data).hexdigest(), data)
 
 
 def _inside(name: str) -> bool:

@@ -7,9 +7,7 @@ import shutil
 import socket
 import threading
 import uuid
-from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -29,44 +27,32 @@ GOODBYE_S = 5.0
 RELAY_S = 240.0
 
 
-@dataclass(frozen=True)
-class Asked:
-    """A network that calls ask.
-
-    Attributes:
-        config: which one, and how it is run.
-        argument: of the function, that is the address.
-    """
-
-    config: ParticulateConfig
-    argument: str
-
-
 class Networks:
     """The networks of one run on a cluster."""
 
-    def __init__(self, ray: Any, asked: Asked, weights: SentWeights) -> None:
+    def __init__(self, ray: Any, config: ParticulateConfig, weights: SentWeights) -> None:
         self._ray = ray
-        self._asked = asked
+        self._config = config
         self._weights = weights
         self._address = Address(f"/tmp/model-{uuid.uuid4().hex}/socket")  # noqa: S108 - nobody can guess it
         self._shared: Any = None
         self._sockets: dict[str, Any] = {}
 
-    def with_address(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a call's arguments with the address; ``None`` if there is nobody to ask."""
-        return {**arguments, self._asked.argument: self._address if self._sockets else None}
+    @property
+    def address(self) -> Address | None:
+        """Return where calls ask; ``None`` if there is nobody to ask."""
+        return self._address if self._sockets else None
 
     def look(self) -> None:
         """Open a socket on every node that has none."""
-        on_gpu = device_for(self._asked.config.device) != "cpu"
+        on_gpu = device_for(self._config.device) != "cpu"
         if on_gpu and self._shared is None:
             if self._ray.cluster_resources().get("GPU", 0.0) < 1.0:
                 return
             shared = self._ray.remote(NodeNetwork).options(
                 num_cpus=0, num_gpus=1, max_restarts=-1, max_concurrency=AT_A_GPU
             )
-            self._shared = shared.remote(self._asked.config, self._weights)
+            self._shared = shared.remote(self._config, self._weights)
         affinity = self._ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy
         for node in self._ray.nodes():
             name = node["NodeID"]
@@ -75,7 +61,7 @@ class Networks:
                     num_cpus=0, max_restarts=-1, scheduling_strategy=affinity(name, soft=False)
                 )
                 self._sockets[name] = placed.remote(
-                    self._address.path, self._asked.config, self._shared, self._weights
+                    self._address.path, self._config, self._shared, self._weights
                 )
 
     def close(self) -> None:

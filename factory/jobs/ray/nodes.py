@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import socket
 import time
-from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -22,17 +21,11 @@ class NoNodeLeft(ClusterLost):
     """No node of the cluster can be given work; says why of each."""
 
 
-def say(sentence: str) -> None:
-    """Print a sentence for whoever started the job."""
-    complain(f"factory: {sentence}")
-
-
 class Nodes:
-    """The nodes of one run; ``say`` is told, once of each node, why it is set aside."""
+    """The nodes of one run; standard error is told, once of each node, why it is set aside."""
 
-    def __init__(self, ray: Any, say: Callable[[str], None] = say) -> None:
+    def __init__(self, ray: Any) -> None:
         self._ray = ray
-        self._say = say
         self._aside: dict[str, tuple[str, float]] = {}
         self._deaths: dict[str, set[str]] = {}
         self._turn = 0
@@ -48,21 +41,19 @@ class Nodes:
         address = self._alive().get(node, {}).get("NodeManagerAddress", node)
         self._aside[node] = (f"node {address}: {why}", time.monotonic() + seconds)
         if not told:
-            self._say(f"a node is given no work; {self._aside[node][0]}")
+            complain(f"factory: a node is given no work; {self._aside[node][0]}")
         self.require_fit()
 
     def require_fit(self) -> None:
         """Raise NoNodeLeft if there are nodes, and each of them is set aside."""
         working = self._working()
-        aside = self._aside_now()
-        if working and all(name in aside for name in working):
+        if working and not self._fit():
             reasons = "; ".join(self._aside[name][0] for name in working)
             raise NoNodeLeft(f"no node of the cluster can be given work: {reasons}")
 
     def next(self) -> str:
         """Return the node whose turn it is, for a call lost nobody knows where; empty: none."""
-        aside = self._aside_now()
-        fit = [name for name in self._working() if name not in aside]
+        fit = self._fit()
         self._turn += 1
         return fit[self._turn % len(fit)] if fit else ""
 
@@ -74,8 +65,7 @@ class Nodes:
         """
         calls = self._deaths.setdefault(node, set())
         calls.add(call)
-        aside = self._aside_now()
-        others = [name for name in self._working() if name not in aside and name != node]
+        others = [name for name in self._fit() if name != node]
         if others and node in self._alive() and len(calls) >= MOST_DEATHS:
             calls.clear()
             self.set_aside(node, f"{MOST_DEATHS} calls died there with Ray's processes", FULL_S)
@@ -105,6 +95,10 @@ class Nodes:
     def _working(self) -> list[str]:
         alive = sorted(self._alive().items())
         return [name for name, each in alive if each["Resources"].get("CPU", 0.0) > 0.0]
+
+    def _fit(self) -> list[str]:
+        aside = self._aside_now()
+        return [name for name in self._working() if name not in aside]
 
     def _aside_now(self) -> frozenset[str]:
         now = time.monotonic()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import tempfile
-from dataclasses import dataclass
+from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -29,23 +29,10 @@ a node has already.
 """
 
 
-@dataclass(frozen=True)
-class Checkpoints:
-    """Which checkpoints calls may ask for.
-
-    Attributes:
-        argument: of the function, that tells where they lie.
-        names: as configurations name them.
-    """
-
-    argument: str
-    names: tuple[str, ...]
-
-
-def sent_weights(ray: Any, checkpoints: Checkpoints | None) -> SentWeights:
+def sent_weights(ray: Any, names: Iterable[str]) -> SentWeights:
     """Put checkpoints where nodes fetch them, but the package's own and those not here."""
     found: SentWeights = []
-    for name in () if checkpoints is None else checkpoints.names:
+    for name in names:
         if name in ("", SHIPPED):
             continue
         try:

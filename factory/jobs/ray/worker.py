@@ -6,40 +6,21 @@ import atexit
 import pickle
 import sys
 import tarfile
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 from asset_factory.sim_checks.processes.isolation import Limits, Outcome, WarmChild, preload
 
-from ..local import tried
-from .exchange import FULL, HERE, ExchangeError
-from .inputs import SentInput
-from .weights import Checkpoints, SentWeights, arrived
+from ..local import CALLS, RESIDENT_BYTES, tried
+from .exchange import FULL, ExchangeError
+from .inputs import PackedInput
+from .weights import SentWeights, arrived
 
 #: What a child imports to answer at all.
 NEEDED = ("asset_factory.sim_checks.processes.isolation",)
-
-
-@dataclass(frozen=True)
-class WorkerSettings:
-    """How calls are made on a node.
-
-    Attributes:
-        retries: further tries of a call that crashed, hung or ran out of memory, each in a new
-            process.
-        calls: after so many a child is replaced by a new one.
-        resident_bytes: a child that holds more memory than this after a call is replaced at once
-            [bytes].
-        modules: what every child needs; imported once per process of Ray's.
-    """
-
-    retries: int
-    calls: int
-    resident_bytes: int
-    modules: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -48,22 +29,19 @@ class Order:
 
     Attributes:
         function, arguments, limits: of the call.
-        settings: how it is made.
+        retries: further tries of what crashed, hung or ran out of memory, each in a new process.
+        modules: what every child needs; imported once per process of Ray's.
         input: the one sent along; ``None``: the node sees it.
-        weights: which checkpoints are sent along; ``None``: the node sees them.
         until: when it is ended, if it still runs [s since 1970].
     """
 
     function: Callable[..., Any]
     arguments: Mapping[str, Any]
     limits: Limits
-    settings: WorkerSettings
-    input: SentInput | None = None
-    weights: Checkpoints | None = None
+    retries: int
+    modules: tuple[str, ...] = ()
+    input: PackedInput | None = None
     until: float | None = None
-
-
-_children: dict[WorkerSettings, WarmChild] = {}
 
 
 def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, Any]:
@@ -72,7 +50,7 @@ def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, An
     Args:
         packed: an :class:`Order`.
         data: of its input; empty if none was sent.
-        weights: checkpoints that it may ask for.
+        weights: checkpoints that it may ask for, and that this node does not see.
 
     Returns:
         ``done`` and its outcome; ``full`` if this node had no room for its inputs
@@ -82,15 +60,18 @@ def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, An
 
     order: Order = pickle.loads(packed)  # noqa: S301 - from the one who gives the work
     try:
-        with _unpacked(order, data) as here:
-            if order.weights is not None:
-                here[order.weights.argument] = arrived(ray, weights)
-            arguments = {**order.arguments, **({HERE: here} if here else {})}
+        with ExitStack() as stack:
+            here: dict[str, Any] = {}
+            if order.input is not None:
+                here["source"] = stack.enter_context(order.input.unpacked(data))
+            if weights:
+                here["weights"] = arrived(ray, weights)
+            arguments = {**order.arguments, **({"here": here} if here else {})}
             outcome: Outcome[Any] = tried(
-                _child(order.settings),
+                _child(order.modules),
                 partial(order.function, **arguments),
                 order.limits,
-                retries=order.settings.retries,
+                retries=order.retries,
                 until=order.until,
             )
     except OSError as error:
@@ -103,27 +84,17 @@ def carry_out(packed: bytes, data: bytes, weights: SentWeights) -> tuple[str, An
     return ("full", None) if order.input and _is_full(outcome.error) else ("done", outcome)
 
 
-@contextmanager
-def _unpacked(order: Order, data: bytes) -> Iterator[dict[str, Any]]:
-    """Yield arguments that are others on this node."""
-    if order.input is None:
-        yield {}
-        return
-    with order.input.unpacked(data) as path:
-        yield {order.input.argument: path}
-
-
 def _is_full(error: BaseException | None) -> bool:
     return isinstance(error, OSError) and error.errno in FULL
 
 
-def _child(settings: WorkerSettings) -> WarmChild:
+@cache
+def _child(modules: tuple[str, ...]) -> WarmChild:
     """Return this process's child: Ray reuses the process, so imports are paid for only once."""
-    if settings not in _children:
-        # Children would import Ray's own main program: 50 MB and seconds for each of them, and
-        # nothing they need.
-        vars(sys.modules["__main__"]).pop("__file__", None)
-        preload((*NEEDED, *settings.modules))
-        _children[settings] = WarmChild(settings.calls, settings.resident_bytes)
-        atexit.register(_children[settings].close)
-    return _children[settings]
+    # Children would import Ray's own main program: 50 MB and seconds for each of them, and nothing
+    # they need.
+    vars(sys.modules["__main__"]).pop("__file__", None)
+    preload((*NEEDED, *modules))
+    child = WarmChild(CALLS, RESIDENT_BYTES)
+    atexit.register(child.close)
+    return child

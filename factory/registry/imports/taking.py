@@ -69,15 +69,14 @@ def import_export(
         content.mkdir()
         unpack(source, content, limits or ImportLimits())
         _require_digests(source, content)
-        arrivals = [_arrival(source, folder, trusted=trusted) for folder in _folders(content)]
+        found = (each for name in (ASSETS, REJECTED) for each in (content / name).glob("*"))
+        folders = sorted(found, key=lambda folder: folder.name)
+        arrivals = [_arrival(source, folder, trusted=trusted) for folder in folders]
         fresh = [arrival for arrival in arrivals if not _is_there(registry, arrival)]
         if not replace:
             _require_no_others(registry, source, fresh)
         for arrival in fresh:
-            if arrival.entry.status is Status.PASSED:
-                registry.publish(arrival.entry, arrival.folder, arrival.told)
-            else:
-                registry.reject(arrival.entry, arrival.told, arrival.folder)
+            registry.add(arrival.entry, arrival.told, arrival.folder)
         for arrival in arrivals:
             _take_note(registry, arrival, content)
     published = {arrival.entry.id for arrival in fresh}
@@ -94,12 +93,6 @@ def _require_digests(source: Path, content: Path) -> None:
         state = "is altered" if wrong[0] in sums.keys() & found.keys() else absent
         more = f", and {len(wrong) - 1} more files are wrong" if len(wrong) > 1 else ""
         raise RegistryError(f"{source}: {wrong[0]!r} {state} (SHA-256){more}; nothing was imported")
-
-
-def _folders(content: Path) -> list[Path]:
-    places = [content / name for name in (ASSETS, REJECTED) if (content / name).is_dir()]
-    folders = (folder for place in places for folder in place.iterdir())
-    return sorted(folders, key=lambda folder: folder.name)
 
 
 def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:

@@ -7,7 +7,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import asdict
 from functools import cache
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -36,19 +35,6 @@ MESSAGE = "message.txt"  # one line for a chat
 LOG = "night.log"  # what happened when
 JOURNAL = "attempts.jsonl"  # attempts so far; only while the night is not finished
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
-
-
-def require_libraries() -> None:
-    """Raise ConfigError where a library is missing: before the night, not after it."""
-    for library in ("jinja2", "pyarrow"):
-        if find_spec(library) is None:
-            hint = "pip install 'asset-factory[nightly]'"
-            raise ConfigError(f"the nightly report needs {library}: {hint}")
-
-
-def nights_of(output: Path) -> Path:
-    """Return where the nights of a registry lie."""
-    return output / "nights"
 
 
 def names(nights: Path) -> tuple[str, ...]:

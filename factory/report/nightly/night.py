@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from datetime import datetime, timedelta
-from typing import Any, get_type_hints
+from typing import Any
+
+import msgspec
 
 from asset_factory.sim_checks import Status
 
@@ -57,9 +59,8 @@ def attempt_of(result: Result, ended: datetime) -> NightResult:
 
 
 def attempt_from(data: Mapping[str, Any]) -> NightResult:
-    """Return an attempt from JSON data of any version. Raises TypeError where it is none."""
-    known = {item.name: data[item.name] for item in fields(NightResult) if item.name in data}
-    return NightResult(**{**known, "reused": tuple(data.get("reused", ()))})
+    """Return an attempt from JSON data of any version. Raises ValueError where it is none."""
+    return msgspec.convert(data, NightResult)
 
 
 def latest(attempts: Iterable[NightResult]) -> tuple[NightResult, ...]:
@@ -152,11 +153,5 @@ def night_to(night: Night) -> dict[str, Any]:
 
 
 def night_from(data: Mapping[str, Any]) -> Night:
-    """Return a night from JSON data of any version. Raises KeyError, TypeError where it is none."""
-    told = {item.name: data[item.name] for item in fields(Night) if item.name in data}
-    types = get_type_hints(Night)
-    for name, value in told.items():
-        wanted = int | float if types[name] is float else types[name]
-        if isinstance(value, bool) or not isinstance(value, wanted):
-            raise TypeError(f"a night's {name} is {value!r}")
-    return Night(**{"name": data["name"], **told})
+    """Return a night from JSON data of any version. Raises ValueError where it is none."""
+    return msgspec.convert(data, Night)

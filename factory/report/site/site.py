@@ -102,8 +102,8 @@ def write_asset(root: Path, entry: Entry) -> None:
     write_json(folder / _ROW, {"key": key, "row": page.row()})
 
 
-def write_index(registry: Registry) -> Path:
-    """Write the grid, the plain lists and the contact sheet of all pages; returns the first page.
+def write_index(registry: Registry) -> None:
+    """Write the grid, the plain lists and the contact sheet of all pages.
 
     Raises:
         OSError: the site cannot be written.
@@ -126,7 +126,6 @@ def write_index(registry: Registry) -> Path:
         write_whole(site / f"list-{number}.html", text.encode())
     write_whole(site / SHEET, _sheet(site, rows))
     write_whole(site / INDEX, grid_html(rows, len(pages), title).encode())
-    return site / INDEX
 
 
 def _told(folder: Path, entry: Entry) -> dict[str, Any]:

@@ -72,7 +72,6 @@ class AssetPage:
         findings: errors first.
         hypotheses: sentences on other hypotheses of the input.
         repairs: what was changed.
-        places: poses and points that findings lead to.
         data: for the page's script, JSON data.
         folder: link to the asset's own folder; empty without one.
         registry: name of its registry's folder.

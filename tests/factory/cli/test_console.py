@@ -48,13 +48,14 @@ def test_nothing_known_and_nothing_else_are_told_too(capsys):
 
 def test_rate_and_time_left_are_those_of_what_is_built(monkeypatch):
     monkeypatch.setattr(console, "Progress", Watched)
-    console._follow_on_terminal(console.Console(), iter(results(3, 2)), [], 6, tuple)
+    console.follow(iter(results(3, 2)), [], 6)
     assert (Watched.total, Watched.advanced) == (3, 2)
 
 
-def test_the_bar_says_what_is_at_work_and_after_one_input_how_long_the_rest_takes():
+def test_the_bar_says_what_is_at_work_and_after_one_input_how_long_the_rest_takes(monkeypatch):
     at_work = tuple(UnderWay(f"in/oven_{number}.glb", "solids") for number in range(5))
     told = console.Console(file=io.StringIO(), force_terminal=True, width=160)
+    monkeypatch.setattr(console, "Terminal", lambda **_: told)
     seen = []
 
     def slowly():
@@ -64,7 +65,7 @@ def test_the_bar_says_what_is_at_work_and_after_one_input_how_long_the_rest_take
             seen.append(told.file.getvalue())
             yield result
 
-    console._follow_on_terminal(told, slowly(), [], 3, lambda: at_work)
+    console.follow(slowly(), [], 3, lambda: at_work)
     assert "about" not in seen[0]
     assert "about 0:00:" in told.file.getvalue()
     assert "oven_0.glb solids, oven_1.glb solids, oven_2.glb solids +2" in told.file.getvalue()

@@ -4,7 +4,7 @@ from shown_registry import bundle_in, make_registry
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.cli.report import report_after
-from asset_factory.factory.jobs import pages
+from asset_factory.factory.report import pages
 
 
 def test_report_draws_every_page_once(tmp_path, capsys):
@@ -20,7 +20,7 @@ def test_report_draws_every_page_once(tmp_path, capsys):
 
 def test_a_build_is_done_whatever_becomes_of_its_report(tmp_path, capsys, monkeypatch):
     registry = make_registry(tmp_path / "out")
-    monkeypatch.setattr(pages, "LIBRARIES", ("not_installed_anywhere",))
+    monkeypatch.setattr(pages, "find_spec", lambda name: None)
     report_after(registry.root, 1)
     assert "pip install" in capsys.readouterr().err
     monkeypatch.undo()

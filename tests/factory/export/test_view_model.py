@@ -50,7 +50,7 @@ def test_what_was_rejected_keeps_what_is_shown_and_no_asset(tmp_path):
 
 def test_a_rejection_without_a_folder_keeps_its_report_alone(tmp_path):
     registry = Registry(tmp_path / "out", create=True)
-    folder = registry.reject(replace(REJECTED, id="chest-1"), BAD_REPORT)
+    folder = registry.add(replace(REJECTED, id="chest-1"), BAD_REPORT)
     assert [path.name for path in folder.iterdir()] == ["report.json"]
 
 

@@ -61,13 +61,13 @@ def test_where_nothing_says_nothing_limits(tmp_path):
     ("asked", "free", "started"),
     [(None, 64, 4), (None, 5, 2), (None, 0, 1), (3, 64, 3), (16, 9, 4), (16, None, 16)],
 )
-def test_workers_fit_into_what_is_free(asked, free, started, monkeypatch):
+def test_workers_fit_into_what_is_free(asked, free, started, monkeypatch, capsys):
     monkeypatch.setattr(memory, "processors", lambda: 4)
     monkeypatch.setattr(memory, "free_memory", lambda: None if free is None else free * GIB)
-    workers, sentence = workers_for(asked, 2 * GIB)
-    assert workers == started
+    assert workers_for(asked, 2 * GIB) == started
+    sentence = capsys.readouterr().err
     wanted = asked or 4
-    assert (sentence is None) == (started == wanted)
-    if sentence is not None:
+    assert (sentence == "") == (started == wanted)
+    if sentence:
         assert f"{started} of {wanted} workers" in sentence
         assert "2.0 GiB" in sentence

@@ -26,13 +26,13 @@ def test_a_published_asset_is_listed_and_whole(registry):
     assert registry.entries() == (PASSED,)
     assert (folder / "meshes" / "a.obj").read_text() == "one"
     assert json.loads((folder / "report.json").read_text())["passed"] is True
-    assert list(registry.staging.iterdir()) == []
+    assert list((registry.root / ".staging").iterdir()) == []
 
 
 def test_repairs_are_told_as_they_were_registered_and_of_older_reports_by_their_sentences(registry):
     repair = Repair(RepairKind.LEFT_HOLLOW, ("lever",))
     told = replace(BAD_REPORT, repairs=(repair,))
-    path = registry.reject(REJECTED, told) / "report.json"
+    path = registry.add(REJECTED, told) / "report.json"
     assert registry.told(REJECTED) == told
     stored = json.loads(path.read_text())
     assert stored["repairs"] == [repair.sentence]
@@ -47,10 +47,10 @@ def test_repairs_are_told_as_they_were_registered_and_of_older_reports_by_their_
 
 def test_an_asset_that_is_later_rejected_is_no_longer_published(registry):
     published = publish(registry)
-    folder = registry.reject(REJECTED, BAD_REPORT)
+    folder = registry.add(REJECTED, BAD_REPORT)
     assert not published.exists()
     assert registry.entries() == (REJECTED,)
-    assert registry.report(REJECTED).errors[0].value == 5.0
+    assert registry.told(REJECTED).report.errors[0].value == 5.0
     assert folder.parent == registry.rejected
     publish(registry)
     assert not folder.exists()
@@ -69,9 +69,10 @@ def test_a_failure_before_the_rename_publishes_nothing(registry, monkeypatch):
     assert list(registry.assets.iterdir()) == []
 
 
-def test_only_what_passed_is_published(registry, tmp_path):
-    with pytest.raises(RegistryError, match="status is 'rejected'"):
-        registry.publish(REJECTED, tmp_path, REPORT)
+def test_what_passed_has_files(registry):
+    with pytest.raises(RegistryError, match="has passed, and has no files"):
+        registry.add(PASSED, REPORT)
+    assert registry.entries() == ()
 
 
 def test_an_unknown_id_far_from_any_says_how_many_there_are(registry):
@@ -111,7 +112,7 @@ def test_without_an_exchanging_rename_two_do(registry, monkeypatch):
     monkeypatch.setattr(exchanged, lambda first, second: errno.ENOSYS)
     folder = publish(registry, "two")
     assert (folder / "meshes" / "a.obj").read_text() == "two"
-    assert list(registry.staging.iterdir()) == []
+    assert list((registry.root / ".staging").iterdir()) == []
 
 
 def test_the_report_has_the_files_digests_and_the_entry(registry):
@@ -122,7 +123,7 @@ def test_the_report_has_the_files_digests_and_the_entry(registry):
     assert report["entry"]["license"] == "CC0-1.0"
     assert report["entry"]["split"] == PASSED.split
     assert not {"tags", "solved"} & set(report["entry"])
-    assert registry.report(PASSED).passed
+    assert registry.told(PASSED).report.passed
 
 
 def test_what_the_files_know_better_completes_the_entry(registry):
@@ -131,15 +132,15 @@ def test_what_the_files_know_better_completes_the_entry(registry):
     assert registry.entry(PASSED.id).license == ""
     with registry.staging_folder() as staging:
         (staging / "asset.json").write_text('{"license": "CC-BY-4.0"}')
-        registry.publish(replace(PASSED, license=""), staging, REPORT)
+        registry.add(replace(PASSED, license=""), REPORT, staging)
     assert registry.entry(PASSED.id).license == "CC-BY-4.0"
-    registry.reject(replace(REJECTED, message=""), BAD_REPORT)
+    registry.add(replace(REJECTED, message=""), BAD_REPORT)
     assert registry.entry(PASSED.id).message == "5 mm deep"
 
 
 def test_an_id_that_is_no_folder_name_is_refused(registry):
     with pytest.raises(RegistryError, match=r"an entry's id must be .* not '\.\./up'"):
-        registry.reject(replace(REJECTED, id="../up"), BAD_REPORT)
+        registry.add(replace(REJECTED, id="../up"), BAD_REPORT)
     assert not (registry.root / "up").exists()
 
 
@@ -152,7 +153,7 @@ def test_a_bundle_from_another_file_system_is_refused(registry, tmp_path, monkey
 
     monkeypatch.setattr("os.rename", elsewhere)
     with pytest.raises(RegistryError, match="another file system"):
-        registry.publish(PASSED, bundle, REPORT)
+        registry.add(PASSED, REPORT, bundle)
     monkeypatch.undo()
     assert registry.entries() == ()
 
@@ -173,4 +174,4 @@ def test_a_registry_that_nobody_can_write_to_can_be_read(registry, monkeypatch):
     publish(registry)
     monkeypatch.setattr("os.access", lambda path, mode: False)
     assert Registry(registry.root).entries() == (PASSED,)
-    assert Registry(registry.root).report(PASSED).passed
+    assert Registry(registry.root).told(PASSED).report.passed

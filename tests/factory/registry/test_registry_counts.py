@@ -10,8 +10,8 @@ from registry_samples import PASSED
 
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.database import connected, writing
-from asset_factory.factory.registry.rebuild import write_database
-from asset_factory.factory.registry.rows import Filters, RegistryRow, count, delete, insert, select
+from asset_factory.factory.registry.rebuild import new_database
+from asset_factory.factory.registry.rows import RegistryRow, count, delete, having, insert, select
 
 STATUSES = ("passed", "rejected")
 LICENSES = ("", "MIT")
@@ -32,7 +32,7 @@ changes = st.lists(st.one_of(entries, st.integers(0, 5)), max_size=30)
 def require_true_counts(connection):
     wanted = product((None, *STATUSES), (None, *LICENSES), (None, *SOLVED), (None, "train"))
     for status, license, solved, split in wanted:
-        filters = Filters(status=status, license=license, solved=solved, split=split)
+        filters = having(status=status, license=license, solved=solved, split=split)
         rows = select(connection, filters, limit=None, after="")
         assert count(connection, filters) == len(rows), filters
     assert connection.execute("SELECT count(*) FROM counts WHERE number < 1").fetchone() == (0,)
@@ -61,7 +61,8 @@ def test_a_database_written_at_once_counts_too_and_what_is_undone_is(tmp_path):
     found = [RegistryRow(replace(PASSED, id=f"thing-{number}"), "") for number in range(7)]
     registry = Registry(tmp_path / "out", create=True)
     (tmp_path / "new").mkdir()
-    write_database(tmp_path / "new" / "registry.db", found)
+    with new_database(tmp_path / "new" / "registry.db") as connection:
+        insert(connection, found)
     (tmp_path / "new" / "registry.db").replace(registry.root / "registry.db")
     assert registry.count() == 7
     with writing(registry.root) as connection:
@@ -75,6 +76,6 @@ def test_counting_reads_no_row(registry):
     with connected(registry.root) as connection:
         asked = []
         connection.set_trace_callback(asked.append)
-        count(connection, Filters(category="fridge", status="passed"))
+        count(connection, having(category="fridge", status="passed"))
         plan = connection.execute(f"EXPLAIN QUERY PLAN {asked[0]}").fetchall()
     assert all("assets" not in str(step) for step in plan)

@@ -50,7 +50,7 @@ def state(registry):
     seen = []
     for entry in registry.entries():
         mesh = registry.folder(entry) / "meshes" / "a.obj"
-        assert registry.report(entry).passed == (entry.status == "passed")
+        assert registry.told(entry).report.passed == (entry.status == "passed")
         content = mesh.read_text() if mesh.exists() else ""
         seen.append((entry.id, entry.status, content, entry.tags, entry.solved))
     return seen
@@ -66,7 +66,7 @@ def outcome(root, *steps):
 WORK = {
     "one": lambda registry: publish(registry, "one"),
     "two": lambda registry: publish(registry, "two"),
-    "reject": lambda registry: registry.reject(REJECTED, BAD_REPORT),
+    "reject": lambda registry: registry.add(REJECTED, BAD_REPORT),
     "forget": lambda registry: registry.forget(PASSED.id),
     "note": lambda registry: registry.note(PASSED.id, tags=("a",), solved="yes"),
 }

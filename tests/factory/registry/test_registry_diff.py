@@ -7,7 +7,7 @@ from registry_samples import PASSED, REJECTED, named, publish
 
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Registry
-from asset_factory.factory.registry.diff import diff
+from asset_factory.factory.registry.diff import Diff, diff
 from asset_factory.factory.registry.export import contents, write_export
 from asset_factory.factory.registry.sources import entries_of
 
@@ -26,12 +26,11 @@ def test_each_change_has_its_group():
     assert failed == [("c", "rest_penetration")]
     assert [(change.after.id, change.columns) for change in found.changed] == [("d", ("joints",))]
     assert found.same == 2
-    assert not found.empty
     assert found.to_dict()["newly_failed"][0]["after"]["message"] == "5 mm deep"
 
 
 def test_nothing_changes_within_one_registry():
-    assert diff((PASSED,), (PASSED,)).empty
+    assert diff((PASSED,), (PASSED,)) == Diff(same=1)
 
 
 def test_entries_are_found_wherever_they_are(tmp_path):

@@ -37,12 +37,12 @@ def worker(registry):
 
 def test_a_living_process_keeps_its_folder_a_dead_one_does_not(registry, worker):
     assert collect_garbage(registry.root).staging.files == 0
-    assert len(list(registry.staging.glob("*/half.obj"))) == 1
+    assert len(list((registry.root / ".staging").glob("*/half.obj"))) == 1
     worker.kill()
     worker.join(30)
     freed = collect_garbage(registry.root)
     assert (freed.staging.files, freed.staging.bytes) == (1, 1000)
-    assert list(registry.staging.iterdir()) == []
+    assert list((registry.root / ".staging").iterdir()) == []
     assert registry.count() == 3
 
 

@@ -36,7 +36,7 @@ def test_a_round_trip_changes_nothing(registry, other, tmp_path, name):
     assert import_export(other, source, trusted=True).published == wanted
     assert dump(other) == dump(registry)
     assert verify(other) == ()
-    assert list(other.staging.iterdir()) == []
+    assert list((other.root / ".staging").iterdir()) == []
     again = import_export(other, source)
     assert (again.published, again.same) == ((), ("cabinet-1", "chest-1", "fridge-1"))
 
@@ -58,7 +58,7 @@ def test_any_small_registry_survives_the_round_trip(tmp_path_factory, assets, co
             bundle.mkdir()
             for name, content in files.items():
                 (bundle / name).write_bytes(content)
-            registry.publish(named(asset_id), bundle, REPORT)
+            registry.add(named(asset_id), REPORT, bundle)
     other = Registry(root / "other", create=True)
     import_export(other, export(registry, root / ("x.tgz" if compressed else "x")), trusted=True)
     assert dump(other) == dump(registry)
@@ -71,7 +71,7 @@ def refused(other, source, match, **arguments):
     with pytest.raises(RegistryError, match=match):
         import_export(other, source, **arguments)
     assert (dump(other), sorted(path.name for path in other.assets.iterdir())) == before
-    assert list(other.staging.iterdir()) == []
+    assert list((other.root / ".staging").iterdir()) == []
 
 
 def test_other_assets_of_the_same_id_are_not_replaced_unasked(registry, other, tmp_path):
@@ -89,9 +89,9 @@ def test_builds_are_answered_with_an_import_only_if_it_is_trusted(
     key = "ab" * 32
     publish(registry, "one", named("oven-1", key=key))
     import_export(other, export(registry, tmp_path / "x"), trusted=trusted)
-    assert (other.known_key(key) is not None) == trusted
+    assert (key in other.known_keys((key,))) == trusted
     rebuild(other.root)
-    assert (other.known_key(key) is not None) == trusted
+    assert (key in other.known_keys((key,))) == trusted
 
 
 def test_tags_add_up(registry, other, tmp_path):

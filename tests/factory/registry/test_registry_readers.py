@@ -26,7 +26,7 @@ def read(root, stop, answers):
                 assert (registry.folder(entry) / "meshes" / "a.obj").read_text() in ("one", "two")
                 assert (registry.folder(entry) / "asset.urdf").is_file()
             for entry in entries:
-                registry.report(entry)
+                registry.told(entry)
             assert registry.entry("cabinet-1").status == "passed"
             times += 1
         answers.put(times)
@@ -62,7 +62,7 @@ def test_readers_see_whole_assets_only(tmp_path):
             content = ("two", "one")[rounds % 2]
             publish(registry, content, named("cabinet-1"))
             publish(registry, content, named("cabinet-2"))
-            registry.reject(named("chest-1", status="rejected", reason=REJECTED.reason), BAD_REPORT)
+            registry.add(named("chest-1", status="rejected", reason=REJECTED.reason), BAD_REPORT)
             rebuild(registry.root)
             publish(registry, content, named("chest-1"))
             registry.note("cabinet-2", tags=(f"round-{rounds}",))

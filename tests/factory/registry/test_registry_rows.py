@@ -20,7 +20,7 @@ def registry(tmp_path):
     publish(made, entry=named("cabinet-1"))
     publish(made, entry=named("cabinet-2", key="cd" * 32, license="MIT"))
     publish(made, entry=named("fridge-1", category="fridge", key=""))
-    made.reject(replace(REJECTED, id="fridge-2", category="fridge", key=""), BAD_REPORT)
+    made.add(replace(REJECTED, id="fridge-2", category="fridge", key=""), BAD_REPORT)
     return made
 
 
@@ -86,20 +86,20 @@ def test_walking_goes_through_all_pages(registry, monkeypatch):
 
 
 def test_a_key_is_known_while_its_files_are_there(registry):
-    assert registry.known_key("cd" * 32).id == "cabinet-2"
-    assert registry.known_key("ef" * 32) is None
-    assert registry.known_key("") is None
+    known = "cd" * 32
+    unknown = "ef" * 32
+    assert registry.known_keys((known, unknown, "")) == {known: registry.entry("cabinet-2")}
     (registry.assets / "cabinet-2" / "report.json").unlink()
-    assert registry.known_key("cd" * 32) is None
+    assert registry.known_keys((known,)) == {}
 
 
 def test_notes_are_kept_and_taken_back(registry):
     assert registry.note("cabinet-1", tags=("b", "a", "b"), solved="no").tags == ("a", "b")
     assert registry.note("cabinet-1", solved="yes").tags == ("a", "b")
     assert registry.entry("cabinet-1").solved == "yes"
-    assert (registry.notes / "cabinet-1.json").is_file()
+    assert (registry.root / "notes" / "cabinet-1.json").is_file()
     assert registry.note("cabinet-1", tags=(), solved="") == named("cabinet-1")
-    assert not (registry.notes / "cabinet-1.json").exists()
+    assert not (registry.root / "notes" / "cabinet-1.json").exists()
 
 
 def test_other_files_have_not_been_solved(registry):
@@ -137,5 +137,5 @@ def test_forgetting_takes_the_note_too(registry):
     registry.note("cabinet-1", tags=("a",))
     registry.forget("cabinet-1")
     assert registry.find("cabinet-1") is None
-    assert not (registry.notes / "cabinet-1.json").exists()
+    assert not (registry.root / "notes" / "cabinet-1.json").exists()
     registry.forget("never-there")

@@ -3,6 +3,7 @@
 import ast
 import subprocess
 import sys
+from importlib.util import resolve_name
 from pathlib import Path
 
 import pytest
@@ -129,7 +130,7 @@ def _seen_by_python(tree, name, file):
         if isinstance(node, ast.Import):
             found |= {(alias.name, "") for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            source = code._absolute("." * node.level + (node.module or ""), package)
+            source = resolve_name("." * node.level + (node.module or ""), package)
             found |= {(source, alias.name) for alias in node.names}
     own = {each for each in found if each[0].partition(".")[0] == "asset_factory"}
     return {code._home(*each) for each in own}

@@ -108,5 +108,5 @@ class Other:
     "arrays", [{}, {"text": np.array("{")}, {"text": np.array("[1]")}, pack(Other(1.0))]
 )
 def test_what_was_not_packed_is_refused(arrays):
-    with pytest.raises(ValueError, match=r"no Box was packed here|Expecting"):
+    with pytest.raises(ValueError, match=r"no Box: |Expecting"):
         unpack(Box, arrays)

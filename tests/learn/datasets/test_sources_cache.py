@@ -173,9 +173,9 @@ def test_registered_assets_are_objects(tmp_path):
         if status == "passed":
             with registry.staging_folder() as staging:
                 cabinet(staging / name).rename(staging / name / "asset.urdf")
-                registry.publish(entry, staging / name, REPORT)
+                registry.add(entry, REPORT, staging / name)
         else:
-            registry.reject(entry, BAD_REPORT)
+            registry.add(entry, BAD_REPORT)
     folders = (tmp_path / "data", tmp_path / "cache")
     prepared = prepare("registry", *folders, settings=SETTINGS, workers=1)
     assert prepared.report.read == ("cabinet-1",)

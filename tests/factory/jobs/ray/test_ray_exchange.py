@@ -3,17 +3,16 @@
 import io
 import tarfile
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 import ray_calls
 
 from asset_factory.factory.jobs.ray.exchange import (
-    Exchange,
     ExchangeError,
-    moved,
-    paths_below,
+    begin_transfer,
+    make_and_send,
     unpacked,
+    with_own_folder,
 )
 from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 
@@ -26,51 +25,49 @@ def between(tmp_path):
 
 
 def filling(folder, size=10):
-    return {"source": "it", "folder": folder, "size": size}
+    return {"source": "it", "staging": folder, "size": size}
 
 
-def made(exchange, arguments):
+def made(url, arguments):
     """The outcome of a call made on a node, and what opens it."""
-    function, sent, transfer = exchange.sent(ray_calls.fill, arguments)
-    return Outcome(function(**sent), None, "", "", 0.0), transfer
+    sent, transfer = begin_transfer(url, ray_calls.fill, with_own_folder(arguments))
+    return Outcome(make_and_send(**sent), None, "", "", 0.0), transfer
 
 
 def test_a_shared_folder_holds_each_try_apart(tmp_path):
-    tries = [made(Exchange("folder"), filling(tmp_path / "staging")) for _ in range(2)]
-    folders = {transfer.opened(outcome).unwrap().folder for outcome, transfer in tries}
+    tries = [with_own_folder(filling(tmp_path / "staging")) for _ in range(2)]
+    folders = {ray_calls.fill(**each).bundle for each in tries}
     assert len(folders) == 2
     assert all(each.is_relative_to(tmp_path / "staging") and each.is_dir() for each in folders)
 
 
 def test_a_folder_that_is_sent_arrives_whole_and_leaves_nothing(tmp_path, between):
-    exchange = Exchange("folder", between.as_uri())
-    outcome, transfer = made(exchange, filling(tmp_path / "staging", 5000))
+    outcome, transfer = made(between.as_uri(), filling(tmp_path / "staging", 5000))
     assert not (tmp_path / "staging").exists(), "nothing is written there but by the caller"
     filled = transfer.opened(outcome).unwrap()
-    assert filled.folder.is_relative_to(tmp_path / "staging")
-    found = sorted(path.relative_to(filled.folder).as_posix() for path in filled.folder.rglob("*"))
+    assert filled.bundle.is_relative_to(tmp_path / "staging")
+    found = sorted(path.relative_to(filled.bundle).as_posix() for path in filled.bundle.rglob("*"))
     assert found == ["meshes", "meshes/a.bin", "robot.urdf"]
-    assert (filled.folder / "meshes" / "a.bin").read_bytes() == bytes(range(256)) * 5000
+    assert (filled.bundle / "meshes" / "a.bin").read_bytes() == bytes(range(256)) * 5000
     assert not list(between.iterdir())
 
 
 def test_nodes_are_not_told_of_places_that_only_the_caller_sees(tmp_path, between):
-    arguments = {**filling(tmp_path / "staging"), "cache": tmp_path / "cache"}
-    sent = Exchange("folder", between.as_uri(), absent=("cache",)).sent(ray_calls.fill, arguments)
-    assert sent[1]["arguments"]["cache"] is None
-    shared = Exchange("folder", absent=("cache",)).sent(ray_calls.fill, arguments)
-    assert shared[1]["arguments"]["cache"] == tmp_path / "cache"
+    shared = with_own_folder({**filling(tmp_path / "staging"), "cache": tmp_path / "cache"})
+    assert shared["cache"] == tmp_path / "cache"
+    sent, _ = begin_transfer(between.as_uri(), ray_calls.fill, shared)
+    assert sent["arguments"]["cache"] is None
 
 
 def test_a_failed_call_keeps_its_failure(tmp_path, between):
-    transfer = Exchange("folder", between.as_uri()).sent(ray_calls.fill, filling(tmp_path))[2]
+    _, transfer = begin_transfer(between.as_uri(), ray_calls.fill, filling(tmp_path))
     failed = Outcome(None, Failure.TIMEOUT, "no answer", "", 1.0)
     assert transfer.opened(failed) == failed
 
 
 @pytest.mark.parametrize("damage", ["altered", "cut", "longer", "gone"])
 def test_another_file_than_was_sent_is_no_answer(tmp_path, between, damage):
-    outcome, transfer = made(Exchange("folder", between.as_uri()), filling(tmp_path / "staging"))
+    outcome, transfer = made(between.as_uri(), filling(tmp_path / "staging"))
     (file,) = between.iterdir()
     data = file.read_bytes()
     changed = {"altered": data[:-1] + b"x", "cut": data[:-1], "longer": data + b"x"}
@@ -81,13 +78,13 @@ def test_another_file_than_was_sent_is_no_answer(tmp_path, between, damage):
 
 
 def test_what_cannot_be_sent_is_told_from_a_call_that_fails(tmp_path):
-    nowhere = Exchange("folder", (tmp_path / "gone").as_uri())
+    nowhere = (tmp_path / "gone").as_uri()
     with pytest.raises(ExchangeError, match="gone"):
         made(nowhere, filling(tmp_path / "staging"))
 
 
 def test_a_store_that_does_not_answer_loses_a_try(tmp_path, between, monkeypatch):
-    outcome, transfer = made(Exchange("folder", between.as_uri()), filling(tmp_path / "staging"))
+    outcome, transfer = made(between.as_uri(), filling(tmp_path / "staging"))
 
     class Silent:
         def open(self, path, mode):
@@ -103,7 +100,7 @@ def test_a_store_that_does_not_answer_loses_a_try(tmp_path, between, monkeypatch
 
 
 def test_more_than_can_be_is_not_fetched(tmp_path, between):
-    outcome, transfer = made(Exchange("folder", between.as_uri()), filling(tmp_path / "staging"))
+    outcome, transfer = made(between.as_uri(), filling(tmp_path / "staging"))
     with pytest.raises(OSError, match="at most"):
         transfer.opened(replace(outcome, value=replace(outcome.value, size=2**50)))
 
@@ -133,12 +130,3 @@ def test_an_archive_writes_nowhere_else(tmp_path, name, kind):
     with tarfile.open(fileobj=packed) as archive, refused:
         unpacked(archive, tmp_path / "in")
     assert [path.name for path in tmp_path.rglob("*")] == ["in"]
-
-
-def test_paths_move_and_nothing_else_does():
-    old = Path("/old/place")
-    new = Path("/new")
-    value = (ray_calls.Filled(old / "bundle", 2), Path("/elsewhere"), "/old/place/text")
-    wanted = (ray_calls.Filled(new / "bundle", 2), Path("/elsewhere"), "/old/place/text")
-    assert moved(value, old, new) == wanted
-    assert list(paths_below(value, old)) == [old / "bundle"]

@@ -19,7 +19,6 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs.executor import AHEAD, Call
 from asset_factory.factory.jobs.ray.cluster import SETTINGS
 from asset_factory.factory.jobs.ray.executor import RayExecutor
-from asset_factory.factory.jobs.ray.network import Asked
 from asset_factory.sim_checks.processes.isolation import Limits
 
 ray = pytest.importorskip("ray")
@@ -147,7 +146,7 @@ def test_calls_ask_the_network_of_their_node_or_that_of_the_gpu(cluster, device)
     # The second name is the same device, and one that has to be placed.
     config = ParticulateConfig(device=device)
     own = ray_calls.answer(config, "nobody is asked")
-    executor = RayExecutor(address=cluster.address, network=Asked(config, "address"))
+    executor = RayExecutor(address=cluster.address, network=config)
     calls = [Call(str(number), {"config": config, "address": None}) for number in range(4)]
     for _, outcome in executor.run(ray_calls.answer, calls, LIMITS):
         said, at_home, path = outcome.unwrap()

@@ -4,6 +4,7 @@ import hashlib
 import io
 import tarfile
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,13 +15,12 @@ from asset_factory.factory.build import make_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs.ray.exchange import ExchangeError
-from asset_factory.factory.jobs.ray.inputs import Inputs
-from asset_factory.factory.jobs.ray.weights import Checkpoints, arrived, sent_weights
+from asset_factory.factory.jobs.ray.inputs import pack_input
+from asset_factory.factory.jobs.ray.weights import arrived, sent_weights
 from asset_factory.factory.models.weights.sources import fetch, weights_at
 from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.judge import Judge
 
-INPUTS = Inputs("source", "place", lambda product: product.reads)
 CONFIG = BuildConfig(articulator="rigid", simulators=())
 
 
@@ -30,7 +30,7 @@ def inputs(tmp_path_factory):
 
 
 def packed(source, more=frozenset()):
-    return INPUTS.packed({"source": source}, more)
+    return pack_input(source, more)
 
 
 def keys_of(source):
@@ -43,7 +43,7 @@ def read_there(source):
     more = frozenset()
     for rounds in range(1, 9):
         sent = packed(source, more)
-        with sent.sent.unpacked(sent.data) as path:
+        with sent.unpacked(sent.data) as path:
             there = Source(path, CONFIG, source)
             try:
                 said = there.load().provenance
@@ -88,7 +88,7 @@ def test_an_input_that_is_gone_is_the_same_everywhere(inputs):
 def test_a_product_tells_where_its_input_lies_here(inputs, tmp_path):
     source = inputs / "box_0.stl"
     sent = packed(source)
-    with sent.sent.unpacked(sent.data) as path, Judge(CheckConfig()) as judge:
+    with sent.unpacked(sent.data) as path, Judge(CheckConfig()) as judge:
         product = make_asset(path, tmp_path / "staging", CONFIG, None, judge, source)
     assert (product.source, product.result.input) == (source, str(source))
 
@@ -96,7 +96,7 @@ def test_a_product_tells_where_its_input_lies_here(inputs, tmp_path):
 @pytest.mark.parametrize("folder", ["..", "", "fridges"])
 def test_the_folder_keeps_its_name(inputs, folder):
     sent = packed(inputs / "box_0.stl")
-    with replace(sent.sent, folder=folder).unpacked(sent.data) as path:
+    with replace(sent, source=Path(folder) / "box_0.stl").unpacked(sent.data) as path:
         assert path.read_bytes() == (inputs / "box_0.stl").read_bytes()
         assert path.parent.name == folder or not folder
         around = next(each for each in path.resolve().parents if each.name.startswith("input-"))
@@ -108,7 +108,7 @@ def test_no_input_leaves_its_folder(inputs):
     with tarfile.open(fileobj=data, mode="w:") as archive:
         archive.addfile(tarfile.TarInfo("../out"))
     digest = hashlib.sha256(data.getvalue()).hexdigest()
-    forged = replace(packed(inputs / "box_0.stl").sent, digest=digest).unpacked(data.getvalue())
+    forged = replace(packed(inputs / "box_0.stl"), digest=digest).unpacked(data.getvalue())
     with pytest.raises(ExchangeError, match="no file or folder below"), forged:
         pass
 
@@ -138,7 +138,7 @@ def test_a_checkpoint_is_fetched_once(node, tmp_path_factory):
     named = write_checkpoint(tmp_path_factory.mktemp("weights") / "tiny.safetensors")
     content = named.read_bytes()
     ray = Cluster()
-    sent = sent_weights(ray, Checkpoints("weights", (str(named), "", "shipped", "absent.pt")))
+    sent = sent_weights(ray, (str(named), "", "shipped", "absent.pt"))
     assert [each[:2] for each in sent] == [(str(named), named.name)]
     named.unlink()
     for _ in range(2):

@@ -9,13 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from asset_factory.factory.jobs.ray.exchange import HERE, ExchangeError
-from asset_factory.factory.jobs.ray.inputs import Inputs
-from asset_factory.factory.jobs.ray.worker import Order, WorkerSettings, carry_out
+from asset_factory.factory.jobs.ray.exchange import ExchangeError
+from asset_factory.factory.jobs.ray.inputs import pack_input
+from asset_factory.factory.jobs.ray.worker import Order, carry_out
 from asset_factory.sim_checks.processes.isolation import Limits, Outcome
 
 pytest.importorskip("ray")
-SETTINGS = WorkerSettings(0, 1, 2**30, ())
 
 
 @pytest.fixture
@@ -23,7 +22,7 @@ def sent(tmp_path):
     source = tmp_path / "meshes" / "thing.stl"
     source.parent.mkdir()
     source.write_text("solid thing")
-    return Inputs("source", "place", lambda value: {}).packed({"source": source}, frozenset())
+    return pack_input(source, frozenset())
 
 
 @pytest.fixture
@@ -32,19 +31,19 @@ def made(monkeypatch):
     seen = []
 
     def work(child, function, limits, *, retries, until):
-        path = function.keywords[HERE]["source"]
+        path = function.keywords["here"]["source"]
         seen.append((path, path.read_text()))
         return work.outcome
 
     work.seen = seen
     work.outcome = Outcome("value", None, "", "", 0.0)
-    monkeypatch.setattr("asset_factory.factory.jobs.ray.worker._child", lambda settings: None)
+    monkeypatch.setattr("asset_factory.factory.jobs.ray.worker._child", lambda modules: None)
     monkeypatch.setattr("asset_factory.factory.jobs.ray.worker.tried", work)
     return work
 
 
 def ordered(sent, data=None, **changed):
-    order = Order(len, {}, Limits(wall_s=9.0), SETTINGS, replace(sent.sent, **changed))
+    order = Order(len, {}, Limits(wall_s=9.0), 0, input=replace(sent, **changed))
     return carry_out(pickle.dumps(order), sent.data if data is None else data, [])
 
 

@@ -46,9 +46,9 @@ def test_figures_survive_storing_and_other_versions():
     assert data["yield"] == 0.8
     assert night_from({**data, "of_a_later_version": 3}) == figures
     assert night_from({"name": "old"}).attempted == 0
-    with pytest.raises(TypeError, match="passed"):
+    with pytest.raises(ValueError, match="passed"):
         night_from({**data, "passed": "<script>"})
-    with pytest.raises(KeyError):
+    with pytest.raises(ValueError, match="name"):
         night_from({})
 
 
