@@ -52,12 +52,6 @@ def test_the_articulation_alone(checkpoint):
     assert weights["license"].startswith("Not stated in the file.")
 
 
-def test_terms_that_a_file_states_are_taken_from_it(tmp_path):
-    own = write_checkpoint(tmp_path / "own.safetensors", base=7, metadata={"terms": "CC0-1.0"})
-    told = told_of(FRIDGE, own, points=500, context_points=200)
-    assert told["weights"][0]["license"] == "CC0-1.0"
-
-
 def test_the_same_again(checkpoint):
     settings = {"points": 800, "context_points": 200, "samples": 2}
     first = told_of(FRIDGE, checkpoint, **settings)
