@@ -100,6 +100,7 @@ def test_the_manifest_is_what_was_written_and_measures_the_object(tmp_path):
     assert manifest["bounds"] == [[-0.3, -0.252, 0.0], [0.3, 0.2, 0.8]]
     assert manifest["mass"] == pytest.approx(6.0)
     assert manifest["license"] == "CC0-1.0"
+    assert manifest["provenance"].items() >= {"input": "cabinet.glb", "digest": "0" * 64}.items()
     assert manifest["links"][1]["hulls"] == 2
     hinge = manifest["joints"][0]
     assert (hinge["lower"], hinge["upper"], hinge["unit"]) == (0.0, 1.6, "rad")
