@@ -51,6 +51,23 @@ def cut(
     return tree, before, separate(tree, before, [PAIR], CONFIG, 64)
 
 
+def cut_free(
+    body: Sequence[Solid], mover: Sequence[Solid], joint: Joint, poses: int = 150
+) -> tuple[Articulation, tuple[PartHulls, ...], Separation]:
+    """The same of two that afterwards touch nowhere on the way."""
+    tree, before, result = cut(body, mover, joint)
+    assert result.refused == {}
+    assert deepest(tree, result, poses) == 0.0
+    return tree, before, result
+
+
+def require_refused(body: Sequence[Solid], mover: Sequence[Solid], joint: Joint) -> None:
+    """The two are left as they are, one in the other: no cut hides that."""
+    tree, _, result = cut(body, mover, joint)
+    assert PAIR in result.refused
+    assert deepest(tree, result) > 0.001
+
+
 def deepest(
     tree: Articulation, result: Separation, poses: int = 150, gap: float = 0.0, **way: float
 ) -> float:
