@@ -1,7 +1,6 @@
 """One command turns meshes into registered assets; failures have a reason and cost no other."""
 
 import json
-import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -12,11 +11,11 @@ import trimesh
 from command_line import COMMAND
 
 from asset_factory.factory.build import build_asset
-from asset_factory.factory.cli.commands import run
+from asset_factory.factory.cli.build import build_config
+from asset_factory.factory.cli.commands import parse, run
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.jobs import run_builds
 from asset_factory.factory.registry import Registry
-from asset_factory.factory.runtime.layout import CACHE
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "meshes"
 GENERATED = EXAMPLES.parent / "generated" / "fridge.glb"
@@ -171,17 +170,10 @@ def test_a_generated_skin_opens_in_all_three_simulators(skin):
     assert {("base", "hollow"), ("door_0", "slab back"), ("door_1", "slab back")} <= invented
 
 
-def test_without_an_interior_nothing_is_hollow(skin, tmp_path):
-    # What moves is the same: only the bodies are made anew.
-    shutil.copytree(skin[0] / CACHE, tmp_path / CACHE)
-    asked = ("--input", GENERATED, "--sim", "mujoco", "--no-interior", "--no-report")
-    _, summary = build(tmp_path, *asked)
-    (row,) = summary["assets"]
-    assert row["status"] == "passed", row
-    manifest = json.loads((tmp_path / "assets" / row["id"] / "asset.json").read_text())
-    kinds = {each["kind"] for each in manifest["invented"]}
-    assert "slab back" in kinds
-    assert "hollow" not in kinds
+@pytest.mark.parametrize(("flags", "interior"), [((), True), (("--no-interior",), False)])
+def test_an_interior_is_made_unless_a_flag_says_no(flags, interior):
+    _, command = parse(["build", "--input", "x", "--output", "y", *flags])
+    assert build_config(command).solids.interior is interior
 
 
 @pytest.mark.full

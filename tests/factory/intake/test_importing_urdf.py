@@ -1,7 +1,5 @@
 """URDF -> Intake: geometry in place, joints in the root frame, a reason for every refusal."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -198,39 +196,6 @@ def test_too_many_faces_are_refused_with_the_number(tmp_path):
     with pytest.raises(InputRejected) as caught:
         load_description(write(tmp_path, link("a", BOX * 3)), IntakeConfig(max_faces=30))
     assert (caught.value.code, caught.value.value) == ("too_large", 36)
-
-
-FORMATS = Path(__file__).parents[4] / "shared" / "fixtures" / "data_formats"
-
-
-@pytest.mark.skipif(
-    not FORMATS.is_dir(), reason="the reference conversions are not on this machine"
-)
-@pytest.mark.parametrize("name", ["hinge_slider", "offset_limits_nested"])
-def test_axes_and_ranges_agree_with_the_reference_conversion(name):
-    """The reference poses every joint at its lower limit, then fits the whole into a unit box."""
-    result = articulated(load(FORMATS / name / "in" / f"{name}.urdf"))
-    lines = np.load(FORMATS / name / "out" / "link_axes_plucker.npz")
-    ranges = np.load(FORMATS / name / "out" / "link_range.npz")
-    poses = result.poses({joint.name: joint.lower for joint in result.joints})
-    meshes = [result.part_mesh(part).transformed(pose) for part, pose in enumerate(poses)]
-    low = np.min([mesh.bounds[0] for mesh in meshes], axis=0)
-    high = np.max([mesh.bounds[1] for mesh in meshes], axis=0)
-    scale = 1.0 / (high - low).max()
-    alphabetical = sorted(part.name for part in result.parts)
-    for joint in result.joints:
-        bone = str(alphabetical.index(result.parts[joint.child].name))
-        line = np.split(lines[bone], 2)
-        reach = np.split(ranges[bone], 2)
-        which = 0 if joint.turns else 1
-        pose = poses[joint.child]
-        axis = pose[:3, :3] @ joint.axis
-        point = (pose[:3, :3] @ joint.origin + pose[:3, 3] - (low + high) / 2.0) * scale
-        np.testing.assert_allclose(line[which][:3], axis, atol=1e-6)
-        if joint.turns:
-            np.testing.assert_allclose(line[which][3:], np.cross(axis, point), atol=1e-6)
-        span = joint.range * (1.0 if joint.turns else scale)
-        np.testing.assert_allclose(reach[which], [0.0, span], atol=1e-6)
 
 
 def homogeneous(rotation, translation):
