@@ -5,11 +5,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from plain_solids import signed_volume
+from refusing import refusal
 from scipy.spatial.transform import Rotation
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers.load import load_description
 
 BOX = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
@@ -43,12 +43,6 @@ def articulated(intake):
 
 def lift(folder, body):
     return articulated(load(write(folder, body)))
-
-
-def refused(folder, body):
-    with pytest.raises(InputRejected) as caught:
-        lift(folder, body)
-    return caught.value
 
 
 def bounds_of(articulation, name):
@@ -86,7 +80,8 @@ def test_commas_between_numbers_are_read_as_others_read_them_and_told(tmp_path):
     intake = load(write(tmp_path, moved))
     assert np.ptp(intake.mesh.vertices[:4], axis=0).tolist() == [2, 2, 3]
     assert any("commas" in note for note in intake.provenance.notes)
-    assert refused(tmp_path, moved.replace("2.0, 1.0,1.0", "2,0 1 1,0")).code == "unreadable"
+    wrong = moved.replace("2.0, 1.0,1.0", "2,0 1 1,0")
+    assert refusal(lift, tmp_path, wrong).code == "unreadable"
 
 
 def test_materials_are_found_by_name_and_in_place(tmp_path):
@@ -186,16 +181,16 @@ def seen(shape):
     ],
 )
 def test_what_cannot_be_used_is_refused_with_a_code_and_a_name(tmp_path, code, body, says):
-    error = refused(tmp_path, body)
+    error = refusal(lift, tmp_path, body)
     assert error.code == code
     assert says in error.message
     assert str(tmp_path) not in error.message
 
 
 def test_too_many_faces_are_refused_with_the_number(tmp_path):
-    with pytest.raises(InputRejected) as caught:
-        load_description(write(tmp_path, link("a", BOX * 3)), IntakeConfig(max_faces=30))
-    assert (caught.value.code, caught.value.value) == ("too_large", 36)
+    path = write(tmp_path, link("a", BOX * 3))
+    found = refusal(load_description, path, IntakeConfig(max_faces=30))
+    assert (found.code, found.value) == ("too_large", 36)
 
 
 def homogeneous(rotation, translation):
