@@ -3,12 +3,12 @@
 import json
 import re
 from dataclasses import replace
-from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
 from export_samples import PROVENANCE, cabinet
+from html_page import Page
 from refusing import refusal
 from registry_samples import PASSED
 from shown_registry import HIT, HOSTILE, POINT, bundle_in, make_registry
@@ -26,28 +26,6 @@ from asset_factory.sim_checks import Finding, Severity
 from asset_factory.sim_checks.measurements import penetrations
 
 EXAMPLES = Path(__file__).parents[4] / "examples"
-
-
-class Page(HTMLParser):
-    """What a browser would act upon: links, what is loaded, attributes that run scripts."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.links = []
-        self.loaded = []
-        self.handlers = []
-        self.tags = []
-        self.feed(text)
-
-    def handle_starttag(self, tag, attrs):
-        self.tags.append(tag)
-        for name, value in attrs:
-            if name == "href" and tag == "a":
-                self.links.append(value)
-            elif name in ("src", "href", "srcset", "data", "action"):
-                self.loaded.append(value)
-            elif name.startswith("on"):
-                self.handlers.append(name)
 
 
 @pytest.fixture(scope="module")
