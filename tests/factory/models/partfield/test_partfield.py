@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import torch  # noqa: TID253
 from tiny_model import TINY_FIELD as TINY
-from weight_rule import weights
+from tiny_model import field_of
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.partfield.encoder import GRID, PartFieldEncoder, voxelize
@@ -15,13 +15,6 @@ from asset_factory.factory.models.partfield.shape import (
     expected_tensors,
     read_partfield_shape,
 )
-from asset_factory.factory.models.particulate.field import FeatureField
-
-
-def field(shape=TINY):
-    encoder = PartFieldEncoder(shape)
-    encoder.load_state_dict(weights(expected_tensors(shape), 0))
-    return FeatureField(shape, torch.float32, "cpu", encoder.eval().requires_grad_(False))
 
 
 @pytest.mark.parametrize(
@@ -71,12 +64,14 @@ def test_voxels_have_the_axes_x_y_z_and_round_half_to_even():
 
 def test_features_do_not_depend_on_where_the_shape_is_or_how_large():
     cloud = np.random.default_rng(3).uniform(-0.5, 0.5, (400, 3)) * [1.0, 0.5, 0.7]
-    here = field().features(cloud, cloud[:50])
-    there = field().features(4.0 * cloud + [8.0, -4.0, 2.0], 4.0 * cloud[:50] + [8.0, -4.0, 2.0])
+    here = field_of(TINY).features(cloud, cloud[:50])
+    there = field_of(TINY).features(
+        4.0 * cloud + [8.0, -4.0, 2.0], 4.0 * cloud[:50] + [8.0, -4.0, 2.0]
+    )
     assert here.shape == (50, 8)
     # Rounding may move a point over a cell's edge.
     assert np.median(np.abs(here - there)) < 1e-3 * np.abs(here).max()
 
 
 def test_a_cloud_without_extent_still_has_features():
-    assert np.isfinite(field().features(np.ones((5, 3)), np.ones((2, 3)))).all()
+    assert np.isfinite(field_of(TINY).features(np.ones((5, 3)), np.ones((2, 3)))).all()

@@ -7,15 +7,12 @@ import numpy as np
 import pytest
 import torch  # noqa: TID253
 import torch.nn.functional as F  # noqa: N812, TID253
-from weight_rule import weights
+from tiny_model import field_of, model_of
 
-from asset_factory.factory.models.network.shape import NetworkShape, expected_tensors, read_shape
-from asset_factory.factory.models.network.transformer import PartArticulationTransformer
-from asset_factory.factory.models.partfield.encoder import PartFieldEncoder
+from asset_factory.factory.models.network.shape import NetworkShape, read_shape
 from asset_factory.factory.models.partfield.shape import PartFieldShape, read_partfield_shape
-from asset_factory.factory.models.partfield.shape import expected_tensors as expected_field_tensors
-from asset_factory.factory.models.particulate.field import FeatureField, load_field
-from asset_factory.factory.models.particulate.model import Model, PointCloud, load_model
+from asset_factory.factory.models.particulate.field import load_field
+from asset_factory.factory.models.particulate.model import PointCloud, load_model
 
 KEPT = Path(__file__).with_name("parity.npz")
 TINY = NetworkShape(hidden=48, blocks=2, heads=4, features=32)
@@ -33,22 +30,6 @@ OUTPUTS = {
     "prismatic_direction": "prismatic_dir_raw",
     "prismatic_range": "prismatic_range",
 }
-
-
-def built(shape, base, dtype=torch.float32):
-    """A model with weights from the rule that the fixtures were made with."""
-    with torch.device("meta"):
-        network = PartArticulationTransformer(shape)
-    network.load_state_dict(weights(expected_tensors(shape), base, GAINS), assign=True)
-    return Model(shape, dtype, "cpu", network.eval().requires_grad_(False))
-
-
-def built_field(shape, dtype=torch.float32):
-    """A field with weights from the rule."""
-    with torch.device("meta"):
-        encoder = PartFieldEncoder(shape)
-    encoder.load_state_dict(weights(expected_field_tensors(shape), 0), assign=True)
-    return FeatureField(shape, dtype, "cpu", encoder.eval().requires_grad_(False))
 
 
 def case(file, prefix=""):
@@ -73,18 +54,18 @@ def cloud_of(wanted):
 
 def test_the_transformer_says_what_the_original_said():
     wanted = case(KEPT, "transformer_")
-    assert_same(built(TINY, 0).predict(cloud_of(wanted)), wanted)
+    assert_same(model_of(TINY, GAINS).predict(cloud_of(wanted)), wanted)
 
 
 def test_the_features_are_the_originals():
     wanted = case(KEPT, "partfield_")
-    features = built_field(TINY_FIELD).features(wanted["points_enc"], wanted["points_dec"])
+    features = field_of(TINY_FIELD).features(wanted["points_enc"], wanted["points_dec"])
     np.testing.assert_allclose(features, wanted["point_feat"], **CLOSE)
 
 
 def test_features_in_bfloat16_stay_within_two_percent():
     wanted = case(KEPT, "partfield_")
-    field = built_field(TINY_FIELD, torch.bfloat16)
+    field = field_of(TINY_FIELD, torch.bfloat16)
     features = field.features(wanted["points_enc"], wanted["points_dec"])
     error = np.linalg.norm(features - wanted["point_feat"]) / np.linalg.norm(wanted["point_feat"])
     assert 1e-5 < error < 0.02
@@ -131,7 +112,7 @@ def test_the_released_size_says_what_the_original_said(fixtures):
     shape = read_shape({name: tuple(size) for name, size in keys.items()})
     assert shape == NetworkShape()
     wanted = case(folder / "forward_base0.npz")
-    assert_same(built(shape, 0).predict(cloud_of(wanted)), wanted)
+    assert_same(model_of(shape, GAINS).predict(cloud_of(wanted)), wanted)
 
 
 def test_stored_tiny_field_is_the_originals(fixtures):
@@ -158,14 +139,14 @@ def test_the_released_field_is_the_originals(fixtures):
     shape = read_partfield_shape({name: tuple(size) for name, size in keys.items()})
     assert shape == PartFieldShape()
     wanted = case(folder / "case_base0.npz")
-    features = built_field(shape).features(wanted["points_enc"], wanted["points_dec"])
+    features = field_of(shape).features(wanted["points_enc"], wanted["points_dec"])
     np.testing.assert_allclose(features, wanted["point_feat"], **CLOSE)
 
 
 @pytest.mark.full
 def test_the_released_size_in_bfloat16_stays_within_two_percent(fixtures):
     wanted = case(fixtures / "pat_b_full" / "forward_base0.npz")
-    prediction = built(NetworkShape(), 0, torch.bfloat16).predict(cloud_of(wanted))
+    prediction = model_of(NetworkShape(), GAINS, torch.bfloat16).predict(cloud_of(wanted))
     for name, original in OUTPUTS.items():
         largest = max(1.0, np.abs(wanted[original]).max())
         assert np.abs(getattr(prediction, name) - wanted[original]).max() < 0.02 * largest, name
