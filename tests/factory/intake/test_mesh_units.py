@@ -1,7 +1,5 @@
 """Up axis, metric size, category and sidecar."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,8 +12,6 @@ from asset_factory.factory.intake.categories import category_table, guess_catego
 from asset_factory.factory.intake.loading import load_mesh
 from asset_factory.factory.intake.orientation import UP_AXES, rotation_to_z_up
 from asset_factory.factory.intake.sizes import scale_by_size
-
-FIXTURE = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e2e" / "up_dir.npz"
 
 
 def _box(folder, name, extents):
@@ -42,10 +38,8 @@ def test_the_named_axis_becomes_z_by_a_proper_rotation(axis):
 
 
 @pytest.mark.parametrize("axis", UP_AXES)
-def test_rotations_agree_with_the_released_model(axis):
-    if not FIXTURE.exists():
-        pytest.skip("the recorded up_dir fixture is not on this machine")
-    with np.load(FIXTURE) as recorded:
+def test_rotations_agree_with_the_released_model(fixtures, axis):
+    with np.load(fixtures / "postprocess_e2e" / "up_dir.npz") as recorded:
         turned = recorded["in"] @ rotation_to_z_up(axis).T
         low = turned.min(axis=0)
         high = turned.max(axis=0)

@@ -1,7 +1,5 @@
 """pred.npz -> Annotation."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from refusing import refusal
@@ -139,17 +137,12 @@ def test_hierarchies_that_are_no_forest_are_refused(tmp_path, edges):
     assert refusal(articulate, path).code == "not_a_tree"
 
 
-PREDICTIONS = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e2e"
-
-
-@pytest.mark.skipif(
-    not PREDICTIONS.is_dir(), reason="the reference predictions are not on this machine"
-)
 @pytest.mark.parametrize("name", ["strict_induced_tree", "nonstrict"])
-def test_published_predictions_become_trees(name):
-    stored = np.load(PREDICTIONS / name / "pred.npz", allow_pickle=False)
+def test_published_predictions_become_trees(fixtures, name):
+    path = fixtures / "postprocess_e2e" / name / "pred.npz"
+    stored = np.load(path, allow_pickle=False)
     count = len(stored["face_part_ids"])
-    result = articulate(PREDICTIONS / name / "pred.npz", count)
+    result = articulate(path, count)
     assert len(result.joints) == len(stored["motion_hierarchy"])
     # Posing a joint inside its range turns the axes it carries; those of the root's children stay.
     for joint in (j for j in result.joints if j.parent == 0):
