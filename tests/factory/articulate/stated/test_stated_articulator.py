@@ -12,7 +12,7 @@ from refusing import refusal
 from stated_parts import FINE, articulated, block, box_of
 
 from asset_factory.factory.articulate.locate import located
-from asset_factory.factory.articulate.stated import StatedArticulator, placing
+from asset_factory.factory.articulate.stated import StatedArticulator
 from asset_factory.factory.articulation import JointKind, rotation_about
 from asset_factory.factory.errors import ConfigError, InputRejected
 from asset_factory.factory.intake.stated import Hinge, StatedKind, stated_from
@@ -120,24 +120,6 @@ def test_a_hinge_that_a_kind_cannot_have_is_refused():
 def test_nothing_opens_where_that_is_said():
     (made,) = articulated(fridge(), opens=False)
     assert made.movable_joints == ()
-
-
-@pytest.fixture(scope="module", autouse=True)
-def seen_once():
-    """Has the sides of a mesh looked at once, whatever is stated on them."""
-    known = {}
-    reliefs_of, fronts_of = placing.reliefs_of, placing.fronts_of
-
-    def kept(views):
-        key = views.mesh.vertices.tobytes(), views.mesh.faces.tobytes()
-        if key not in known:
-            known[key] = fronts_of(reliefs_of(views))
-        return known[key]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(placing, "reliefs_of", kept)
-        patch.setattr(placing, "fronts_of", lambda fronts: fronts)
-        yield
 
 
 EDGES = st.sampled_from([0.0, 0.001, 0.05, 0.1, 0.48, 0.52, 0.9, 0.996, 1.0])
