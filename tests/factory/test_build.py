@@ -2,7 +2,6 @@
 
 import json
 import subprocess
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +13,6 @@ from asset_factory.factory.build import build_asset
 from asset_factory.factory.cli.build import build_config
 from asset_factory.factory.cli.commands import parse, run
 from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.jobs import run_builds
-from asset_factory.factory.registry import Registry
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "meshes"
 GENERATED = EXAMPLES.parent / "generated" / "fridge.glb"
@@ -101,23 +98,6 @@ def test_what_is_left_is_said(tmp_path, capsys):
         assert (summary["state"], summary["left"], summary["inputs"]) == (state, 1, 0)
         assert "1 inputs are left" in capsys.readouterr().out
     assert run([*asked, "--since", "2999-01-01"]) == 0
-
-
-def test_a_process_that_is_killed_is_listed_as_unjudged(tmp_path):
-    output = tmp_path / "out"
-    Registry(output, create=True)
-    inputs = (EXAMPLES / "oven.glb", EXAMPLES / "fridge.obj")
-    config = BuildConfig(articulator="geometric", simulators=())
-    starved = replace(config, asset_wall_s=0.01)
-    results = list(run_builds(inputs, output, starved, workers=2))
-    assert [result.entry.status for result in results] == ["unjudged"] * 2
-    assert {result.entry.reason for result in results} == {"build_timeout"}
-    assert all("no answer within 0.01 s" in result.entry.message for result in results)
-    # The same input judged later replaces the entry.
-    result = build_asset(inputs[1], output, config)
-    assert result.entry.status == "passed"
-    entries = {entry.name: entry.status for entry in Registry(output).entries()}
-    assert entries == {"oven": "unjudged", "fridge": "passed"}
 
 
 def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):

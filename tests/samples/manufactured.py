@@ -10,9 +10,13 @@ from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
 
 
+def intake_of(mesh, **known):
+    """A mesh as if it were read, with what is known of it."""
+    provenance = Provenance("thing.glb", "0" * 64, **known)
+    return Intake("thing", mesh, np.arange(len(mesh.faces)), np.eye(4), provenance)
+
+
 def manufactured(whole, kept, plan=None, config=None, **known):
     """The asset, what is found of it, and the stages that made it of what is known."""
-    provenance = Provenance("thing.glb", "0" * 64, **known)
-    intake = Intake("thing", whole.mesh, np.arange(len(whole.mesh.faces)), np.eye(4), provenance)
     stages = Stages(config or BuildConfig(), Store(kept))
-    return *manufacture(whole, plan or Plan(), intake, stages), stages
+    return *manufacture(whole, plan or Plan(), intake_of(whole.mesh, **known), stages), stages

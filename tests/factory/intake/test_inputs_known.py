@@ -1,7 +1,5 @@
 """Which files an input is made of is found out once, and every one of them counts."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from mesh_cube import write_glb, write_gltf, write_obj
@@ -99,15 +97,6 @@ def test_the_key_knows_names_and_folders_only_as_far_as_they_matter(tmp_path):
         keys[folder] = source_key(load(write_glb(tmp_path / folder)))
     assert keys["a"] == keys["b"] != keys["fridge"]
     assert source_key(load(write_glb(tmp_path / "a", "other.glb"))) not in keys.values()
-
-
-def test_settings_are_in_the_key(tmp_path):
-    path = write_glb(tmp_path)
-    source = load(path)
-    simulated = Source(path, replace(CONFIG, simulators=("mujoco",)))
-    simulated.reads = source.reads
-    assert source_key(simulated) != source_key(source)
-    assert source_key(Source(path, CONFIG)) == ""
 
 
 def test_an_input_that_somebody_writes_is_read_again_and_then_refused(tmp_path, monkeypatch):

@@ -64,23 +64,6 @@ def test_systemd_takes_the_units_as_they_are(home):
     assert verified(home, *units) == (0, "")
 
 
-@pytest.mark.parametrize(
-    ("kind", "right", "wrong"),
-    [
-        ("service", "KillMode=mixed", "KillMode=most"),
-        ("timer", "OnCalendar=*-*-* 01:00", "OnCalendar=at night"),
-    ],
-)
-def test_systemd_would_say_what_is_wrong_with_them(home, tmp_path, kind, right, wrong):
-    program(home, "factory", REAL)
-    for each in ("service", "timer"):
-        shutil.copy(EXAMPLES / f"factory-nightly.{each}", tmp_path)
-    unit = tmp_path / f"factory-nightly.{kind}"
-    assert right in unit.read_text()
-    unit.write_text(unit.read_text().replace(right, wrong))
-    assert wrong.split("=")[1] in verified(home, unit)[1]
-
-
 @pytest.fixture(scope="module")
 def cluster(tmp_path_factory):
     with slurm_cluster(tmp_path_factory.mktemp("slurm")) as environment:
