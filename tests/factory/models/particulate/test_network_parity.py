@@ -77,15 +77,6 @@ def test_stored_tiny_weights_say_what_the_original_said(fixtures, seed):
     assert model.shape == TINY
     wanted = case(fixtures / "pat_tiny" / f"forward_seed{seed}.npz")
     assert_same(model.predict(cloud_of(wanted)), wanted)
-    with torch.no_grad():
-        batch = [torch.tensor(wanted[name])[None] for name in ("xyz", "normals", "feats")]
-        hidden = model._network.embed(*batch)
-        queries = model._network.first_queries()[None]
-        np.testing.assert_allclose(queries[0], wanted["emb_part_query"], **CLOSE)
-        for number, block in enumerate(model._network.blocks):
-            hidden, queries = block(hidden, queries)
-            np.testing.assert_allclose(hidden[0], wanted[f"block{number}_x"], **CLOSE)
-            np.testing.assert_allclose(queries[0], wanted[f"block{number}_q"], **CLOSE)
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
@@ -119,15 +110,6 @@ def test_stored_tiny_field_is_the_originals(fixtures):
     field = load_field(str(fixtures / "partfield_tiny" / "weights_base0.safetensors"), heads=4)
     assert field.shape == TINY_FIELD
     wanted = case(fixtures / "partfield_tiny" / "case_base0.npz")
-    encoder = field._encoder
-    with torch.no_grad():
-        points = torch.tensor(wanted["points_enc_norm"])
-        first = encoder.pvcnn.pc_encoder.encoder[0](points)
-        planes = encoder.pvcnn(points)
-        last = encoder.triplane_transformer(planes)
-    np.testing.assert_allclose(first[0], wanted["pts0"], **CLOSE)
-    np.testing.assert_allclose(planes[0], wanted["pvcnn_out"], **CLOSE)
-    np.testing.assert_allclose(last[0], wanted["planes"], **CLOSE)
     features = field.features(wanted["points_enc"], wanted["points_dec"])
     np.testing.assert_allclose(features, wanted["point_feat"], **CLOSE)
 
