@@ -63,6 +63,21 @@ def test_the_first_ctrl_c_finishes_what_is_begun_and_the_second_stops(tmp_path):
     assert len(Registry(tmp_path / "out").entries()) == 3
 
 
+def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch):
+    monkeypatch.setattr(job_module, "build_here", pretend)
+    monkeypatch.setattr(job_module, "modules_for", lambda config: ())
+    inputs = write_inputs(tmp_path / "in", 8)
+    winding = job(inputs, tmp_path / "out")
+    finished = []
+    for result in winding.run():
+        finished.append(result)
+        winding.wind_up()
+    assert 1 <= len(finished) < 8
+    assert (winding.left, winding.state) == (8 - len(finished), "interrupted")
+    rest = job(inputs, tmp_path / "out")
+    assert len(list(rest.run())) == 8
+
+
 def test_a_job_out_of_time_stops_what_runs_and_registers_nothing_of_it(tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "slow.stl").write_text("solid slow")
