@@ -18,8 +18,7 @@ from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs.job import asks_network
 
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
-FRIDGE = EXAMPLES / "fridge.obj"
+FRIDGE = Path(__file__).resolve().parents[3] / "examples" / "meshes" / "fridge.obj"
 
 
 @pytest.fixture(scope="module")
