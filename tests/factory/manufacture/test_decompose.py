@@ -7,6 +7,7 @@ import pytest
 import trimesh
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from plain_solids import parted
 from refusing import refusal
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
@@ -90,8 +91,7 @@ def test_a_carrier_has_no_hulls():
     vertices, faces = boxes(((0.4, 0.3, 0.2), (0, 0, 0)))
     mesh = Mesh.from_triangles(vertices, faces)
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, np.array([0, 0, 1.0]), np.zeros(3), 0.0, 0.1)
-    parts = (Part("body", np.arange(len(mesh.faces))), Part("carrier", np.zeros(0)))
-    results = decompose(Articulation(mesh, parts, (joint,), "rigid"), CONFIG)
+    results = decompose(parted({"body": [mesh], "carrier": []}, joint), CONFIG)
     assert results[1] == PartHulls((), "none", (), True)
 
 
@@ -286,15 +286,10 @@ def test_pieces_are_split_again_up_to_a_count():
 @pytest.mark.full
 def test_a_hundred_thousand_faces_in_two_blobs_become_hulls(tmp_path):
     """It takes 43 s of processor time, V-HACD's included, and took minutes of CoACD."""
-    pieces = [blob(112), blob(112, at=0.8)]
-    vertices = np.concatenate([piece[0] for piece in pieces])
-    count = len(pieces[0][0])
-    mesh = Mesh.from_triangles(vertices, np.concatenate([pieces[0][1], pieces[1][1] + count]))
-    half = len(pieces[0][1])
-    parts = (Part("base", np.arange(half)), Part("lid", np.arange(half, len(mesh.faces))))
+    base, lid = (Mesh.from_triangles(*blob(112, at=at)) for at in (0.0, 0.8))
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, np.array([0, 0, 1.0]), np.zeros(3), 0.0, 0.1)
-    articulation = Articulation(mesh, parts, (joint,), "annotated")
-    assert len(mesh.faces) > 98_000
+    articulation = parted({"base": [base], "lid": [lid]}, joint)
+    assert len(articulation.mesh.faces) > 98_000
     for result in decompose(articulation, DecomposeConfig()):
         assert (result.method, len(result.hulls) <= 64) == ("vhacd", True)
 

@@ -6,8 +6,9 @@ from itertools import product
 import numpy as np
 import pytest
 from held_parts import CONFIG, PAIR, box, cut, cut_free, deepest, hulls_of, mesh_of, require_refused
+from plain_solids import parted
 
-from asset_factory.factory.articulation import Articulation, Joint, Part, rotation_about
+from asset_factory.factory.articulation import Joint, Part, rotation_about
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.poses import relative_poses
@@ -86,13 +87,11 @@ def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not
     for overlap, refused in ((0.006, False), (0.06, True)):
         left = box((0, 0, 0), (0.5 + overlap / 2, 0.018, 0.6))
         right = box((0.5 - overlap / 2, 0, 0), (1, 0.018, 0.6))
-        names = ("back", "left", "right")
-        parts = tuple(Part(name, np.arange(12 * i, 12 * i + 12)) for i, name in enumerate(names))
         way = ([0, -1, 0], [0, 0, 0], 0.0, 0.2)
         joints = (Joint("one", "prismatic", 0, 1, *way), Joint("two", "prismatic", 0, 2, *way))
-        boxes = (back, left, right)
-        tree = Articulation(mesh_of([*boxes]), parts, joints, "test")
-        pieces = tuple(PartHulls(hulls_of([each]), "exact", (), True) for each in boxes)
+        boxes = {"back": [back], "left": [left], "right": [right]}
+        tree = parted({name: [mesh_of(own)] for name, own in boxes.items()}, *joints)
+        pieces = tuple(PartHulls(hulls_of(own), "exact", (), True) for own in boxes.values())
         result = separate(tree, pieces, [("left", "right")], CONFIG, 64)
         assert (("left", "right") in result.refused) == refused
 
