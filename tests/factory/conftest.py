@@ -15,6 +15,12 @@ def reading_child():
 
 
 @pytest.fixture(scope="module")
+def kept(tmp_path_factory):
+    """Where stages are kept for all tests of a file."""
+    return tmp_path_factory.mktemp("kept")
+
+
+@pytest.fixture(scope="module")
 def server():
     with s3_server() as address:
         yield address

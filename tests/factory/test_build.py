@@ -1,9 +1,7 @@
 """One command turns meshes into registered assets; failures have a reason and cost no other."""
 
 import json
-import shutil
 import subprocess
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,11 +10,9 @@ import trimesh
 from command_line import COMMAND
 
 from asset_factory.factory.build import build_asset
-from asset_factory.factory.cli.commands import run
+from asset_factory.factory.cli.build import build_config
+from asset_factory.factory.cli.commands import parse, run
 from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.jobs import run_builds
-from asset_factory.factory.registry import Registry
-from asset_factory.factory.runtime.layout import CACHE
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "meshes"
 GENERATED = EXAMPLES.parent / "generated" / "fridge.glb"
@@ -58,27 +54,6 @@ def test_lines_are_plain_where_there_is_no_terminal(fridge):
     _, done, summary = fridge
     assert f"[1/1] passed: {summary['assets'][0]['id']}" in done.stderr
     assert "1 inputs: 1 passed, 0 rejected, 0 could not be validated." in done.stdout
-
-
-def test_list_and_show_tell_what_is_there(fridge, capsys):
-    output, _, summary = fridge
-    name = summary["assets"][0]["id"]
-    assert run(["list", "--output", str(output), "--json"]) == 0
-    assert [entry["id"] for entry in json.loads(capsys.readouterr().out)] == [name]
-    assert run(["show", name, "--output", str(output), "--json"]) == 0
-    shown = json.loads(capsys.readouterr().out)
-    assert shown["report"]["passed"] is True
-    assert shown["manifest"]["name"] == "fridge"
-    assert run(["list", "--output", str(output)]) == 0
-    assert "passed" in capsys.readouterr().out
-
-
-def test_check_judges_the_published_files_again(fridge, tmp_path):
-    output, _, summary = fridge
-    folder = output / "assets" / summary["assets"][0]["id"]
-    report = tmp_path / "report.json"
-    assert run(["check", str(folder / "asset.urdf"), "--sim", "sapien", "--json", str(report)]) == 0
-    assert json.loads(report.read_text())["passed"] is True
 
 
 def bad_inputs(folder):
@@ -125,23 +100,6 @@ def test_what_is_left_is_said(tmp_path, capsys):
     assert run([*asked, "--since", "2999-01-01"]) == 0
 
 
-def test_a_process_that_is_killed_is_listed_as_unjudged(tmp_path):
-    output = tmp_path / "out"
-    Registry(output, create=True)
-    inputs = (EXAMPLES / "oven.glb", EXAMPLES / "fridge.obj")
-    config = BuildConfig(articulator="geometric", simulators=())
-    starved = replace(config, asset_wall_s=0.01)
-    results = list(run_builds(inputs, output, starved, workers=2))
-    assert [result.entry.status for result in results] == ["unjudged"] * 2
-    assert {result.entry.reason for result in results} == {"build_timeout"}
-    assert all("no answer within 0.01 s" in result.entry.message for result in results)
-    # The same input judged later replaces the entry.
-    result = build_asset(inputs[1], output, config)
-    assert result.entry.status == "passed"
-    entries = {entry.name: entry.status for entry in Registry(output).entries()}
-    assert entries == {"oven": "unjudged", "fridge": "passed"}
-
-
 def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
     # Two drawers of one chest, modelled with 8 mm of overlap: no repair may hide that.
     parts = {
@@ -186,21 +144,16 @@ def test_a_generated_skin_opens_in_all_three_simulators(skin):
     assert (row["status"], row["joints"]) == ("passed", 2), row
     manifest = json.loads((output / "assets" / row["id"] / "asset.json").read_text())
     assert [joint["kind"] for joint in manifest["joints"]] == ["revolute", "revolute"]
+    surface = {"part", "kind", "rule", "thickness_m", "depth_m"}
+    assert all(set(each) == surface for each in manifest["invented"])
     invented = {(each["part"], each["kind"]) for each in manifest["invented"]}
     assert {("base", "hollow"), ("door_0", "slab back"), ("door_1", "slab back")} <= invented
 
 
-def test_without_an_interior_nothing_is_hollow(skin, tmp_path):
-    # What moves is the same: only the bodies are made anew.
-    shutil.copytree(skin[0] / CACHE, tmp_path / CACHE)
-    asked = ("--input", GENERATED, "--sim", "mujoco", "--no-interior", "--no-report")
-    _, summary = build(tmp_path, *asked)
-    (row,) = summary["assets"]
-    assert row["status"] == "passed", row
-    manifest = json.loads((tmp_path / "assets" / row["id"] / "asset.json").read_text())
-    kinds = {each["kind"] for each in manifest["invented"]}
-    assert "slab back" in kinds
-    assert "hollow" not in kinds
+@pytest.mark.parametrize(("flags", "interior"), [((), True), (("--no-interior",), False)])
+def test_an_interior_is_made_unless_a_flag_says_no(flags, interior):
+    _, command = parse(["build", "--input", "x", "--output", "y", *flags])
+    assert build_config(command).solids.interior is interior
 
 
 @pytest.mark.full

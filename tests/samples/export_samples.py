@@ -6,8 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 import trimesh
 from PIL import Image
+from plain_solids import parted
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.intake.intake import Provenance
 from asset_factory.factory.mesh import Material, Mesh, Texture, concatenate
@@ -45,10 +46,7 @@ def boxes_asset(
     meshes: list[Mesh], joints: tuple[Joint, ...], handles: dict[int, Handle] | None = None
 ) -> Asset:
     """One part ``part_<i>`` per mesh; a mesh without faces makes a carrier."""
-    starts = np.cumsum([0] + [len(m.faces) for m in meshes])
-    spans = [np.arange(starts[i], starts[i + 1]) for i in range(len(meshes))]
-    parts = tuple(Part(f"part_{i}", span) for i, span in enumerate(spans))
-    articulation = Articulation(concatenate(meshes), parts, joints, "test")
+    articulation = parted({f"part_{i}": [mesh] for i, mesh in enumerate(meshes)}, *joints)
     bodies = tuple(
         PartBody((hull_of(m),), inertial_of(m), (handles or {}).get(i), "exact")
         if len(m.faces)

@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 import trimesh
+from plain_solids import parted
 
-from asset_factory.factory.articulation import Articulation, Joint, Part
+from asset_factory.factory.articulation import Articulation, Joint
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.convex import hull_of
@@ -37,9 +38,7 @@ def hulls_of(solids: Sequence[Solid]) -> tuple[Hull, ...]:
 
 def held(body: Sequence[Solid], mover: Sequence[Solid], joint: Joint) -> Articulation:
     """The two as parts of one object."""
-    ends = np.cumsum([0, *(sum(len(each.faces) for each in solids) for solids in (body, mover))])
-    parts = (Part("body", np.arange(ends[1])), Part("mover", np.arange(ends[1], ends[2])))
-    return Articulation(mesh_of([*body, *mover]), parts, (joint,), "test")
+    return parted({"body": [mesh_of(body)], "mover": [mesh_of(mover)]}, joint)
 
 
 def cut(
@@ -49,6 +48,23 @@ def cut(
     tree = held(body, mover, joint)
     before = tuple(PartHulls(hulls_of(solids), "exact", (), True) for solids in (body, mover))
     return tree, before, separate(tree, before, [PAIR], CONFIG, 64)
+
+
+def cut_free(
+    body: Sequence[Solid], mover: Sequence[Solid], joint: Joint, poses: int = 150
+) -> tuple[Articulation, tuple[PartHulls, ...], Separation]:
+    """The same of two that afterwards touch nowhere on the way."""
+    tree, before, result = cut(body, mover, joint)
+    assert result.refused == {}
+    assert deepest(tree, result, poses) == 0.0
+    return tree, before, result
+
+
+def require_refused(body: Sequence[Solid], mover: Sequence[Solid], joint: Joint) -> None:
+    """The two are left as they are, one in the other: no cut hides that."""
+    tree, _, result = cut(body, mover, joint)
+    assert PAIR in result.refused
+    assert deepest(tree, result) > 0.001
 
 
 def deepest(

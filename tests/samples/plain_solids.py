@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import trimesh
 
-from asset_factory.factory.mesh import Material, Mesh
+from asset_factory.factory.articulation import Articulation, Joint, Part
+from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.learn.objects.kit import shapes
 
 Span = tuple[float, float]
@@ -66,3 +67,12 @@ def cylinder(
     """A cylinder; ``center`` in the next two axes in cyclic order [m]."""
     flat = (center[1], center[0]) if axis == 1 else center
     return mesh_of(shapes.cylinder(axis, flat, radius, span, sides), material)
+
+
+def parted(named: dict[str, Sequence[Mesh]], *joints: Joint) -> Articulation:
+    """An object whose parts are some meshes each."""
+    ends = np.cumsum([sum(len(mesh.faces) for mesh in own) for own in named.values()])
+    faces = np.split(np.arange(ends[-1]), ends[:-1])
+    parts = tuple(Part(name, own) for name, own in zip(named, faces, strict=True))
+    mesh = concatenate([mesh for own in named.values() for mesh in own])
+    return Articulation(mesh, parts, joints, "test")

@@ -62,6 +62,20 @@ def three_entries(root: Path) -> Registry:
     return made
 
 
+def alter(folder: Path) -> None:
+    """Damage an asset that was published so; the same for the two below."""
+    (folder / "meshes" / "a.obj").write_text("1")
+
+
+def remove(folder: Path) -> None:
+    (folder / "meshes" / "a.obj").unlink()
+
+
+def link(folder: Path) -> None:
+    (folder / "meshes" / "a.obj").rename(folder.parent / "a.obj")
+    (folder / "meshes" / "a.obj").symlink_to(folder.parent / "a.obj")
+
+
 def require_same(output: Path, wanted: Path) -> None:
     """Fail unless one output is whole, and byte for byte the other."""
     from asset_factory.factory.registry.verify import verify

@@ -1,4 +1,4 @@
-"""Small networks with weights from their tensors' names, as models in memory."""
+"""Networks with weights from their tensors' names, most of them small, as models in memory."""
 
 from functools import cache
 
@@ -8,7 +8,10 @@ from weight_rule import weights
 
 from asset_factory.factory.models.network.shape import NetworkShape, expected_tensors
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
+from asset_factory.factory.models.partfield.encoder import PartFieldEncoder
 from asset_factory.factory.models.partfield.shape import PartFieldShape
+from asset_factory.factory.models.partfield.shape import expected_tensors as expected_field_tensors
+from asset_factory.factory.models.particulate.field import FeatureField
 from asset_factory.factory.models.particulate.model import Model, PointCloud
 
 TINY = NetworkShape(hidden=32, blocks=3, heads=4, features=6)
@@ -21,12 +24,26 @@ GAINS = {"point_mask_decoder": 3.0, "part_hierarchy_decoder": 2.0}
 torch.set_num_threads(1)
 
 
-@cache
-def tiny_model(shape=TINY, dtype=torch.float32, base=0):
+def model_of(shape, gains, dtype=torch.float32):
     """A model of that shape."""
-    network = PartArticulationTransformer(shape)
-    network.load_state_dict(weights(expected_tensors(shape), base, GAINS))
+    with torch.device("meta"):
+        network = PartArticulationTransformer(shape)
+    network.load_state_dict(weights(expected_tensors(shape), 0, gains), assign=True)
     return Model(shape, dtype, network.eval().requires_grad_(False))
+
+
+@cache
+def tiny_model(shape=TINY, dtype=torch.float32):
+    """The same, made once."""
+    return model_of(shape, GAINS, dtype)
+
+
+def field_of(shape, dtype=torch.float32):
+    """A field of that shape."""
+    with torch.device("meta"):
+        encoder = PartFieldEncoder(shape)
+    encoder.load_state_dict(weights(expected_field_tensors(shape), 0), assign=True)
+    return FeatureField(shape, dtype, "cpu", encoder.eval().requires_grad_(False))
 
 
 def random_cloud(count, shape=TINY, seed=0):

@@ -5,13 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from modelled_furniture import METAL, board
-from plain_solids import cylinder
+from plain_solids import cylinder, parted
 from target_worlds import world
 
 from asset_factory.factory.articulate.closing import with_closed_hinges
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.geometry.posing import posed
-from asset_factory.factory.mesh import concatenate
 from asset_factory.factory.part import PartKind
 
 HINGE = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [0.0, 0.0, 0.4], 0.0, np.pi)
@@ -30,11 +29,8 @@ def cupboard(handle=0.05, kind=PartKind.DOOR):
         board((0.0, -0.02, 0.0), (0.6, -0.001, 0.8)),
         board((0.54, -0.02 - handle, 0.3), (0.56, -0.02, 0.5), METAL),
     ]
-    mesh = concatenate([*case, *door])
-    count = sum(len(each.faces) for each in case)
-    own = np.arange(len(mesh.faces)) >= count
-    parts = (Part("body", np.flatnonzero(~own)), Part("door", np.flatnonzero(own), kind=kind))
-    return Articulation(mesh, parts, (HINGE,), "test")
+    whole = parted({"body": case, "door": door}, HINGE)
+    return replace(whole, parts=(whole.parts[0], replace(whole.parts[1], kind=kind)))
 
 
 def guessed(opened, whole):

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from plain_solids import box_between as box
+from plain_solids import parted
 
 from asset_factory.factory.articulate.locate import located, sourced
 from asset_factory.factory.articulate.proposal import Motion, Proposal
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.mesh import concatenate
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.part import OpensBy, PartKind, Proposer
 
 X, Y, Z = np.eye(3)
@@ -15,9 +15,7 @@ X, Y, Z = np.eye(3)
 
 def cupboard(part, joint):
     """A metre of body with one part that moves."""
-    mesh = concatenate([box((0, 0, 0), (1, 1, 1)), part])
-    parts = (Part("base", np.arange(12)), Part("x", np.arange(12, len(mesh.faces))))
-    return Articulation(mesh, parts, (joint,), "test")
+    return parted({"base": [box((0, 0, 0), (1, 1, 1))], "x": [part]}, joint)
 
 
 def hinge(axis, origin):

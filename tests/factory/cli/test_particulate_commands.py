@@ -18,8 +18,7 @@ from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs.job import asks_network
 
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "meshes"
-FRIDGE = EXAMPLES / "fridge.obj"
+FRIDGE = Path(__file__).resolve().parents[3] / "examples" / "meshes" / "fridge.obj"
 
 
 @pytest.fixture(scope="module")
@@ -50,12 +49,6 @@ def test_the_articulation_alone(checkpoint):
     assert weights["file"] == "tiny.safetensors"
     assert weights["digest"] == hashlib.sha256(checkpoint.read_bytes()).hexdigest()
     assert weights["license"].startswith("Not stated in the file.")
-
-
-def test_terms_that_a_file_states_are_taken_from_it(tmp_path):
-    own = write_checkpoint(tmp_path / "own.safetensors", base=7, metadata={"terms": "CC0-1.0"})
-    told = told_of(FRIDGE, own, points=500, context_points=200)
-    assert told["weights"][0]["license"] == "CC0-1.0"
 
 
 def test_the_same_again(checkpoint):

@@ -136,8 +136,9 @@ def test_show_tells_size_joints_files_and_how_to_load_it(tmp_path, run):
     loaded = {}
     exec(loading, loaded)  # noqa: S102 - the lines that people are told to run
     assert loaded["model"].njnt == 2
-    changes = json.loads(run("show", "cab", "--output", root, "--json")[1])["changes"]
-    assert changes == [{"kind": "hulls_cut_apart", "pairs": [[HOSTILE, "base"]]}]
+    shown = json.loads(run("show", "cab", "--output", root, "--json")[1])
+    assert shown["changes"] == [{"kind": "hulls_cut_apart", "pairs": [[HOSTILE, "base"]]}]
+    assert (shown["report"]["passed"], shown["manifest"]["name"]) == (True, "cabinet")
     (packing,) = re.findall(r"in a shell, as an archive to hand on:\n(.*)\n", out)
     subprocess.run(shlex.split(packing), cwd=tmp_path, check=True)
     with tarfile.open(tmp_path / "cabinet-1.tar.gz") as archive:

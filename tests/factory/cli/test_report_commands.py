@@ -1,5 +1,6 @@
 """``factory report`` and ``factory view``."""
 
+import pytest
 from shown_registry import bundle_in, make_registry
 
 from asset_factory.factory.cli.commands import run
@@ -29,14 +30,6 @@ def test_a_build_is_done_whatever_becomes_of_its_report(tmp_path, capsys, monkey
     assert "cannot be written" in capsys.readouterr().err
 
 
-def test_view_saves_one_page(tmp_path, capsys):
-    folder = bundle_in(tmp_path / "bundle")
-    saved = tmp_path / "page.html"
-    assert run(["view", str(folder / "asset.xml"), "--save", str(saved)]) == 0
-    assert capsys.readouterr().out.strip() == str(saved)
-    assert saved.read_text().startswith("<!DOCTYPE html>")
-
-
 def test_view_takes_the_beginning_of_an_id(tmp_path, capsys):
     root = make_registry(tmp_path / "out").root
     saved = tmp_path / "page.html"
@@ -44,7 +37,13 @@ def test_view_takes_the_beginning_of_an_id(tmp_path, capsys):
     assert "cabinet" in saved.read_text()
 
 
-def test_view_reads_a_file_in_a_process_of_its_own(tmp_path, monkeypatch):
-    folder = bundle_in(tmp_path / "bundle")
+@pytest.mark.parametrize("name", ["asset.urdf", "asset.xml"])
+def test_view_reads_a_file_in_a_process_of_its_own_and_saves_one_page(
+    tmp_path, monkeypatch, capsys, name
+):
+    saved = tmp_path / "page.html"
     monkeypatch.setattr("asset_factory.factory.display.described.read_description", None)
-    assert run(["view", str(folder / "asset.urdf"), "--save", str(tmp_path / "page.html")]) == 0
+    folder = bundle_in(tmp_path / "bundle")
+    assert run(["view", str(folder / name), "--save", str(saved)]) == 0
+    assert capsys.readouterr().out.strip() == str(saved)
+    assert saved.read_text().startswith("<!DOCTYPE html>")

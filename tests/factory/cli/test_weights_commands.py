@@ -72,21 +72,8 @@ def test_a_converted_field_keeps_its_terms_and_its_features(released_field, tmp_
     assert np.array_equal(before, after)
 
 
-def test_a_wrong_checkpoint_ends_in_one_sentence(tmp_path, capsys):
-    state = {**tiny_model()._network.state_dict(), "feat_proj.bias": torch.zeros(9)}
-    file = tmp_path / "wrong.pt"
-    torch.save(state, file)
-    assert run(["weights", "info", str(file)]) == 2
-    shown = capsys.readouterr().err
-    assert "feat_proj.bias: shape [9], want [32]" in shown
-    assert str(file) in shown
-    assert "Traceback" not in shown
-    with pytest.raises(ConfigError):
-        load_model(str(file))
-
-
 def test_a_transformer_is_no_field_and_the_reverse(released, released_field):
-    with pytest.raises(ConfigError, match=r"pos_embed: missing; this is no PartField"):
+    with pytest.raises(ConfigError, match=r"model\.pt: .*pos_embed: missing; this is no PartField"):
         load_field(str(released))
     with pytest.raises(ConfigError, match=r"pos_embed.mlp.2.weight: missing"):
         load_model(str(released_field))

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet, image
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, Weights
 from asset_factory.factory.asset import Asset
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.export.manifest import Manifest
+from asset_factory.factory.manufacture.plan import Plan, as_planned
 from asset_factory.factory.mesh import Material
 from asset_factory.factory.part import PartKind, PartSource, Proposer
 from asset_factory.factory.runtime.store import folder_digests
@@ -100,6 +101,7 @@ def test_the_manifest_is_what_was_written_and_measures_the_object(tmp_path):
     assert manifest["bounds"] == [[-0.3, -0.252, 0.0], [0.3, 0.2, 0.8]]
     assert manifest["mass"] == pytest.approx(6.0)
     assert manifest["license"] == "CC0-1.0"
+    assert manifest["provenance"].items() >= {"input": "cabinet.glb", "digest": "0" * 64}.items()
     assert manifest["links"][1]["hulls"] == 2
     hinge = manifest["joints"][0]
     assert (hinge["lower"], hinge["upper"], hinge["unit"]) == (0.0, 1.6, "rad")
@@ -127,6 +129,22 @@ def test_the_manifest_says_which_proposal_a_part_comes_from(tmp_path):
         del link["proposal"]
     older = {**json.loads(bundle.manifest.to_json()), "links": links}
     assert Manifest.from_json(json.dumps(older)).links[1].proposal is None
+
+
+def test_what_a_network_said_and_which_one_is_in_the_manifest_after_repairs_too(tmp_path):
+    plain = cabinet()
+    tree = plain.articulation
+    joints = tuple(replace(joint, confidence=0.87654321) for joint in tree.joints)
+    parts = tuple(replace(part, confidence=0.5) for part in tree.parts)
+    weights = {"file": "model.pt", "digest": "cd" * 32, "license": "CC-BY-4.0"}
+    learned = replace(tree, parts=parts, joints=joints, weights=(Weights(**weights),))
+    repaired = as_planned(learned, Plan(upper={"hinge": 0.8}, frozen=frozenset({"slide"})))
+    for each, said, sure, seen in ((tree, [], None, None), (repaired, [weights], 0.8765, 0.5)):
+        export_bundle(replace(plain, articulation=each), PROVENANCE, tmp_path)
+        manifest = json.loads((tmp_path / "asset.json").read_text())
+        assert manifest["provenance"]["weights"] == said
+        assert [joint["confidence"] for joint in manifest["joints"]] == [sure] * 2
+        assert [link["confidence"] for link in manifest["links"]] == [seen] * 3
 
 
 def test_the_ground_offset_lifts_an_object_that_closes_below_its_input_pose(tmp_path):

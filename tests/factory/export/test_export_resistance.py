@@ -35,15 +35,6 @@ def test_damping_that_explicit_engines_cannot_bear_is_lowered_and_told():
     assert resistance_notes(cabinet(), joint_resistances(cabinet())) == ()
 
 
-def test_friction_that_no_arm_can_overcome_is_lowered_and_told():
-    slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 0.3, friction=100.0)
-    asset = one_joint(slide)
-    (resistance,) = resistances = joint_resistances(asset)
-    assert resistance.friction == 30.0
-    (note,) = resistance_notes(asset, resistances)
-    assert "friction 100" in note
-
-
 def test_friction_that_stops_all_that_bullet_can_turn_is_lowered_and_told():
     hinge = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, friction=0.01)
     asset = one_joint(hinge)

@@ -62,28 +62,6 @@ def test_sapien_puts_every_link_where_the_articulation_does(tmp_path, seed):
             assert np.allclose(seen[name], frame, atol=2e-6)
 
 
-def pybullet_masses(path):
-    """Runs in a child: the mass of every link, root first."""
-    import pybullet
-
-    client = pybullet.connect(pybullet.DIRECT)
-    body = pybullet.loadURDF(
-        path, useFixedBase=True, flags=pybullet.URDF_USE_INERTIA_FROM_FILE, physicsClientId=client
-    )
-    links = range(-1, pybullet.getNumJoints(body))
-    return [pybullet.getDynamicsInfo(body, link)[0] for link in links]
-
-
-@pytest.mark.parametrize("jointed", [True, False])
-def test_pybullet_loads_a_bundle_with_and_without_joints(tmp_path, jointed):
-    pytest.importorskip("pybullet", reason="pybullet is not installed")
-    asset = cabinet() if jointed else boxes_asset([box([0, 0, 0], [1, 1, 1])], ())
-    urdf = str(exported(asset, tmp_path).urdf)
-    masses = run_isolated(pybullet_masses, urdf, limits=LIMITS).unwrap()
-    # PyBullet reports no mass for a fixed base.
-    assert masses[1:] == [body.inertial.mass for body in asset.bodies[1:]]
-
-
 def pybullet_turned(path):
     """Runs in a child: friction of the first joint, and where three times it takes the joint."""
     import pybullet

@@ -1,30 +1,14 @@
 """What an input seems to refer to: all that its reader asks for, and nothing outside its folder."""
 
-from contextlib import suppress
-
 import pytest
 from input_files import write_inputs
 
-from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.companions import companions
-from asset_factory.factory.intake.source import Source
 
 
 @pytest.fixture(scope="module")
 def inputs(tmp_path_factory):
     return write_inputs(tmp_path_factory.mktemp("here") / "meshes")
-
-
-@pytest.mark.parametrize(
-    "name", ["box_0.stl", "painted/painted.obj", "cart/cart.urdf", "leads_out/leads_out.obj"]
-)
-def test_whatever_a_reader_asks_for_is_found(inputs, name):
-    source = Source(inputs / name, BuildConfig())
-    with suppress(InputRejected):
-        source.load()
-    there = {each for each, digest in source.reads.items() if digest}
-    assert there <= companions(inputs / name)
 
 
 def test_a_description_brings_its_meshes_and_their_textures(inputs):

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from refusing import refusal
 from test_importing_urdf import articulated, bounds_of
 
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers.load import load_description
 from asset_factory.factory.intake.importers.mjcf import shown
 from asset_factory.factory.intake.reads import ABSENT, ReadLog
@@ -26,12 +26,6 @@ def write(folder, text):
 
 def load(folder, text):
     return load_description(write(folder, text), IntakeConfig())
-
-
-def refused(folder, text):
-    with pytest.raises(InputRejected) as caught:
-        load(folder, text)
-    return caught.value
 
 
 def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path):
@@ -166,7 +160,7 @@ SPHERE = '<geom type="sphere" size="1"/>'
     ],
 )
 def test_what_cannot_be_used_is_refused(tmp_path, code, text):
-    error = refused(tmp_path, text)
+    error = refusal(load, tmp_path, text)
     assert error.code == code
     assert str(tmp_path) not in error.message
 
@@ -187,8 +181,7 @@ def test_where_a_missing_file_was_looked_for_is_noted(tmp_path):
     asset = '<asset><mesh name="m" file="no.stl"/></asset>'
     path = write(tmp_path, f'<compiler meshdir="meshes"/>{asset}')
     log = ReadLog()
-    with pytest.raises(InputRejected):
-        load_description(path, IntakeConfig(), log)
+    refusal(load_description, path, IntakeConfig(), log)
     reads = log.reads_of(path)
     assert reads["meshes/no.stl"] == ABSENT
     assert not any(name.startswith("..") for name in reads)

@@ -18,6 +18,7 @@ from mesh_cube import (
     write_stl,
     write_stl_ascii,
 )
+from refusing import refusal
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import ConfigError, InputRejected
@@ -28,10 +29,9 @@ CONFIG = IntakeConfig()
 
 
 def _rejected(path, config=CONFIG):
-    with pytest.raises(InputRejected) as caught:
-        load_mesh(path, config)
-    assert str(path.parent) not in caught.value.message
-    return caught.value
+    found = refusal(load_mesh, path, config)
+    assert str(path.parent) not in found.message
+    return found
 
 
 def _outcome(path):
@@ -258,9 +258,8 @@ def test_a_collada_file_shows_pictures_of_its_own_folder_only(tmp_path):
 
 def test_a_visual_outside_its_root_is_external(tmp_path):
     (tmp_path / "robot").mkdir()
-    with pytest.raises(InputRejected, match="outside") as caught:
-        load_visual(write_stl(tmp_path), tmp_path / "robot", CONFIG)
-    assert caught.value.code == "external_reference"
+    found = refusal(load_visual, write_stl(tmp_path), tmp_path / "robot", CONFIG)
+    assert (found.code, "outside" in found.message) == ("external_reference", True)
 
 
 def test_a_visual_may_refer_to_anything_below_its_root(tmp_path):
@@ -313,7 +312,5 @@ def test_a_wrecked_glb_is_told_by_what_it_begins_with(tmp_path):
         (b'{"asset": ', "its JSON is damaged at byte"),
     ):
         path.write_bytes(data)
-        with pytest.raises(InputRejected) as caught:
-            load_mesh(path, IntakeConfig())
-        assert caught.value.code == "unreadable"
-        assert told in caught.value.message
+        found = _rejected(path)
+        assert (found.code, told in found.message) == ("unreadable", True)

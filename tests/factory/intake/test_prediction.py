@@ -1,13 +1,11 @@
 """pred.npz -> Annotation."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from refusing import refusal
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import JointKind
-from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers.prediction import point_on_line, read_prediction
 from asset_factory.factory.mesh import Mesh
 
@@ -49,12 +47,6 @@ def strip(count=FACES):
 def articulate(path, count=FACES):
     annotation = read_prediction(path, count)
     return AnnotatedArticulator(annotation, np.eye(4), np.arange(count)).articulate(strip(count))
-
-
-def refused(call):
-    with pytest.raises(InputRejected) as caught:
-        call()
-    return caught.value
 
 
 def test_moments_are_axis_cross_point(tmp_path):
@@ -124,17 +116,17 @@ def test_labels_of_faces_that_were_dropped_do_not_matter(tmp_path):
     ],
 )
 def test_unknown_shapes_are_refused_by_name(tmp_path, changes, says):
-    refusal = refused(lambda: read_prediction(save(tmp_path, **changes), FACES))
-    assert refusal.code == "bad_annotation"
-    assert says in refusal.message
+    found = refusal(read_prediction, save(tmp_path, **changes), FACES)
+    assert found.code == "bad_annotation"
+    assert says in found.message
 
 
 def test_files_that_are_no_archives_are_refused(tmp_path):
     path = tmp_path / "pred.npz"
-    assert refused(lambda: read_prediction(path, FACES)).code == "missing_file"
+    assert refusal(read_prediction, path, FACES).code == "missing_file"
     for content in (b"", b"PK\x03\x04 broken", b"\x80\x04K\x01."):
         path.write_bytes(content)
-        assert refused(lambda: read_prediction(path, FACES)).code == "bad_annotation"
+        assert refusal(read_prediction, path, FACES).code == "bad_annotation"
 
 
 @pytest.mark.parametrize(
@@ -142,20 +134,15 @@ def test_files_that_are_no_archives_are_refused(tmp_path):
 )
 def test_hierarchies_that_are_no_forest_are_refused(tmp_path, edges):
     path = save(tmp_path, motion_hierarchy=np.array(edges))
-    assert refused(lambda: articulate(path)).code == "not_a_tree"
+    assert refusal(articulate, path).code == "not_a_tree"
 
 
-PREDICTIONS = Path(__file__).parents[4] / "shared" / "fixtures" / "postprocess_e2e"
-
-
-@pytest.mark.skipif(
-    not PREDICTIONS.is_dir(), reason="the reference predictions are not on this machine"
-)
 @pytest.mark.parametrize("name", ["strict_induced_tree", "nonstrict"])
-def test_published_predictions_become_trees(name):
-    stored = np.load(PREDICTIONS / name / "pred.npz", allow_pickle=False)
+def test_published_predictions_become_trees(fixtures, name):
+    path = fixtures / "postprocess_e2e" / name / "pred.npz"
+    stored = np.load(path, allow_pickle=False)
     count = len(stored["face_part_ids"])
-    result = articulate(PREDICTIONS / name / "pred.npz", count)
+    result = articulate(path, count)
     assert len(result.joints) == len(stored["motion_hierarchy"])
     # Posing a joint inside its range turns the axes it carries; those of the root's children stay.
     for joint in (j for j in result.joints if j.parent == 0):

@@ -7,9 +7,10 @@ from contextlib import suppress
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusing import refusal
 
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.files import InputFiles
 from asset_factory.factory.intake.stated import (
     MOST_BYTES,
@@ -35,11 +36,9 @@ def read(tmp_path, text, name="fridge.parts.json"):
 
 
 def refused(tmp_path, text, name="fridge.parts.json"):
-    with pytest.raises(InputRejected) as caught:
-        read(tmp_path, text, name)
-    assert caught.value.code == "bad_sidecar"
-    assert name in str(caught.value)
-    return str(caught.value)
+    found = refusal(read, tmp_path, text, name)
+    assert (found.code, name in found.message) == ("bad_sidecar", True)
+    return found.message
 
 
 def test_without_a_file_nothing_is_stated(tmp_path):
@@ -125,9 +124,8 @@ def test_a_link_out_of_the_folder_is_refused(tmp_path):
     inner = tmp_path / "inner"
     inner.mkdir()
     (inner / "fridge.parts.json").symlink_to(tmp_path / "secret.json")
-    with pytest.raises(InputRejected) as caught:
-        read_stated(inner / "fridge.glb", InputFiles(inner, IntakeConfig()))
-    assert caught.value.code == "external_reference"
+    found = refusal(read_stated, inner / "fridge.glb", InputFiles(inner, IntakeConfig()))
+    assert found.code == "external_reference"
 
 
 JSON = st.recursive(

@@ -16,7 +16,7 @@ from job_samples import PLAIN, Inline, job, made, pretend, write_inputs
 from asset_factory.factory.errors import InputRejected, RegistryError
 from asset_factory.factory.intake import source as source_module
 from asset_factory.factory.intake.source import Source
-from asset_factory.factory.jobs import Budget, LocalExecutor
+from asset_factory.factory.jobs import Budget, LocalExecutor, run_builds
 from asset_factory.factory.jobs import job as job_module
 from asset_factory.factory.jobs.probe import KnownReads
 from asset_factory.factory.registry import Registry, claims
@@ -124,17 +124,22 @@ def test_what_was_rejected_stays_rejected_until_somebody_asks(tmp_path):
 
 
 def test_a_hang_is_listed_and_tried_again_by_the_next_job(tmp_path):
-    inputs = (*write_inputs(tmp_path / "in", 1), tmp_path / "in" / "slow.stl")
-    inputs[1].write_text("solid slow")
+    inputs = (*write_inputs(tmp_path / "in", 1), tmp_path / "in" / "nap.stl")
+    inputs[1].write_text("solid nap")
     hurried = replace(PLAIN, asset_wall_s=1.0)
     for _ in range(2):
         executor = LocalExecutor(1, retries=0)
         (result,) = job(inputs[1:], tmp_path / "out", hurried, executor=executor).run()
         assert (result.entry.status, result.entry.reason) == ("unjudged", "build_timeout")
+        assert "no answer within 1 s" in result.entry.message
         assert not result.known
     again = job(inputs, tmp_path / "out", PLAIN, budget=Budget(limit=0))
     assert list(again.run()) == []
     assert again.left == 2
+    # What is judged later takes the place of what was listed.
+    list(run_builds(inputs, tmp_path / "out", PLAIN, workers=1))
+    entries = {entry.name: entry.status for entry in Registry(tmp_path / "out").entries()}
+    assert entries == {"nap": "passed", "thing_0": "passed"}
 
 
 @pytest.mark.parametrize("damage", ["altered", "missing", "extra"])

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from modelled_furniture import board
+from plain_solids import parted
 
 from asset_factory.factory.articulate.locate import located
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
+from asset_factory.factory.articulation import Joint, JointKind, rotation_about
 from asset_factory.factory.geometry.posing import rotated
 from asset_factory.factory.manufacture.hinges import at_front_edge
 from asset_factory.factory.manufacture.plan import Plan, as_planned, dispensable_joints
-from asset_factory.factory.mesh import concatenate
 
 #: Door within a frame: from here to there, 2 cm thick, 1 mm of air at its left.
 LEFT = 0.021
@@ -22,12 +22,10 @@ def inset_door(**changed):
     post = board((0.0, 0.0, 0.0), (0.02, 0.4, 0.6))
     door = board((LEFT, 0.0, 0.0), (RIGHT, THICK, 0.6))
     handle = board((0.33, -0.03, 0.2), (0.35, 0.0, 0.4))
-    mesh = concatenate([post, door, handle])
     place = ([0, 0, -1], [LEFT, THICK, 0.3])
     stated = {"upper": 1.5, "confidence": 0.9, "kind": JointKind.REVOLUTE, **changed}
     hinge = Joint("hinge", stated.pop("kind"), 0, 1, *place, **stated)
-    parts = (Part("base", np.arange(12)), Part("door", np.arange(12, 36)))
-    return located(Articulation(mesh, parts, (hinge,), "auto"))
+    return located(parted({"base": [post], "door": [door, handle]}, hinge))
 
 
 def farthest_left(door, joint):

@@ -2,29 +2,16 @@
 
 from dataclasses import replace
 
-import numpy as np
-import pytest
+from manufactured import manufactured
 
 from asset_factory.factory.config import BuildConfig, HullsConfig
-from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.manufacture.plan import Plan
-from asset_factory.factory.manufacture.stage import manufacture
-from asset_factory.factory.runtime.stages import Stages
-from asset_factory.factory.runtime.store import Store
 from asset_factory.learn.objects import make_object
 
 
-@pytest.fixture(scope="module")
-def kept(tmp_path_factory):
-    return tmp_path_factory.mktemp("joined")
-
-
 def made(kept, wanted, plan, most=10_000):
-    whole = make_object("fan", seed=3)
-    provenance = Provenance("fan.glb", "0" * 64)
-    intake = Intake("fan", whole.mesh, np.arange(len(whole.mesh.faces)), np.eye(4), provenance)
     config = replace(BuildConfig(), hulls=HullsConfig(wanted=wanted, most=most))
-    asset, findings = manufacture(whole, plan, intake, Stages(config, Store(kept)))
+    asset, findings, _ = manufactured(make_object("fan", seed=3), kept, plan, config)
     return asset, [each for each in findings if each.code == "hulls_joined"]
 
 

@@ -5,9 +5,10 @@ from itertools import product
 
 import numpy as np
 import pytest
-from held_parts import CONFIG, PAIR, box, cut, deepest, hulls_of, mesh_of
+from held_parts import CONFIG, PAIR, box, cut, cut_free, deepest, hulls_of, mesh_of, require_refused
+from plain_solids import parted
 
-from asset_factory.factory.articulation import Articulation, Joint, Part, rotation_about
+from asset_factory.factory.articulation import Joint, Part, rotation_about
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.poses import relative_poses
@@ -38,19 +39,12 @@ DOOR = box((GAP, 0, GAP), (WIDTH - GAP, THICK, HEIGHT - GAP))
 DIAGONAL = float(np.linalg.norm(np.ptp(DOOR.vertices, axis=0)))
 
 
-def hung(hinge, door=DOOR):
-    tree, _, result = cut(carcass(), [door], hinge)
-    return tree, result
-
-
 def test_a_hinge_in_the_edge_gets_the_room_that_its_corner_needs():
-    tree, result = hung(HINGE)
-    assert result.refused == {}
+    _, _, result = cut_free(carcass(), [DOOR], HINGE, poses=200)
     trimmed = result.trimmed[PAIR]
     # Half the thickness and the clearance, less the gap that is there, off either.
     assert 0.005 < sum(each.depth_m for each in trimmed) < THICK / 2 + CONFIG.clearance_m
     assert all(each.area < CONFIG.planed_area for each in trimmed)
-    assert deepest(tree, result, poses=200) == 0.0
 
 
 def test_a_door_that_lies_3_mm_in_its_frame_is_cut_free():
@@ -59,9 +53,7 @@ def test_a_door_that_lies_3_mm_in_its_frame_is_cut_free():
     more = np.array([0.006, 0.0, 0.0])
     wide = box(low - more, high + more)
     front = replace(HINGE, origin=[0.0, 0.0, HEIGHT / 2])
-    tree, result = hung(front, wide)
-    assert result.refused == {}
-    assert deepest(tree, result, poses=200) == 0.0
+    cut_free(carcass(), [wide], front, poses=200)
 
 
 SHIFT = 0.05 * DIAGONAL
@@ -87,9 +79,7 @@ TWINS = {
 
 @pytest.mark.parametrize("name", TWINS)
 def test_a_door_that_is_hung_wrongly_is_not_cut_free(name):
-    tree, result = hung(TWINS[name])
-    assert PAIR in result.refused
-    assert deepest(tree, result, poses=60) > 0.001
+    require_refused(carcass(), [DOOR], TWINS[name])
 
 
 def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not():
@@ -97,13 +87,11 @@ def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not
     for overlap, refused in ((0.006, False), (0.06, True)):
         left = box((0, 0, 0), (0.5 + overlap / 2, 0.018, 0.6))
         right = box((0.5 - overlap / 2, 0, 0), (1, 0.018, 0.6))
-        names = ("back", "left", "right")
-        parts = tuple(Part(name, np.arange(12 * i, 12 * i + 12)) for i, name in enumerate(names))
         way = ([0, -1, 0], [0, 0, 0], 0.0, 0.2)
         joints = (Joint("one", "prismatic", 0, 1, *way), Joint("two", "prismatic", 0, 2, *way))
-        boxes = (back, left, right)
-        tree = Articulation(mesh_of([*boxes]), parts, joints, "test")
-        pieces = tuple(PartHulls(hulls_of([each]), "exact", (), True) for each in boxes)
+        boxes = {"back": [back], "left": [left], "right": [right]}
+        tree = parted({name: [mesh_of(own)] for name, own in boxes.items()}, *joints)
+        pieces = tuple(PartHulls(hulls_of(own), "exact", (), True) for own in boxes.values())
         result = separate(tree, pieces, [("left", "right")], CONFIG, 64)
         assert (("left", "right") in result.refused) == refused
 
@@ -112,9 +100,7 @@ def test_a_door_whose_far_edge_scrapes_its_frame_is_cut_back_there():
     # The hinge lies on the front, but the door reaches 4 mm into the opposite side.
     low, high = DOOR.vertices.min(axis=0), DOOR.vertices.max(axis=0)
     wide = box(low, high + np.array([GAP + 0.004, 0.0, 0.0]))
-    tree, result = hung(replace(HINGE, origin=[GAP, 0.0, HEIGHT / 2]), wide)
-    assert result.refused == {}
-    assert deepest(tree, result, poses=200) == 0.0
+    cut_free(carcass(), [wide], replace(HINGE, origin=[GAP, 0.0, HEIGHT / 2]), poses=200)
 
 
 def test_a_cap_that_turns_and_lifts_is_held_by_its_bottle():
@@ -150,14 +136,12 @@ def test_a_sheet_that_lies_on_a_rim_gives_way_and_stays():
     thin = box((-0.5, -0.5, -0.0015), (0.5, 0.5, 0))
     lift = Joint("lift", "prismatic", 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 0.05)
     for base in ([rim], [thin]):
-        tree, _, result = cut(base, [lid], lift)
-        assert result.refused == {}
+        _, _, result = cut_free(base, [lid], lift)
         assert [len(piece.hulls) for piece in result.pieces] == [1, 1]
-        assert deepest(tree, result) == 0.0
 
 
 def test_a_hinge_that_turns_half_a_turn_keeps_its_clearance_all_the_way():
-    tree, result = hung(replace(HINGE, upper=np.pi))
+    tree, _, result = cut(carcass(), [DOOR], replace(HINGE, upper=np.pi))
     sides, door = (piece.hulls for piece in result.pieces)
     pairs = product(sides, door, relative_poses(tree, 0, 1, 150))
     assert min(-meeting(*each).depth for each in pairs) > 0.0022
@@ -169,14 +153,10 @@ def test_what_a_slide_passes_between_two_poses_is_cut_too():
     lip = box((0.004, -0.1, 0.0985), (0.006, 0.1, 0.2))
     front = box((0.0, -0.1, 0.0), (0.0015, 0.1, 0.1))
     slide = Joint("slide", "prismatic", 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.45)
-    tree, _, result = cut([floor, lip], [front], slide)
-    assert result.refused == {}
-    assert deepest(tree, result) == 0.0
+    cut_free([floor, lip], [front], slide)
     # One that reaches 30 mm further is no lip.
     higher = box((0.004, -0.1, 0.067), (0.03, 0.1, 0.2))
-    tree, _, result = cut([floor, higher], [front], slide)
-    assert PAIR in result.refused
-    assert deepest(tree, result) > 0.001
+    require_refused([floor, higher], [front], slide)
 
 
 def swung_over(post):

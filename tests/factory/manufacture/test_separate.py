@@ -5,10 +5,10 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plain_solids import box_between
+from plain_solids import box_between, parted
 from plain_solids import sized_box as box
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.decompose import PartHulls
@@ -23,7 +23,7 @@ from asset_factory.factory.manufacture.separate.clip import (
     meeting,
     volumes_below,
 )
-from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.mesh import Mesh
 
 CONFIG = SeparateConfig()
 
@@ -35,14 +35,12 @@ def hull(size, center=(0, 0, 0)):
 def object_of(base, mover, joint=None, third=None):
     """Boxes as parts: one base, one mover held by a joint, and a third fixed to the base."""
     shapes = [base, mover, *([third] if third else [])]
-    meshes = [Mesh.from_triangles(*box(*shape)) for shape in shapes]
-    names = ("base", "mover", "third")
-    parts = tuple(Part(names[i], np.arange(12 * i, 12 * i + 12)) for i in range(len(shapes)))
+    meshes = [[Mesh.from_triangles(*box(*shape))] for shape in shapes]
     slide = joint or Joint("slide", JointKind.PRISMATIC, 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.3)
     joints = [slide]
     if third:
         joints.append(Joint("other", JointKind.PRISMATIC, 0, 2, [0, 0, 1], [0, 0, 0], 0.0, 0.3))
-    return Articulation(concatenate(meshes), parts, tuple(joints), "test")
+    return parted(dict(zip(("base", "mover", "third"), meshes, strict=False)), *joints)
 
 
 def pieces_of(*hulls):
@@ -112,11 +110,8 @@ def cylinder(radius, low, high):
 def test_a_round_stem_that_nearly_fills_its_column_is_kept_whole_in_a_socket():
     # A spout in its base: walls of four pieces would leave the column's own surface bare.
     column, stem = cylinder(0.05, 0.0, 0.2), cylinder(0.03, 0.05, 0.5)
-    faces = np.arange(len(column.faces) + len(stem.faces))
-    base, mover = np.split(faces, [len(column.faces)])
-    parts = (Part("base", base), Part("mover", mover))
     turn = Joint("turn", JointKind.CONTINUOUS, 0, 1, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
-    tree = Articulation(concatenate([column, stem]), parts, (turn,), "test")
+    tree = parted({"base": [column], "mover": [stem]}, turn)
     hulls = [Hull(mesh.vertices, mesh.faces) for mesh in (column, stem)]
     result = separate(tree, pieces_of(*hulls), [("base", "mover")], CONFIG, 64)
     assert result.refused == {}
@@ -134,9 +129,8 @@ def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
         box_between((0.025, 0.0, 0.0), (1.5, 3.0, 3.0)),
         box_between((-0.05, -0.2, 1.5), (0.05, 0.25, 1.6)),
     ]
-    parts = (Part("base", np.arange(24)), Part("mover", np.arange(24, 36)))
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.4)
-    tree = Articulation(concatenate(solids), parts, (slide,), "test")
+    tree = parted({"base": solids[:2], "mover": solids[2:]}, slide)
     left, right, mover = (Hull(mesh.vertices, mesh.faces) for mesh in solids)
     pieces = (PartHulls((left, right), "exact", (), True), *pieces_of(mover))
     result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
@@ -181,13 +175,12 @@ def test_sheets_that_cross_at_a_slight_angle_are_not_cut_to_knife_s_edges():
         turned_box((0.15, 0.3, 0.001), (-0.125, 0, 0), [0, -1, 0], angle, [-0.2, 0, 0]),
     ]
     meshes = [Mesh.from_triangles(*shape) for shape in shapes]
-    names = ("carton", "front", "side")
-    parts = tuple(Part(name, np.arange(12 * i, 12 * i + 12)) for i, name in enumerate(names))
     joints = (
         Joint("front", JointKind.REVOLUTE, 0, 1, [1, 0, 0], [0, -0.15, 0], 0.0, 1.5),
         Joint("side", JointKind.REVOLUTE, 0, 2, [0, -1, 0], [-0.2, 0, 0], 0.0, 1.5),
     )
-    tree = Articulation(concatenate(meshes), parts, joints, "test")
+    carton, front, side = ([mesh] for mesh in meshes)
+    tree = parted({"carton": carton, "front": front, "side": side}, *joints)
     pieces = pieces_of(*(Hull(*shape) for shape in shapes))
     result = separate(tree, pieces, [("front", "side")], CONFIG, 64)
     for mesh, piece in zip(meshes, result.pieces, strict=True):

@@ -15,11 +15,9 @@ from asset_factory.factory.manufacture.decompose.openings import capped
 from asset_factory.factory.manufacture.decompose.simplify import simplified
 from asset_factory.factory.manufacture.decompose.solids import (
     closes,
-    contains,
     gate,
     manifold_of,
     triangles_of,
-    union,
 )
 
 Triangles = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
@@ -41,23 +39,6 @@ def volumes(mesh):
     return sorted(round(solid.volume(), 9) for solid in gate(*mesh).solids)
 
 
-@pytest.mark.parametrize(
-    "changed",
-    [
-        lambda faces: faces,
-        lambda faces: faces[:, ::-1],
-        lambda faces: np.concatenate([faces, faces]),
-        lambda faces: np.concatenate([faces, faces[:, ::-1]]),
-    ],
-    ids=["as it is", "inverted", "duplicated", "double-sided"],
-)
-def test_a_closed_box_is_one_solid_of_its_volume(changed):
-    vertices, faces = box((1, 2, 3))
-    gated = gate(vertices, changed(faces))
-    assert [solid.volume() for solid in gated.solids] == pytest.approx([6.0])
-    assert not gated.sheets
-
-
 def test_a_pane_at_the_corners_of_its_frame_is_a_sheet():
     # Beside a box, not in it, and hung from two of its corners.
     vertices, faces = box((1, 1, 1))
@@ -74,21 +55,6 @@ def test_boxes_that_share_welded_faces_edges_or_corners_come_apart():
         assert volumes(welded(together(box((1, 1, 1)), box((1, 1, 1), at)))) == [1.0, 1.0]
 
 
-def test_two_overlapping_bodies_stay_two_and_unite_without_double_counting():
-    solids = gate(*together(box((1, 1, 1)), box((1, 1, 1), (0.5, 0, 0)))).solids
-    assert len(solids) == 2
-    assert union(list(solids)).volume() == pytest.approx(1.5)
-
-
-def test_an_inverted_body_inside_another_is_a_cavity():
-    vertices, faces = box((0.5, 0.5, 0.5))
-    gated = gate(*together(box((1, 1, 1)), (vertices, faces[:, ::-1])))
-    assert [solid.volume() for solid in gated.solids] == pytest.approx([1.0])
-    assert [cavity.volume() for cavity in gated.cavities] == pytest.approx([0.125])
-    assert contains(gated.solids[0], gated.cavities[0])
-    assert not contains(gated.cavities[0], gated.solids[0])
-
-
 def test_an_open_box_is_a_sheet_wound_one_way():
     vertices, faces = box((1, 1, 1))
     faces = faces[faces.min(axis=1) >= 0][2:].copy()
@@ -100,14 +66,6 @@ def test_an_open_box_is_a_sheet_wound_one_way():
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     outward = np.einsum("ij,ij->i", across, corners[:, 0])
     assert abs(np.sign(outward).sum()) == len(outward)
-
-
-@pytest.mark.parametrize(
-    "faces", [[], [[0, 1, 2]], [[0, 0, 1]], [[0, 1, 2], [2, 1, 3]], [[0, 1, 2]] * 5]
-)
-def test_what_encloses_nothing_is_no_solid(faces):
-    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]])
-    assert not gate(corners, np.array(faces, dtype=np.int64).reshape(-1, 3)).solids
 
 
 def test_an_open_surface_is_refused_before_anything_native_sees_it():

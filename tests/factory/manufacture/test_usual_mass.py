@@ -2,17 +2,11 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
+from manufactured import manufactured
 
-from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.geometry.posing import closed
 from asset_factory.factory.intake.categories import usual_of
-from asset_factory.factory.intake.intake import Intake, Provenance
-from asset_factory.factory.manufacture.plan import Plan
-from asset_factory.factory.manufacture.stage import manufacture
-from asset_factory.factory.runtime.stages import Stages
-from asset_factory.factory.runtime.store import Store
 from asset_factory.learn.objects import make_object
 
 
@@ -21,15 +15,8 @@ def whole():
     return make_object("microwave", seed=1)
 
 
-@pytest.fixture(scope="module")
-def kept(tmp_path_factory):
-    return tmp_path_factory.mktemp("masses")
-
-
 def mass(whole, kept, **known):
-    provenance = Provenance("thing.glb", "0" * 64, **known)
-    intake = Intake("thing", whole.mesh, np.arange(len(whole.mesh.faces)), np.eye(4), provenance)
-    asset, _ = manufacture(whole, Plan(), intake, Stages(BuildConfig(), Store(kept)))
+    asset, *_ = manufactured(whole, kept, **known)
     return sum(body.inertial.mass for body in asset.bodies)
 
 

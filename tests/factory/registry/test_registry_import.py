@@ -7,7 +7,7 @@ import tarfile
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from registry_samples import REPORT, dump, named, publish
+from registry_samples import REPORT, alter, dump, link, named, publish, remove
 
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Registry
@@ -111,23 +111,14 @@ def relist(folder):
     (folder / "SHA256SUMS").write_text("".join(lines))
 
 
-def alter(folder):
-    (folder / "assets/cabinet-1/meshes/a.obj").write_text("1")
+def in_asset(damage):
+    """The same damage to an asset of an export."""
+    return lambda folder: damage(folder / "assets/cabinet-1")
 
 
 def alter_and_relist(folder):
-    alter(folder)
+    in_asset(alter)(folder)
     relist(folder)
-
-
-def remove(folder):
-    (folder / "assets/cabinet-1/meshes/a.obj").unlink()
-
-
-def link(folder):
-    path = folder / "assets/cabinet-1/meshes/a.obj"
-    path.rename(folder / "elsewhere.obj")
-    path.symlink_to(folder / "elsewhere.obj")
 
 
 def link_folder(folder):
@@ -164,10 +155,10 @@ def unlist(folder):
 @pytest.mark.parametrize(
     ("damage", "match"),
     [
-        (alter, "'assets/cabinet-1/meshes/a.obj' is altered"),
+        (in_asset(alter), "'assets/cabinet-1/meshes/a.obj' is altered"),
         (alter_and_relist, "cabinet-1: its files are not those of its report"),
-        (remove, "cannot be unpacked"),
-        (link, "no file but a link or a device"),
+        (in_asset(remove), "cannot be unpacked"),
+        (in_asset(link), "no file but a link or a device"),
         (link_folder, "no file but a link or a device"),
         (rename, "is of 'cabinet-1', not of its folder"),
         (promote, "is rejected, which belongs in another folder"),

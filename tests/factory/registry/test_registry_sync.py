@@ -8,7 +8,7 @@ import time
 import pytest
 from command_line import COMMAND
 from registry_samples import named, publish
-from s3_server import BUCKET, SECRET, Line
+from s3_server import BUCKET, SECRET
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.errors import ConfigError, RegistryError
@@ -130,27 +130,6 @@ def test_a_process_killed_in_the_middle_is_gone_on_with(registry, bucket, killed
     rest = synced(registry)
     assert rest.sent <= len(wanted) - (len(there) - 1)
     assert bucket() == wanted
-
-
-@pytest.mark.cluster
-def test_a_line_that_breaks_within_a_file(registry, bucket, server, monkeypatch):
-    import s3fs
-
-    publish(registry, "x" * 3_000_000, entry=named("large-1"))
-    line = Line(server)
-    monkeypatch.setenv("AWS_ENDPOINT_URL", line.url)
-    monkeypatch.setattr(s3fs.S3FileSystem, "retries", 1)
-    s3fs.S3FileSystem.clear_instance_cache()
-    line.cut_after = 1_000_000
-    with pytest.raises(RegistryError, match="cannot be synchronised"):
-        synced(registry)
-    assert line.cuts
-    assert "assets/large-1/meshes/a.obj" not in bucket()
-    assert "SHA256SUMS" not in bucket()
-    line.cut_after = None
-    synced(registry)
-    line.close()
-    assert bucket() == files(registry)
 
 
 @pytest.mark.cluster

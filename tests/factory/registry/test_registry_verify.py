@@ -3,27 +3,15 @@
 import shutil
 
 import pytest
+from registry_samples import alter, link, remove
 
 from asset_factory.factory.registry.database import writing
 from asset_factory.factory.registry.rows import delete
 from asset_factory.factory.registry.verify import verify
 
 
-def alter(folder):
-    (folder / "meshes" / "a.obj").write_text("1")
-
-
-def remove(folder):
-    (folder / "meshes" / "a.obj").unlink()
-
-
 def add(folder):
     (folder / "meshes" / "b.obj").write_text("")
-
-
-def link(folder):
-    (folder / "meshes" / "a.obj").rename(folder.parent / "a.obj")
-    (folder / "meshes" / "a.obj").symlink_to(folder.parent / "a.obj")
 
 
 def alter_report(folder):

@@ -57,10 +57,6 @@ def test_the_first_build_does_everything(first):
 CHANGES = {
     "nothing": (BASE, ()),
     "simulators": (replace(BASE, simulators=("mujoco",)), ("validate",)),
-    "checks": (
-        replace(BASE, checks=replace(BASE.checks, lint=replace(BASE.checks.lint, hand_m=0.05))),
-        ("inspect", "validate"),
-    ),
     "inertia": (
         replace(BASE, inertia=replace(BASE.inertia, density=700.0)),
         ("finish", "inspect", "validate"),
@@ -70,7 +66,6 @@ CHANGES = {
         replace(BASE, decompose=replace(BASE.decompose, error_m=0.004)),
         (),
     ),
-    "decompose, limits": (replace(BASE, decompose=replace(BASE.decompose, wall_s=1.0)), ()),
     "articulator": (replace(BASE, articulator="annotated"), ("articulate",)),
     "intake": (
         replace(BASE, intake=replace(BASE.intake, height=1.0)),

@@ -5,11 +5,6 @@ import pytest
 from asset_factory.factory.runtime.layout import CACHE
 
 
-@pytest.fixture(scope="module")
-def kept(tmp_path_factory):
-    return tmp_path_factory.mktemp("kept")
-
-
 @pytest.fixture
 def output(tmp_path, kept):
     """A folder for builds, whose stages are made once for all tests of a file."""

@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from plain_solids import parted
 from plain_solids import sized_box as box
 from test_repair import contact, hard, joint, verdict
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.config import RepairConfig
 from asset_factory.factory.geometry.posing import posed
@@ -30,39 +31,32 @@ def cabinet(axis=UP, origin=EDGE, upper=1.5, lower=0.0, kind=JointKind.REVOLUTE)
     """A block with a door before it, whose front is at -y; the door hangs at its left edge."""
     body, faces = box((0.6, 0.4, 0.8), (0.0, 0.0, 0.0))
     door, door_faces = box((0.6, 0.02, 0.8), (0.0, -0.215, 0.0))
-    mesh = Mesh.from_triangles(np.vstack([body, door]), np.vstack([faces, door_faces + len(body)]))
-    parts = (Part("base", np.arange(12)), Part("door", np.arange(12, 24)))
+    both = {"base": [Mesh.from_triangles(body, faces)]}
+    both["door"] = [Mesh.from_triangles(door, door_faces)]
     direction = np.array(axis, dtype=float)
     direction /= np.linalg.norm(direction)
     hinge = Joint("hinge", kind, 0, 1, direction, np.asarray(origin), lower, upper)
-    articulation = Articulation(mesh, parts, (hinge,), "annotated")
     inertial = Inertial(1.0, np.zeros(3), np.eye(3))
     hulls = (Hull(body, np.asarray(faces)), Hull(door, np.asarray(door_faces)))
     bodies = tuple(PartBody((hull,), inertial, None, "exact", ()) for hull in hulls)
-    return Asset("cabinet", articulation, bodies, (), ())
+    return Asset("cabinet", parted(both, hinge), bodies, (), ())
 
 
 def with_more(asset, name, boxes, hinge=None):
     """The same asset with more boxes, of one of its parts or of a new one that a joint holds."""
     tree = asset.articulation
     bodies = list(asset.bodies)
-    mesh, parts, hulls = tree.mesh, {part.name: part for part in tree.parts}, []
-    for size, at in boxes:
-        vertices, faces = box(size, at)
-        triangles = np.concatenate([mesh.vertices[mesh.faces], vertices[faces]]).reshape(-1, 3)
-        more = np.arange(len(mesh.faces), len(mesh.faces) + len(faces))
-        mesh = Mesh.from_triangles(triangles, np.arange(len(triangles)).reshape(-1, 3))
-        known = parts[name].faces if name in parts else np.array([], np.int64)
-        parts[name] = Part(name, np.concatenate([known, more]))
-        hulls.append(Hull(vertices, np.asarray(faces)))
+    made = [box(*each) for each in boxes]
+    parts = {part.name: [tree.part_mesh(at)] for at, part in enumerate(tree.parts)}
+    parts.setdefault(name, []).extend(Mesh.from_triangles(*each) for each in made)
+    hulls = tuple(Hull(*each) for each in made)
     if hinge is None:
         at = list(parts).index(name)
         bodies[at] = replace(bodies[at], hulls=(*bodies[at].hulls, *hulls))
     else:
-        bodies.append(replace(bodies[-1], hulls=tuple(hulls)))
+        bodies.append(replace(bodies[-1], hulls=hulls))
     joints = (*tree.joints, *([hinge] if hinge else []))
-    articulation = Articulation(mesh, tuple(parts.values()), joints, "annotated")
-    return replace(asset, articulation=articulation, bodies=tuple(bodies))
+    return replace(asset, articulation=parted(parts, *joints), bodies=tuple(bodies))
 
 
 def blocked(asset, clear_until):

@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from manufactured import intake_of
 from tests.samples import one_piece
 
 pytest.importorskip("torch")
@@ -13,7 +14,6 @@ from asset_factory.factory.articulate.auto.articulator import articulator_for
 from asset_factory.factory.articulate.origin import MeshOrigin
 from asset_factory.factory.articulation import JointKind, rotation_about
 from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.learn.objects import make_object
 
@@ -55,8 +55,7 @@ PLACES = (
 def watcher():
     """Return who is asked about a mesh that came with nothing."""
     corner = Mesh.from_triangles(np.eye(3), [[0, 1, 2]])
-    nothing = Intake("case", corner, np.zeros(1, np.int64), np.eye(4), Provenance("case", ""))
-    return articulator_for(nothing, BuildConfig())
+    return articulator_for(intake_of(corner), BuildConfig())
 
 
 def articulated(mesh):

@@ -7,7 +7,6 @@ import pytest
 from registry_samples import publish
 
 from asset_factory.factory.cli.nightly import Nightly, night_config, run
-from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs.nightly.settings import NightBudget
 from asset_factory.factory.jobs.nightly.work import Work
 from asset_factory.factory.jobs.ray.executor import RayExecutor
@@ -42,11 +41,6 @@ def test_damage_in_the_registry_is_found(command, capsys):
     data = json.loads((command.output / "nights" / "0002" / "summary.json").read_text())
     assert [(item["id"], item["code"]) for item in data["damage"]] == [("cabinet-1", "altered")]
     assert data["night"]["verified"] == 1
-
-
-def test_an_input_that_is_not_there_is_wrong_usage(command):
-    with pytest.raises(ConfigError, match="nowhere"):
-        run(replace(command, input=(command.output / "nowhere",)))
 
 
 def test_budgets_and_executors_are_those_of_jobs(command):

@@ -49,36 +49,15 @@ def calls(home):
     return path.read_text().splitlines() if path.is_file() else []
 
 
-def verified(home, *units):
+def test_systemd_takes_the_units_as_they_are(home):
     if shutil.which("systemd-analyze") is None:
         pytest.skip("no systemd-analyze here: apt-get install systemd")
-    command = ["systemd-analyze", "verify", "--user", "--man=no", "--recursive-errors=no", *units]
+    program(home, "factory", REAL)
+    command = ["systemd-analyze", "verify", "--user", "--man=no", "--recursive-errors=no"]
+    command += [EXAMPLES / f"factory-nightly.{kind}" for kind in ("service", "timer")]
     environment = {**os.environ, "HOME": str(home), "XDG_RUNTIME_DIR": str(home)}
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    return done.returncode, done.stdout + done.stderr
-
-
-def test_systemd_takes_the_units_as_they_are(home):
-    program(home, "factory", REAL)
-    units = [EXAMPLES / f"factory-nightly.{kind}" for kind in ("service", "timer")]
-    assert verified(home, *units) == (0, "")
-
-
-@pytest.mark.parametrize(
-    ("kind", "right", "wrong"),
-    [
-        ("service", "KillMode=mixed", "KillMode=most"),
-        ("timer", "OnCalendar=*-*-* 01:00", "OnCalendar=at night"),
-    ],
-)
-def test_systemd_would_say_what_is_wrong_with_them(home, tmp_path, kind, right, wrong):
-    program(home, "factory", REAL)
-    for each in ("service", "timer"):
-        shutil.copy(EXAMPLES / f"factory-nightly.{each}", tmp_path)
-    unit = tmp_path / f"factory-nightly.{kind}"
-    assert right in unit.read_text()
-    unit.write_text(unit.read_text().replace(right, wrong))
-    assert wrong.split("=")[1] in verified(home, unit)[1]
+    assert (done.returncode, done.stdout + done.stderr) == (0, "")
 
 
 @pytest.fixture(scope="module")

@@ -143,11 +143,6 @@ def test_weights_reach_hosts_that_do_not_see_them(cluster, hidden, tmp_path):
     assert all(len(paths) <= 1 for paths in kept), "once on each node"
 
 
-def test_a_host_that_dies_in_the_middle(cluster, inputs, undisturbed, tmp_path):
-    built(cluster, inputs, tmp_path / "out", disturb=lambda: cluster.kill(2))
-    require_same(tmp_path / "out", undisturbed)
-
-
 def test_a_host_that_is_cut_off_for_a_while(cluster, inputs, undisturbed, tmp_path):
     back = threading.Timer(60.0, lambda: cluster.cut_off(3, back=True))
 

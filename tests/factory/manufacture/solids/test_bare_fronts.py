@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from modelled_furniture import board, drawer_chest, fridge
-from plain_solids import carcass
+from plain_solids import carcass, parted
 
 from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
@@ -28,14 +28,6 @@ def moving(mesh, pieces, joint):
     own = np.isin(connected_components(mesh), pieces)
     parts = (Part("base", np.flatnonzero(~own)), Part("drawer", np.flatnonzero(own)))
     return located(Articulation(mesh, parts, (joint,), "test"))
-
-
-def split(mesh, names, *joints):
-    """A mesh whose pieces are parts by the first number of each name's."""
-    pieces = connected_components(mesh)
-    owner = np.searchsorted([*names.values()], pieces, side="right") - 1
-    parts = tuple(Part(name, np.flatnonzero(owner == i)) for i, name in enumerate(names))
-    return located(Articulation(mesh, parts, joints, "test"))
 
 
 def with_drawer(mesh, *pieces):
@@ -101,19 +93,19 @@ def test_a_front_gets_no_box_where_a_tray_of_its_own_slides():
     ends = ((0.55, 0.36, 0.204), (0.054, 0.36, 0.4), (0.55, 0.034, 0.4))
     begins = ((0.546, 0.03, 0.2), (0.05, 0.356, 0.2))
     tray = [*(board(low, end) for end in ends), *(board(begin, high) for begin in begins)]
-    mesh = concatenate([*hollow_case(), *tray])
-    joints = (SLIDE, replace(SLIDE, name="tray_slide", child=2))
-    given = split(mesh, {"base": 0, "drawer": 5, "tray": 6}, *joints)
-    made = solids(given, SolidsConfig())
+    *case, front = hollow_case()
+    second = replace(SLIDE, name="tray_slide", child=2)
+    given = parted({"base": case, "drawer": [front], "tray": tray}, SLIDE, second)
+    made = solids(located(given), SolidsConfig())
     assert "drawer box" not in {each.kind for each in made.surfaces}
 
 
 def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces():
     bar = board((0.2, -0.1, 0.3), (0.4, -0.02, 0.34))
     *case, front = hollow_case()
-    joints = (SLIDE, replace(SLIDE, name="second_slide", child=2))
-    given = split(concatenate([*case, bar, front]), {"base": 0, "bar": 5, "drawer": 6}, *joints)
-    made = solids(given, SolidsConfig())
+    second = replace(SLIDE, name="second_slide", child=2)
+    given = parted({"base": case, "bar": [bar], "drawer": [front]}, SLIDE, second)
+    made = solids(located(given), SolidsConfig())
     assert all(len(part.faces) for part in made.articulation.parts)
 
 
@@ -121,12 +113,10 @@ def test_a_button_in_a_door_has_room_to_be_pressed():
     case = board((0.0, 0.0, 0.0), (0.6, 0.5, 1.2))
     door = board((0.0, -0.061, 0.0), (0.6, -0.001, 1.2))
     button = board((0.28, -0.08, 0.9), (0.32, -0.058, 0.94))
-    hung = with_door(concatenate([case, door, button]), 1)
-    piece = connected_components(hung.mesh)
-    parts = tuple(Part(name, np.flatnonzero(piece == at)) for at, name in enumerate("abc"))
+    (hinge,) = with_door(concatenate([case, door]), 1).joints
     press = Joint("press", JointKind.PRISMATIC, 1, 2, -OUT, np.zeros(3), upper=0.015)
-    pressed = Articulation(hung.mesh, parts, (*hung.joints, press), "test")
-    made = solids(located(pressed), SolidsConfig())
+    hung = parted({"a": [case], "b": [door], "c": [button]}, hinge, press)
+    made = solids(located(hung), SolidsConfig())
     assert made.pieces[1] is not None
     inside = button.vertices + 0.015 * press.axis
     inner = 0.5 * inside + 0.5 * inside.mean(axis=0)
@@ -137,9 +127,9 @@ def test_a_button_in_a_door_has_room_to_be_pressed():
 def test_a_body_behind_a_front_is_left_to_decomposition():
     wires = [board((x, 0.05, 0.3), (x + 0.006, 0.36, 0.306)) for x in (0.1, 0.2, 0.3, 0.4)]
     rails = [board((0.1, y, 0.3), (0.406, y + 0.006, 0.306)) for y in (0.05, 0.354)]
-    mesh = concatenate([*hollow_case(), *wires, *rails])
-    joints = (SLIDE, replace(SLIDE, name="rack_slide", child=2))
-    given = split(mesh, {"base": 0, "drawer": 5, "rack": 6}, *joints)
-    made = solids(given, SolidsConfig())
+    *case, front = hollow_case()
+    second = replace(SLIDE, name="rack_slide", child=2)
+    given = parted({"base": case, "drawer": [front], "rack": [*wires, *rails]}, SLIDE, second)
+    made = solids(located(given), SolidsConfig())
     assert made.pieces[2] is None
     assert len(made.articulation.parts[2].faces) == len(given.parts[2].faces)

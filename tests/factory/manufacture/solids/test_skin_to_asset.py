@@ -1,42 +1,17 @@
-"""A small labelled skin through the whole pipeline, a simulator included."""
+"""A small labelled skin becomes an asset of built solids, which is kept."""
 
-import json
-
-import pytest
-from labelled_skins import cupboard, write_skin
-
-from asset_factory.factory.build import make_asset
-from asset_factory.factory.config import BuildConfig
-from asset_factory.sim_checks.judge import Judge
-
-CONFIG = BuildConfig(simulators=("mujoco",))
+from labelled_skins import cupboard
+from manufactured import manufactured
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("skin")
-    source = write_skin(cupboard(), folder)
-    with Judge(CONFIG.checks) as judge:
-        staging = tmp_path_factory.mktemp("staging")
-        cache = tmp_path_factory.mktemp("cache")
-        first = make_asset(source, staging, CONFIG, cache, judge)
-        again = make_asset(source, tmp_path_factory.mktemp("again"), CONFIG, cache, judge)
-    return first, again
-
-
-def test_it_passes_and_says_what_was_invented(made):
-    product, _ = made
-    assert product.entry.status == "passed", product.told.report.findings
-    manifest = json.loads((product.bundle / "asset.json").read_text())
-    assert {link["decomposition"] for link in manifest["links"]} == {"built"}
-    invented = manifest["invented"]
-    assert {"hollow", "slab back", "rim", "frame"} <= {each["kind"] for each in invented}
-    for each in invented:
-        assert set(each) == {"part", "kind", "rule", "thickness_m", "depth_m"}
-
-
-def test_it_is_kept(made):
-    product, again = made
-    assert "solids" in product.done
-    assert again.done == ()
-    assert "solids" in again.result.reused
+def test_a_skin_is_built_once_says_what_was_invented_and_is_kept(tmp_path):
+    asset, _, stages = manufactured(cupboard(), tmp_path)
+    assert stages.done == ["solids", "finish"]
+    assert {body.decomposition for body in asset.bodies} == {"built"}
+    assert {"hollow", "slab back", "rim", "frame"} <= {each.kind for each in asset.invented}
+    again, _, stages = manufactured(cupboard(), tmp_path)
+    assert (stages.done, stages.reused) == ([], ["solids", "finish"])
+    assert again.invented == asset.invented
+    for one, other in zip(asset.bodies, again.bodies, strict=True):
+        hulls = zip(one.hulls, other.hulls, strict=True)
+        assert all(a.vertices.tobytes() == b.vertices.tobytes() for a, b in hulls)

@@ -8,7 +8,7 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 from labelled_skins import SIZE, box_skin, chest, cupboard, labelled
-from plain_solids import box_between
+from plain_solids import box_between, parted
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
 from asset_factory.factory.config import SolidsConfig
@@ -42,11 +42,10 @@ def lattice(planes=((), (), ()), cells=20):
 def test_parts_that_are_patches_of_one_surface_are_told_from_bodies():
     assert skin_parts(cupboard()) == (1,)
     assert skin_parts(chest()) == (1, 2)
-    boxes = [box_between((-0.3, -0.25, -0.4), (0.3, 0.25, 0.4))]
-    boxes += [box_between((-0.2, -0.27, -0.3), (0.2, -0.25, 0.3))]
+    body = box_between((-0.3, -0.25, -0.4), (0.3, 0.25, 0.4))
+    door = box_between((-0.2, -0.27, -0.3), (0.2, -0.25, 0.3))
     hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
-    parts = (Part("body", np.arange(12)), Part("door", np.arange(12, 24)))
-    assert skin_parts(Articulation(concatenate(boxes), parts, (hinge,), "test")) == ()
+    assert skin_parts(parted({"body": [body], "door": [door]}, hinge)) == ()
 
 
 @pytest.mark.parametrize(

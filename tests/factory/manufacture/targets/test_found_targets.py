@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from plain_solids import box, cylinder
+from plain_solids import box, cylinder, parted
 from scipy.spatial.transform import Rotation
 from target_worlds import (
     BAR,
@@ -19,7 +19,7 @@ from target_worlds import (
     world,
 )
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.targets.find import MOST, find_targets
 
@@ -174,11 +174,10 @@ def test_collision_hulls_count_as_what_they_fill():
 
 
 def test_a_part_carried_by_a_link_without_surface_is_held_for_both_joints():
-    mesh = world([PANEL, *BAR])
-    parts = (mesh.parts[0], Part("carrier", np.zeros(0)), mesh.parts[1])
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, FRONT, np.zeros(3), 0.0, 0.1)
     turn = Joint("turn", JointKind.REVOLUTE, 1, 2, HINGE.axis, HINGE.origin, 0.0, 1.0)
-    targets = targets_of(Articulation(mesh.mesh, parts, (slide, turn), "test"))
+    parts = {"body": [BODY], "carrier": [], "front": [PANEL, *BAR]}
+    targets = targets_of(parted(parts, slide, turn))
     for name in ("slide", "turn"):
         first = next(t for t in targets if t.joint == name)
         assert first.part == 2

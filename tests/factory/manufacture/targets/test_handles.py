@@ -5,19 +5,18 @@ from functools import cache
 
 import numpy as np
 import pytest
-from plain_solids import box
+from plain_solids import box, parted
 from scipy.spatial.transform import Rotation
+from target_worlds import BODY, HINGE, PANEL, PLAIN, SLIDE, world
 from trimesh.triangles import closest_point
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.geometry.posing import rotated
 from asset_factory.factory.manufacture.targets.handles import find_handle
-from asset_factory.factory.mesh import Material, concatenate
 from asset_factory.learn.objects import fused_like, make_object
 from asset_factory.learn.objects.catalog import DEMO_CATEGORIES
 
 SEEDS = (0, 1, 2, 3)
-PLAIN = Material("plain")
 
 
 @cache
@@ -97,24 +96,12 @@ def test_handles_are_found_on_a_fused_surface():
         assert np.linalg.norm((handle.point - wanted.point)[[0, 1]]) < 0.02
 
 
-def door(handle, kind=JointKind.REVOLUTE):
-    body = box((0.0, 0.4), (0.0, 0.4), (0.0, 0.6), PLAIN)
-    panel = box((0.0, 0.4), (-0.02, -0.003), (0.0, 0.6), PLAIN)
-    pieces = [body, panel, *handle]
-    mesh = concatenate(pieces)
-    axis = (0.0, 0.0, -1.0) if kind is JointKind.REVOLUTE else (0.0, -1.0, 0.0)
-    joint = Joint("j", kind, 0, 1, np.array(axis), np.array([0.0, -0.02, 0.3]), 0.0, 0.3)
-    faces = np.arange(len(mesh.faces))
-    parts = (Part("body", faces[:12]), Part("front", faces[12:]))
-    return Articulation(mesh, parts, (joint,), "test")
-
-
 def test_a_plain_door_is_taken_at_its_far_edge_and_a_plain_drawer_in_its_middle():
-    hinged = find_handle(door([]), 1)
+    hinged = find_handle(world([PANEL]), 1)
     assert hinged.source == "far_edge"
     assert hinged.point[0] == pytest.approx(0.4)
     assert hinged.point[2] == pytest.approx(0.3)
-    sliding = find_handle(door([], JointKind.PRISMATIC), 1)
+    sliding = find_handle(world([PANEL], SLIDE), 1)
     assert sliding.source == "front"
     np.testing.assert_allclose(sliding.point, [0.2, -0.02, 0.3], atol=1e-9)
     np.testing.assert_allclose(sliding.normal, [0.0, -1.0, 0.0], atol=1e-9)
@@ -123,7 +110,7 @@ def test_a_plain_door_is_taken_at_its_far_edge_and_a_plain_drawer_in_its_middle(
 def test_of_two_protrusions_the_one_far_from_the_hinge_is_the_handle():
     hinge = box((0.01, 0.05), (-0.06, -0.02), (0.5, 0.55), PLAIN)
     grip = box((0.35, 0.38), (-0.06, -0.02), (0.25, 0.35), PLAIN)
-    handle = find_handle(door([hinge, grip]), 1)
+    handle = find_handle(world([PANEL, hinge, grip]), 1)
     assert handle.source == "protrusion"
     assert handle.point[0] > 0.34
     assert len(handle.faces) == 12
@@ -131,27 +118,24 @@ def test_of_two_protrusions_the_one_far_from_the_hinge_is_the_handle():
 
 def test_a_handle_fixed_to_the_door_as_a_part_of_its_own_is_found():
     grip = box((0.35, 0.38), (-0.06, -0.02), (0.25, 0.35), PLAIN)
-    whole = door([grip])
-    faces = np.arange(len(whole.mesh.faces))
-    parts = (Part("body", faces[:12]), Part("front", faces[12:24]), Part("grip", faces[24:]))
     fixed = Joint("f", JointKind.FIXED, 1, 2, np.array([0.0, 0.0, 1.0]), np.zeros(3))
-    articulation = Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")
+    articulation = parted({"body": [BODY], "front": [PANEL], "grip": [grip]}, HINGE, fixed)
     handle = find_handle(articulation, 1)
     # Those looking for a handle on the link that moves find the patch of it that lies nearest.
-    np.testing.assert_array_equal(handle.faces, [16, 17, *faces[24:]])
+    np.testing.assert_array_equal(handle.faces, [16, 17, *range(24, 36)])
 
 
 def test_where_nothing_sticks_out_the_handle_is_the_flat_patch_that_is_taken_hold_of():
-    articulation = door([])
+    articulation = world([PANEL])
     handle = find_handle(articulation, 1)
     patch = articulation.mesh.submesh(handle.faces)
     np.testing.assert_allclose(patch.bounds, [[0.4, -0.02, 0.0], [0.4, -0.003, 0.6]])
-    sliding = find_handle(door([], JointKind.PRISMATIC), 1)
+    sliding = find_handle(world([PANEL], SLIDE), 1)
     assert len(sliding.faces) == 2
 
 
 def test_the_root_and_fixed_parts_have_no_handle():
-    articulation = door([])
+    articulation = world([PANEL])
     assert find_handle(articulation, 0) is None
     fixed = Joint("f", JointKind.FIXED, 0, 1, np.array([0.0, 0.0, 1.0]), np.zeros(3))
     assert find_handle(replace(articulation, joints=(fixed,)), 1) is None

@@ -7,12 +7,12 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from export_samples import PROVENANCE
-from target_worlds import BAR, HINGE, PANEL, SLIDE, asset_of, world
+from plain_solids import parted
+from target_worlds import BAR, BODY, HINGE, PANEL, SLIDE, asset_of, world
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.export.manifest import Manifest
-from asset_factory.factory.mesh import concatenate
 
 
 def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(tmp_path):
@@ -56,12 +56,8 @@ def test_every_moving_link_shows_a_handle_and_no_face_is_lost(moving, joint, tmp
 
 
 def test_a_handle_that_is_a_part_of_its_own_is_called_one_too(tmp_path):
-    whole = world([PANEL, *BAR])
-    count = len(concatenate([PANEL]).faces)
-    front = whole.parts[1].faces
     fixed = Joint("f", JointKind.FIXED, 1, 2, np.array([0.0, 0.0, 1.0]), np.zeros(3))
-    parts = (whole.parts[0], Part("front", front[:count]), Part("grip", front[count:]))
-    gripped = Articulation(whole.mesh, parts, (*whole.joints, fixed), "test")
+    gripped = parted({"body": [BODY], "front": [PANEL], "grip": BAR}, HINGE, fixed)
     bundle = export_bundle(asset_of(gripped), PROVENANCE, tmp_path)
     links = {link.get("name"): link for link in ElementTree.parse(bundle.urdf).iter("link")}
     names = {name: [each.get("name", "") for each in links[name].iter("visual")] for name in links}

@@ -12,10 +12,9 @@ from tiny_checkpoint import write_checkpoint
 from tiny_model import TINY, plainly, random_cloud, tiny_model
 
 from asset_factory.factory.errors import ConfigError
-from asset_factory.factory.models.network.layers import Attention, SinusoidEmbedding
+from asset_factory.factory.models.network.layers import Attention
 from asset_factory.factory.models.network.shape import AxisForm, product_dtype
 from asset_factory.factory.models.network.streaming import QueryPass, drive, embed_chunks
-from asset_factory.factory.models.network.transformer import pair_logits
 from asset_factory.factory.models.particulate.model import Particulate, PointCloud, load_model
 from asset_factory.factory.models.particulate.sampling import Cloud
 
@@ -93,24 +92,6 @@ def test_a_batch_is_its_clouds_one_by_one():
         np.testing.assert_allclose(own, closest[number].numpy(), **CLOSE)
 
 
-def test_the_order_of_points_does_not_matter():
-    model = tiny_model()
-    cloud = random_cloud(300)
-    order = np.random.default_rng(1).permutation(300)
-    shuffled = model.predict(cloud.take(order)).mask_logits
-    np.testing.assert_allclose(shuffled, model.predict(cloud).mask_logits[order], **CLOSE)
-
-
-def test_every_point_twice_changes_nothing():
-    # Attention averages over points, so a cloud and its double tell the queries the same.
-    model = tiny_model()
-    cloud = random_cloud(200)
-    twice = model.predict(cloud.take(np.concatenate([np.arange(200), np.arange(200)])))
-    once = model.predict(cloud)
-    np.testing.assert_allclose(twice.mask_logits[:200], once.mask_logits, **CLOSE)
-    np.testing.assert_allclose(twice.motion_logits, once.motion_logits, **CLOSE)
-
-
 def test_a_cloud_that_drives_itself_is_predicted():
     model = tiny_model()
     cloud = random_cloud(700)
@@ -182,15 +163,6 @@ def test_logits_of_any_size_do_not_overflow_the_sums():
     np.testing.assert_allclose(streamed.found().numpy(), wanted, atol=1e-3)
 
 
-def test_pairs_are_what_concatenation_gives():
-    head = tiny_model()._network.part_hierarchy_decoder
-    rows = torch.randn(1, 5, 32)
-    columns = torch.randn(1, 4, 32)
-    both = [rows[:, :, None].expand(-1, -1, 4, -1), columns[:, None].expand(-1, 5, -1, -1)]
-    wanted = head(torch.cat(both, dim=-1))[..., 0]
-    np.testing.assert_allclose(pair_logits(head, rows, columns).numpy(), wanted.numpy(), atol=1e-5)
-
-
 def test_gradients_reach_every_weight():
     shape = replace(TINY, blocks=1)
     network = deepcopy(tiny_model(shape)._network).requires_grad_(True)
@@ -204,15 +176,6 @@ def test_gradients_reach_every_weight():
     sum(output.square().sum() for output in outputs).backward()
     gradients = {name: weight.grad for name, weight in network.named_parameters()}
     assert not [name for name, grad in gradients.items() if grad is None or not grad.any()]
-
-
-def test_sinusoids_are_sines_then_cosines_per_coordinate():
-    embedding = SinusoidEmbedding(195, 4, raw_coords=True)
-    expanded = embedding.expand(torch.tensor([[0.001, 0.0, -0.002]]))[0].numpy()
-    np.testing.assert_allclose(expanded[[0, 32]], [np.sin(1.0), np.cos(1.0)], rtol=1e-5)
-    np.testing.assert_allclose(expanded[64:96], 0.0, atol=1e-7)
-    np.testing.assert_allclose(expanded[128 + 1], np.sin(-2.0 * 10000.0 ** (-1 / 32)), rtol=1e-5)
-    np.testing.assert_allclose(expanded[192:], [0.001, 0.0, -0.002], rtol=1e-6)
 
 
 def nowhere(count):

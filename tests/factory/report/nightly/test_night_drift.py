@@ -5,11 +5,10 @@ from dataclasses import replace
 from pathlib import PurePath
 
 import pytest
-from nights_made import attempt, night
+from nights_made import attempt
 
-from asset_factory.factory.report.nightly.figures import Changes, SourceRules, source_yields
+from asset_factory.factory.report.nightly.figures import SourceRules, source_yields
 from asset_factory.factory.report.nightly.files import SUMMARY, read_sources
-from asset_factory.factory.report.nightly.outcome import FailureRules, concerns, exit_code
 
 ROOTS = (PurePath("meshes"), PurePath("meshes/inner"), PurePath("/single.glb"))
 
@@ -50,16 +49,6 @@ def test_an_input_belongs_to_the_innermost_root_above_it():
 def test_a_fall_below_the_median_of_the_last_nights_counts(now, earlier, fell):
     (source,) = yields(attempts(*now), earlier)
     assert source.fell is fell
-
-
-def test_a_fall_rings():
-    given = attempts(70, 30)
-    sources = yields(given, [(90, 100)] * 4)
-    asked = (night("5", given), None, Changes(), FailureRules(), 0, sources)
-    assert [concern.sentence for concern in concerns(*asked)] == [
-        "The yield of meshes is 70.0 %; 90.0 % is usual over 4 nights, 10 points less are allowed."
-    ]
-    assert exit_code(concerns(*asked)) == 5
 
 
 def test_nothing_is_compared_where_that_is_not_wanted():

@@ -1,10 +1,10 @@
 """The pages: whole, the same for the same rows, harmless whatever inputs say, and not endless."""
 
 import re
-from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
+from html_page import Page
 from hypothesis import given
 from hypothesis import strategies as st
 from nights_made import attempt, night
@@ -22,38 +22,6 @@ NIGHTS = 60
 SHOWN = 20
 MOST = 500
 EVIL = "<script>alert(1)</script>\"'&<img src=x onerror=alert(2)>"
-VOID = {"meta", "br", "img", "link", "hr", "input"}
-
-
-class Tags(HTMLParser):
-    """Collects tags; complains about those that are not closed in order."""
-
-    def __init__(self):
-        super().__init__()
-        self.open = []
-        self.seen = []
-        self.links = []
-
-    def handle_starttag(self, tag, attrs):
-        self.seen.append(tag)
-        self.links += [value for name, value in attrs if name in ("href", "src")]
-        assert not [name for name, _ in attrs if name.startswith("on")]
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attrs):
-        self.seen.append(tag)
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-
-def parsed(page):
-    tags = Tags()
-    tags.feed(page)
-    tags.close()
-    assert tags.open == []
-    return tags
 
 
 def rendered(source, **told):
@@ -94,10 +62,11 @@ def report(count=12, evil=EVIL):
 
 
 def test_the_page_is_whole_and_needs_nothing_else():
-    tags = parsed(night_page(report()))
-    assert {"script", "img", "iframe", "object", "link"}.isdisjoint(tags.seen)
+    page = Page(night_page(report()))
+    assert {"script", "img", "iframe", "object", "link"}.isdisjoint(page.tags)
+    assert page.loaded == page.handlers == []
     away = ("//", "javascript:", "data:")
-    assert not [each for each in tags.links if "://" in each or each.startswith(away)]
+    assert not [each for each in page.links if "://" in each or each.startswith(away)]
 
 
 def test_names_of_inputs_are_text_and_nothing_else():
@@ -112,7 +81,8 @@ def test_no_text_is_ever_markup(words):
     told = text(words)
     assert not re.search(r"[<>\"']", told)
     link = rendered("{{ m.link(words, words) }}", words=words)
-    assert parsed(f"<p>{link}{told}</p>").seen == ["p", "a"]
+    page = Page(f"<p>{link}{told}</p>")
+    assert (page.tags, page.handlers) == (["p", "a"], [])
 
 
 def test_text_that_turns_lines_round_is_shown_and_long_text_is_cut():
@@ -122,7 +92,7 @@ def test_text_that_turns_lines_round_is_shown_and_long_text_is_cut():
 
 
 def test_links_lead_to_the_folder_and_the_report():
-    links = parsed(night_page(report(evil="odd name?#%"))).links
+    links = Page(night_page(report(evil="odd name?#%"))).links
     assert "../../assets/a0-aaaaaaaaaa/" in links
     assert "../../rejected/a1-aaaaaaaaaa/report.json" in links
     assert "../../rejected/odd%20name%3F%23%25-aaaaaaaaaa/" in links
@@ -134,9 +104,9 @@ def test_the_same_rows_give_the_same_bytes():
 
 def test_an_empty_night_has_a_page():
     page = night_page(NightlyReport(night("1")))
-    parsed(page)
+    Page(page)
     assert "All is well" in page
-    parsed(nights_page(()))
+    Page(nights_page(()))
 
 
 @pytest.mark.parametrize(
@@ -144,7 +114,7 @@ def test_an_empty_night_has_a_page():
 )
 def test_long_tables_are_folded_and_longer_ones_counted(rows, folded, counted):
     body = rendered('{{ m.table({"n": "n"}, rows) }}', rows=[{"n": i} for i in range(rows)])
-    parsed(body)
+    Page(body)
     assert body.count("<details>") == folded
     assert body.count("<td") == min(rows, MOST)
     assert (f"And {counted:,} more, in attempts.parquet" in body) == bool(counted)
@@ -200,8 +170,7 @@ def test_one_night_is_no_trend_and_many_are_cut():
 def test_all_nights_are_listed_the_last_first():
     second = night("2", [attempt("a", "rejected")], state="out_of_time")
     page = nights_page((night("1", [attempt("a")]), second))
-    tags = parsed(page)
-    pages = [target for target in tags.links if "index.html" in target]
+    pages = [target for target in Page(page).links if "index.html" in target]
     assert pages == ["2/index.html", "1/index.html"]
     assert "−100.0 points" in page
     assert "out of time" in page

@@ -3,12 +3,13 @@
 import json
 import re
 from dataclasses import replace
-from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
 from export_samples import PROVENANCE, cabinet
+from html_page import Page
+from refusing import refusal
 from registry_samples import PASSED
 from shown_registry import HIT, HOSTILE, POINT, bundle_in, make_registry
 
@@ -19,40 +20,12 @@ from asset_factory.factory.report.site import site as drawing
 from asset_factory.factory.report.site.alone import page_of_file
 from asset_factory.factory.report.site.places import Places
 from asset_factory.factory.report.site.render import grid_html, list_html
-from asset_factory.factory.report.site.site import (
-    LISTED,
-    index_of,
-    stale,
-    write_asset,
-    write_index,
-)
+from asset_factory.factory.report.site.site import LISTED, index_of, stale, write_asset, write_index
 from asset_factory.factory.report.site.told import AssetPage, asset_page
 from asset_factory.sim_checks import Finding, Severity
 from asset_factory.sim_checks.measurements import penetrations
 
 EXAMPLES = Path(__file__).parents[4] / "examples"
-
-
-class Page(HTMLParser):
-    """What a browser would act upon: links, what is loaded, attributes that run scripts."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.links = []
-        self.loaded = []
-        self.handlers = []
-        self.tags = []
-        self.feed(text)
-
-    def handle_starttag(self, tag, attrs):
-        self.tags.append(tag)
-        for name, value in attrs:
-            if name == "href" and tag == "a":
-                self.links.append(value)
-            elif name in ("src", "href", "srcset", "data", "action"):
-                self.loaded.append(value)
-            elif name.startswith("on"):
-                self.handlers.append(name)
 
 
 @pytest.fixture(scope="module")
@@ -253,9 +226,7 @@ def test_what_cannot_be_shown_says_why(tmp_path):
         '<robot name="x"><link name="a"><visual><geometry><mesh filename="../../etc/x.obj"/>'
         "</geometry></visual></link></robot>"
     )
-    with pytest.raises(InputRejected) as refused:
-        page_of_file(hostile)
-    assert refused.value.code in ("outside_folder", "missing_file")
+    assert refusal(page_of_file, hostile).code in ("outside_folder", "missing_file")
 
 
 def test_hostile_names_in_a_description_are_text(tmp_path):

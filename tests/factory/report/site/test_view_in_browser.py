@@ -63,14 +63,6 @@ def test_a_hundred_joints_are_in_a_list_that_scrolls_and_filters(opened, tmp_pat
     assert [row.is_visible() for row in rows.all()].count(True) == 6
 
 
-def test_one_file_works_alone_and_from_the_server(opened, tmp_path):
-    text = page_of_file(bundle_in(tmp_path / "bundle") / "asset.urdf")
-    alone = tmp_path / "elsewhere.html"
-    alone.write_text(text)
-    page = opened(alone)
-    assert page.evaluate("factory.model.free.length") == 2
-
-
 #: Drop files, given by name, on a page.
 DROP = """(files) => {
     const dataTransfer = new DataTransfer();

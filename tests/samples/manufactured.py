@@ -1,0 +1,22 @@
+"""What is made of an object's parts, its stages kept in a folder."""
+
+import numpy as np
+
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.intake.intake import Intake, Provenance
+from asset_factory.factory.manufacture.plan import Plan
+from asset_factory.factory.manufacture.stage import manufacture
+from asset_factory.factory.runtime.stages import Stages
+from asset_factory.factory.runtime.store import Store
+
+
+def intake_of(mesh, **known):
+    """A mesh as if it were read, with what is known of it."""
+    provenance = Provenance("thing.glb", "0" * 64, **known)
+    return Intake("thing", mesh, np.arange(len(mesh.faces)), np.eye(4), provenance)
+
+
+def manufactured(whole, kept, plan=None, config=None, **known):
+    """The asset, what is found of it, and the stages that made it of what is known."""
+    stages = Stages(config or BuildConfig(), Store(kept))
+    return *manufacture(whole, plan or Plan(), intake_of(whole.mesh, **known), stages), stages
