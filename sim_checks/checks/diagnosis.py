@@ -13,7 +13,7 @@ from functools import cache
 import numpy as np
 
 from ..geometry.path import Path
-from .cause import MOST_OF_THE_RANGE, CauseEvidence, Way, likely_cause
+from .cause import MOST_OF_THE_RANGE, Way, shown_cause
 from .joint_sweep import JointCourse, clear_until
 from .pairs import RestingSolids
 from .penetration_study import (
@@ -70,12 +70,10 @@ class Diagnosis:
         visual = self.visible.gap(contact)
         meets = visual is not None and visual < -allowed
         leaked = meets and self.visible.strayed(contact, allowed)
-        evidence = CauseEvidence(contact.depth, allowed, visual, leaked, at_rest)
-        cause = likely_cause(evidence, self.rest.config.rest_m, self.rest.config.excess_m)
+        cause = shown_cause(contact.depth, allowed, visual, leaked=leaked, at_rest=at_rest)
         if cause is None and way is not None:
             # Other ways are looked for only where the surfaces alone do not tell.
-            evidence = replace(evidence, way=way())
-            cause = likely_cause(evidence, self.rest.config.rest_m, self.rest.config.excess_m)
+            cause = way().cause(visual is not None, self.rest.config)
         return replace(contact, visual=visual, cause=cause)
 
     def _along(self, sweep: JointSweep) -> JointSweep:
