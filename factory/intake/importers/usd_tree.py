@@ -15,7 +15,7 @@ from asset_factory.sim_checks.read.usd.stage import PhysicsStage
 
 from ...articulation import rotation_about
 from ...errors import InputRejected
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import FloatArray, Mesh
 from ..annotation import AnnotatedJoint, Annotation
 from ..limits import unreadable
 from .imported import fixed, rigid_groups
@@ -56,7 +56,14 @@ def annotation_of(
     face_group = np.repeat([group[index[body]] for body, _ in pieces], sizes)
     roots = {group[index[body]] for body in stage.roots if body in index}
     world = group[index[WORLD]] if WORLD in index else None
-    order = _by_rank(links, group, roots, world, face_group)
+    moved = {link.child for link in links}
+    count = Counter(face_group.tolist())
+
+    def rank(g: int) -> tuple[bool, bool, bool, int, int]:
+        """Rank groups, the best root first: world, articulation root, no ``body1``, then size."""
+        return g != world, g not in roots, g in moved, -count[g], g
+
+    order = sorted(set(group), key=rank)
     number = {g: part for part, g in enumerate(order)}
     return Annotation(
         face_part=np.repeat([number[group[index[body]]] for body, _ in pieces], sizes),
@@ -134,23 +141,6 @@ def _value_at_pose(joint: PhysicsJoint, first: FloatArray, second: FloatArray) -
         return turned if off_angle <= ALIGNED else 0.0
     reach = max(abs(along), abs(joint.upper or 0.0))
     return along if off_angle <= ALIGNED and off_axis <= CLOSE * reach else 0.0
-
-
-def _by_rank(
-    links: list[AnnotatedJoint],
-    group: list[int],
-    roots: set[int],
-    world: int | None,
-    face_group: IntArray,
-) -> list[int]:
-    """Return the groups, best root first: world, articulation root, no ``body1``, then size."""
-    faces = Counter(face_group.tolist())
-    moved = {link.child for link in links}
-
-    def rank(g: int) -> tuple[bool, bool, bool, int, int]:
-        return g != world, g not in roots, g in moved, -faces[g], g
-
-    return sorted(set(group), key=rank)
 
 
 def _hung(links: list[AnnotatedJoint], parts: dict[int, int], file: str) -> list[AnnotatedJoint]:
