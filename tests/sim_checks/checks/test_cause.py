@@ -187,8 +187,7 @@ def test_what_the_numbers_say(numbers, expected):
 @given(depth=st.floats(0.0021, 1.0), share=st.floats(-1.0, 1.0), leaked=st.booleans())
 def test_at_rest_what_is_seen_always_decides(depth, share, leaked):
     """The deeper the visible surfaces lie, the less the hulls are to blame."""
-    met = {"way": None, "depth": depth, "allowed": CONFIG.rest_m, "leaked": leaked, "at_rest": True}
-    deeper = min(0.0, share * depth) - CONFIG.rest_m - 1e-6
-    assert cause(**met, visual=share * depth) is not None
-    expected = Cause.LEAKED_SEGMENT if leaked else Cause.PARTS_OVERLAP
-    assert cause(**met, visual=deeper) is expected
+    met = (None, depth, CONFIG.rest_m)
+    assert cause(*met, share * depth, leaked, at_rest=True) is not None
+    told = cause(*met, min(0.0, share * depth) - CONFIG.rest_m - 1e-6, leaked, at_rest=True)
+    assert told is (Cause.LEAKED_SEGMENT if leaked else Cause.PARTS_OVERLAP)

@@ -221,12 +221,11 @@ def test_no_pose_on_the_way_is_worse_than_what_is_found(seed):
     description = tangle(seed)
     tree = build_tree(description)
     solids = Solids(description, tree)
-    lower = {"j1": -1.0}
-    solids.place(lower)
-    standings = tuple(solids.standings(CONFIG.clearance_m))
-    known = (solids, frozenset(), CONFIG, lower, {"j1": 1.5})
-    rest = RestingSolids(*known, standings, solids.diagonal())
-    course = JointCourse(tree.free[0], rest, lower).run()
+    ends = ({"j1": -1.0}, {"j1": 1.5})
+    solids.place(ends[0])
+    near = tuple(solids.standings(CONFIG.clearance_m))
+    rest = RestingSolids(solids, frozenset(), CONFIG, *ends, near, solids.diagonal())
+    course = JointCourse(tree.free[0], rest, ends[0]).run()
     found = {pair.parts: pair for pair in course.pairs}
     known = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in rest.standings}
     for at in np.linspace(-1.0, 1.5, 100):
