@@ -139,10 +139,9 @@ def unobstructed(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> lis
 
     Of those that differ only in their distance from the surface the closest stays.
     """
-    fingers = world.balls.of(world.fingers)
     # A few points of the fingers rule most of them out.
-    grips = _clear(world, grips, poses, fingers.thinned(6), (0.0,))
-    grips = _clear(world, grips, poses, fingers, (0.0,))
+    grips = _clear(world, grips, poses, world.balls.of(world.fingers, 6), (0.0,))
+    grips = _clear(world, grips, poses, world.balls.of(world.fingers), (0.0,))
     kept = []
     seen = set()
     for grip in _clear(world, grips, poses, world.balls.of((*world.fingers, world.palm)), STATIONS):
