@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.errors import RegistryError
-from asset_factory.factory.export.manifest import Manifest, ManifestJoint, ManifestTarget, Row
+from asset_factory.factory.export.manifest import Manifest, ManifestJoint, Row
 from asset_factory.factory.runtime.store import digest_bytes
 
 FloatArray = npt.NDArray[np.float64]
@@ -68,50 +68,42 @@ class RegisteredAsset:
     """An asset as a task sees it.
 
     Attributes:
-        id: folder name in the registry.
-        folder: where its files lie.
-        urdf: the file to load.
-        category: of the object; empty if unknown.
-        bounds: box around the closed object, object frame [m], shape [2, 3].
-        ground_offset: height of the object frame at which the object stands on the ground [m].
-        joints: every joint, fixed ones too, parents first.
-        openable: those that can be a target.
-        unusable: why other movable joints cannot be; name -> sentence.
-        targets: ways to open them.
-        ignored_contacts: pairs of links that overlap on purpose.
-        hull_vertices, hull_aspect: the largest over all convex pieces: corners, longest over
-            shortest side.
+        folder: where its files lie, called like it.
+        manifest: what its bundle says of it.
         digest: SHA-256 of the manifest when it was read.
+        openable: joints that can be a target.
+        unusable: why other movable joints cannot be; name -> sentence.
     """
 
-    id: str
     folder: Path
-    urdf: Path
-    category: str
-    bounds: FloatArray
-    ground_offset: float
-    joints: tuple[ManifestJoint, ...]
+    manifest: Manifest
+    digest: str
     openable: tuple[OpenableJoint, ...]
-    targets: tuple[ManifestTarget, ...] = ()
-    unusable: dict[str, str] = field(default_factory=dict)
-    ignored_contacts: tuple[tuple[str, str], ...] = ()
-    hull_vertices: int = 0
-    hull_aspect: float = 0.0
-    digest: str = ""
+    unusable: dict[str, str]
 
     @property
-    def movable(self) -> dict[str, ManifestJoint]:
-        """Return every joint with a degree of freedom, whether or not it can be held, by name."""
-        return {joint.name: joint for joint in self.joints if joint.movable}
+    def id(self) -> str:
+        """Return its name in the registry."""
+        return self.folder.name
+
+    @property
+    def urdf(self) -> Path:
+        """Return the file to load."""
+        return self.folder / self.manifest.urdf
+
+    @property
+    def bounds(self) -> FloatArray:
+        """Return the box around the closed object, object frame [m], shape [2, 3]."""
+        return np.array(self.manifest.closed_bounds)
 
     @property
     def standing_bounds(self) -> FloatArray:
         """Return the box around the closed object as it stands on the ground [m], shape [2, 3]."""
-        return np.asarray(self.bounds + np.array([0.0, 0.0, self.ground_offset]))
+        return np.asarray(self.bounds + np.array([0.0, 0.0, self.manifest.ground_offset]))
 
     def closed_value(self, joint: str) -> float:
         """Return the joint's value when closed [rad] or [m]; its input pose if it has no limit."""
-        found = self.movable[joint]
+        found = self.manifest.movable[joint]
         ends = _limits(found)
         return 0.0 if ends is None or found.kind is JointKind.CONTINUOUS else ends[0]
 
@@ -123,10 +115,6 @@ class RegisteredAsset:
         names = listed([joint.name for joint in self.openable])
         why = f" ({self.unusable[name]})" if name in self.unusable else ""
         raise RegistryError(f"asset {self.id!r}: no joint {name!r} to open{why}; there are {names}")
-
-    def narrowed(self, openable: tuple[OpenableJoint, ...]) -> RegisteredAsset:
-        """Return the same asset with fewer targets."""
-        return replace(self, openable=openable)
 
 
 def read_registry(registry: str | Path) -> dict[str, RegisteredAsset]:
@@ -190,22 +178,7 @@ def _read_asset(path: Path) -> RegisteredAsset:
         else:
             openable.append(found)
 
-    return RegisteredAsset(
-        id=path.parent.name,
-        folder=path.parent,
-        urdf=path.parent / manifest.urdf,
-        category=manifest.category or "",
-        bounds=np.array(manifest.closed_bounds),
-        ground_offset=manifest.ground_offset,
-        joints=manifest.joints,
-        openable=tuple(openable),
-        targets=manifest.targets,
-        unusable=unusable,
-        ignored_contacts=manifest.excluded_pairs,
-        hull_vertices=max((link.max_hull_vertices for link in manifest.links), default=0),
-        hull_aspect=max((link.max_hull_aspect for link in manifest.links), default=0.0),
-        digest=digest_bytes(text),
-    )
+    return RegisteredAsset(path.parent, manifest, digest_bytes(text), tuple(openable), unusable)
 
 
 @dataclass(frozen=True)

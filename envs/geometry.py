@@ -20,13 +20,13 @@ STATIONS = 7
 
 def closed_values(asset: RegisteredAsset) -> dict[str, float]:
     """Return the value of every movable joint of the closed object [rad] or [m]."""
-    return {name: asset.closed_value(name) for name in asset.movable}
+    return {name: asset.closed_value(name) for name in asset.manifest.movable}
 
 
 def displacements(asset: RegisteredAsset, values: Mapping[str, float]) -> dict[str, FloatArray]:
     """Return by link its transform from all joints at 0 to where it is now, shape [4, 4]."""
     moved: dict[str, FloatArray] = {}
-    for joint in asset.joints:
+    for joint in asset.manifest.joints:
         motion = np.eye(4)
         axis = np.asarray(joint.axis)
         value = values.get(joint.name, 0.0)
@@ -44,7 +44,7 @@ def displacements(asset: RegisteredAsset, values: Mapping[str, float]) -> dict[s
 def carried_links(asset: RegisteredAsset, link: str) -> frozenset[str]:
     """Return ``link`` and everything it carries."""
     carried = {link}
-    for joint in asset.joints:
+    for joint in asset.manifest.joints:
         if joint.parent in carried:
             carried.add(joint.child)
     return frozenset(carried)
@@ -60,9 +60,9 @@ def hull_boxes(
         values: of the joints [rad] or [m]; those left out are at 0.
         links: only these.
     """
-    origins = {joint.child: np.asarray(joint.origin) for joint in asset.joints}
+    origins = {joint.child: np.asarray(joint.origin) for joint in asset.manifest.joints}
     moved = displacements(asset, values)
-    lift = np.array([0.0, 0.0, asset.ground_offset])
+    lift = np.array([0.0, 0.0, asset.manifest.ground_offset])
     boxes = [np.zeros((0, 2, 3))]
     for link, hulls in _hulls(asset.urdf, asset.digest).items():
         if links is not None and link not in links:
@@ -83,7 +83,7 @@ def handle_path(asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray
     for values in opening_values(asset, joint, shares):
         pose = displacements(asset, values)[joint.handle_link]
         points.append(pose[:3, :3] @ joint.rest_point + pose[:3, 3])
-    return np.asarray(np.array(points) + np.array([0.0, 0.0, asset.ground_offset]))
+    return np.asarray(np.array(points) + np.array([0.0, 0.0, asset.manifest.ground_offset]))
 
 
 def opening_values(

@@ -52,13 +52,13 @@ def load_asset(scene: Any, asset: RegisteredAsset, name: str, index: int) -> Any
     loader.set_material(SURFACE_FRICTION, SURFACE_FRICTION, 0.0)
     builder = loader.parse(str(asset.urdf))["articulation_builders"][0]
     couple_as_written(builder)
-    builder.initial_pose = sapien.Pose(p=[0.0, 0.0, asset.ground_offset])
+    builder.initial_pose = sapien.Pose(p=[0.0, 0.0, asset.manifest.ground_offset])
     builder.set_scene_idxs([index])
     articulation = builder.build(name=name)
     for link in articulation.links:
         for word, value in enumerate(ASSET_GROUPS):
             link.set_collision_group(word, value)
-    for bit, pair in enumerate(asset.ignored_contacts[:FREE_BITS]):
+    for bit, pair in enumerate(asset.manifest.excluded_pairs[:FREE_BITS]):
         for link_name in pair:
             articulation.links_map[link_name].set_collision_group_bit(2, bit, 1)
     return articulation
@@ -121,7 +121,7 @@ def resist(
     inertia``, which for a link on a resting parent is the same law. On a GPU all this has to be set
     before the first step.
     """
-    movable = asset.movable
+    movable = asset.manifest.movable
     for joint in articulation.active_joints:
         data = movable[joint.name]
         friction = friction_factor * data.friction
@@ -135,8 +135,13 @@ def resist(
 
 def warn_of_hulls(assets: Iterable[RegisteredAsset]) -> None:
     """Say which assets have convex pieces that PhysX cannot simulate well on a GPU."""
-    known = [(a.id, a.hull_vertices, a.hull_aspect) for a in assets]
-    unfit = [id for id, most, long in known if most > GPU_HULL_VERTICES or long > GPU_HULL_ASPECT]
+    known = list(assets)
+    unfit = [
+        asset.id
+        for asset in known
+        if any(link.max_hull_vertices > GPU_HULL_VERTICES for link in asset.manifest.links)
+        or any(link.max_hull_aspect > GPU_HULL_ASPECT for link in asset.manifest.links)
+    ]
     if unfit:
         warnings.warn(
             f"{len(unfit)} of {len(known)} assets have hulls of more than {GPU_HULL_VERTICES} "

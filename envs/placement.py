@@ -153,7 +153,8 @@ def _search(
     begin = handle_path(asset, joint, starts[1:2])
     path = begin if robot.mobile else np.concatenate([begin, handle_path(asset, joint, shares)])
     moving = carried_links(asset, joint.child)
-    everything = frozenset(other.child for other in asset.joints) | {asset.joints[0].parent}
+    joints = asset.manifest.joints
+    everything = frozenset(other.child for other in joints) | {joints[0].parent}
     still = hull_boxes(asset, closed_values(asset), everything - moving)
     opened = (opening_values(asset, joint, at) for at in (shares, np.unique(starts)))
     boxes = ((hull_boxes(asset, values, moving) for values in each) for each in opened)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.factory.registry.entry import SPLITS, Split, split_of
@@ -76,7 +76,9 @@ def select(assets: Assets, wanted: Wanted) -> Assets:
         there = listed(list(assets))
         raise RegistryError(f"no asset {wanted.asset!r} in the registry; there are {there}")
     left = {wanted.asset: assets[wanted.asset]} if wanted.asset is not None else assets
-    left = _filter(left, "category", wanted.categories, lambda asset: (asset.category,))
+    left = _filter(
+        left, "category", wanted.categories, lambda asset: (asset.manifest.category or "",)
+    )
     splits = (wanted.split,) if wanted.split else ()
     left = _filter(left, "split", splits, lambda asset: (split_of(asset.id),))
     if wanted.verdict != "passed":
@@ -125,7 +127,7 @@ def _admitted(assets: Assets, wanted: Wanted, name: str | None = None) -> Assets
         named = (joint for joint in asset.openable if name in (None, joint.name))
         admitted = tuple(joint for joint in named if wanted.admits(joint))
         if admitted:
-            kept[key] = asset.narrowed(admitted)
+            kept[key] = replace(asset, openable=admitted)
     return kept
 
 

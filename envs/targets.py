@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import torch  # noqa: TID253 - this module is only imported to make an environment
-from mani_skill.utils.geometry.rotation_conversions import quaternion_apply  # noqa: TID253
 
 from .assets import RegisteredAsset
 
@@ -115,11 +114,6 @@ class Targets:
         upper = self._now["upper"][env_idx]
         value = lower + share * (upper - lower)
         return qpos.scatter(1, self._now["dof"][env_idx][:, None], value[:, None])
-
-
-def turned(vectors: torch.Tensor, orientation: torch.Tensor) -> torch.Tensor:
-    """Turn vectors, shape [environment, 3], by quaternions wxyz, shape [environment, 4]."""
-    return quaternion_apply(orientation, vectors)
 
 
 def named_slot(asset: RegisteredAsset, joint: str) -> int:

@@ -263,7 +263,7 @@ def _failure(outcome: Outcome[Any], path: Path) -> Finding:
 def _unanswered(message: str, error: Exception | None) -> Finding:
     """Tell a refusal, a hang (TimeoutError) and an ended process (ChildProcessError) from a crash.
 
-    Readers in children of their own raise the first three; see :func:`~.read.native.require_word`.
+    Readers in children of their own raise the first three; see :func:`~.read.native.ask_of`.
     """
     if isinstance(error, DescriptionError):
         return Finding(error.code, Severity.ERROR, error.message)

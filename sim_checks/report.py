@@ -94,6 +94,8 @@ class Finding:
         return self.cause in (KILLED, OUT_OF_TIME)
 
 
+#: The verdict of an engine that found nothing wrong.
+PASS = "pass"  # noqa: S105 - a verdict
 #: What each question asks.
 ASKED = {
     "loads": "whether the file loads",
@@ -125,6 +127,16 @@ class Disagreement:
     values: Mapping[str, float | None]
     unit: str | None
     reason: str
+
+    @property
+    def passing(self) -> frozenset[str]:
+        """Return the engines that found nothing wrong."""
+        return frozenset(name for name, verdict in self.verdicts.items() if verdict == PASS)
+
+    @property
+    def failing(self) -> frozenset[str]:
+        """Return the others."""
+        return frozenset(self.verdicts) - self.passing
 
     @property
     def asked(self) -> str:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 from asset_factory.factory.errors import ConfigError
@@ -55,33 +56,27 @@ class Making:
     def _make(self, shards: Sequence[Shard]) -> Iterator[tuple[Shard, tuple[Taken, ...]]]:
         waiting = self.target / WAITING
         waiting.mkdir(exist_ok=True)
-        gathered: dict[str, dict[Episode, Taken]] = {}
-        for shard in shards:
-            kept = (kept_episode(waiting, self.settings, episode) for episode in shard.episodes)
-            gathered[shard.name] = {taken.episode: taken for taken in kept if taken is not None}
         owners = {episode: shard for shard in shards for episode in shard.episodes}
-        missing = [each for each, shard in owners.items() if each not in gathered[shard.name]]
-        for shard in shards:
-            if len(gathered[shard.name]) == len(shard.episodes):
-                yield shard, self._finish(shard, gathered.pop(shard.name))
-        for taken in self._episodes(missing, waiting):
+        tried = {each: kept_episode(waiting, self.settings, each) for each in owners}
+        kept = [taken for taken in tried.values() if taken is not None]
+        missing = [episode for episode, taken in tried.items() if taken is None]
+        gathered: dict[Episode, Taken] = {}
+        for taken in chain(kept, self._episodes(missing, waiting)):
+            gathered[taken.episode] = taken
             shard = owners[taken.episode]
-            gathered[shard.name][taken.episode] = taken
-            if len(gathered[shard.name]) == len(shard.episodes):
-                yield shard, self._finish(shard, gathered.pop(shard.name))
+            if gathered.keys() >= set(shard.episodes):
+                yield shard, self._finish(shard, [gathered.pop(each) for each in shard.episodes])
 
-    def _finish(self, shard: Shard, gathered: dict[Episode, Taken]) -> tuple[Taken, ...]:
+    def _finish(self, shard: Shard, taken: Sequence[Taken]) -> tuple[Taken, ...]:
         waiting = self.target / WAITING
-        taken = tuple(gathered[episode] for episode in shard.episodes)
         write_shard(self.target, waiting, shard, taken, self.settings, self.registry)
         # What is tried again by the next run needs the others once more.
         if all(each.judged for each in taken):
             forget_episodes(waiting, self.settings, shard)
-        return taken
+        return tuple(taken)
 
-    def _episodes(self, episodes: Iterable[Episode], waiting: Path) -> Iterator[Taken]:
+    def _episodes(self, wanted: Sequence[Episode], waiting: Path) -> Iterator[Taken]:
         """Make episodes, in processes that may die."""
-        wanted = list(episodes)
         shared = {"registry": self.registry, "settings": self.settings, "folder": str(waiting)}
         named = ((f"{each.asset} {each.joint} {each.seed}", each) for each in wanted)
         calls = (Call(name, {**shared, "episode": each}) for name, each in named)

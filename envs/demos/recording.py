@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..solving.attempt import Attempt
-from ..solving.solve import SolveTask, attempted
+from ..solving.solve import SolveTask, attempted, replay
 from .episodes import SOLVED_IN, Episode, Settings, Taken
 from .files import keep_episode
 
@@ -64,15 +64,12 @@ def _make(registry: str, settings: Settings) -> Any:
 
 def _act(environment: Any, registry: str, attempt: Attempt, settings: Settings) -> bool:
     """Reset and act; whether the task said ``success`` after the last action."""
-    reset: dict[str, Any] = {"seed": attempt.seed, "options": dict(attempt.options)}
-    environment.reset(**reset)
-    info: dict[str, Any] = {}
     if settings.control_mode == SOLVED_IN:
-        for action in attempt.actions:
-            _, _, _, _, info = environment.step(action)
-        return bool(info["success"])
+        return replay(environment, attempt)[0]
     from .converting import act_converted
 
+    reset: dict[str, Any] = {"seed": attempt.seed, "options": dict(attempt.options)}
+    environment.reset(**reset)
     original = _make(registry, replace(settings, control_mode=SOLVED_IN, obs_mode="none"))
     try:
         original.reset(**reset)

@@ -71,18 +71,19 @@ def grasps(world: RobotWorld, poses: FloatArray, seed: int = 0) -> list[Grip]:
     """
     found = []
     for target in world.targets:
-        if target.kind != "grasp" or target.opening + SLACK > 2.0 * world.robot.opening:
+        stated = target.stated
+        if stated.kind != "grasp" or stated.opening_m + SLACK > 2.0 * world.robot.opening:
             continue
         pose = poses[target.link]
-        point = pose[:3, :3] @ target.point + pose[:3, 3]
-        fingers = pose[:3, :3] @ target.fingers
-        ahead = -pose[:3, :3] @ target.normal
+        point = pose[:3, :3] @ stated.point + pose[:3, 3]
+        fingers = pose[:3, :3] @ stated.fingers
+        ahead = -pose[:3, :3] @ stated.normal
         for (row, lean), flip, depth in product(enumerate(LEANS), (1.0, -1.0), DEPTHS):
             direction = Rotation.from_rotvec(lean * fingers).apply(ahead)
             hand = _hand(point + depth * direction, direction, flip * fingers)
-            score = target.score * (1.0 - 0.25 * abs(lean) / np.pi)
+            score = stated.score * (1.0 - 0.25 * abs(lean) / np.pi)
             label = (target.number, row, flip, depth)
-            found.append(Grip("grasp", target.number, hand, score, label, target.opening))
+            found.append(Grip("grasp", target.number, hand, score, label, stated.opening_m))
     return found
 
 
@@ -138,10 +139,9 @@ def unobstructed(world: RobotWorld, grips: list[Grip], poses: FloatArray) -> lis
 
     Of those that differ only in their distance from the surface the closest stays.
     """
-    fingers = world.balls.of(world.fingers)
     # A few points of the fingers rule most of them out.
-    grips = _clear(world, grips, poses, fingers.thinned(6), (0.0,))
-    grips = _clear(world, grips, poses, fingers, (0.0,))
+    grips = _clear(world, grips, poses, world.balls.of(world.fingers, 6), (0.0,))
+    grips = _clear(world, grips, poses, world.balls.of(world.fingers), (0.0,))
     kept = []
     seen = set()
     for grip in _clear(world, grips, poses, world.balls.of((*world.fingers, world.palm)), STATIONS):

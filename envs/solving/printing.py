@@ -13,25 +13,13 @@ from asset_factory.factory.runtime.terminal import Terminal, complain
 from .attempt import Attempt
 
 
-class Progress:
-    """A line on stderr for every joint that was tried."""
-
-    def __init__(self) -> None:
-        self._robot = ""
-        self._total = 0
-        self._number = 0
-
-    def expect(self, robot: str, total: int) -> None:
-        """Note that so many joints come next, for one robot."""
-        self._robot = robot
-        self._total = total
-        self._number = 0
-
-    def show(self, attempt: Attempt) -> None:
-        """Tell of one."""
-        self._number += 1
-        count = f"[{self._robot} {self._number}/{self._total}]"
-        complain(f"{count} {attempt.asset} {attempt.joint}: {_said(attempt)}")
+def show_attempt(number: int, total: int, attempt: Attempt) -> None:
+    """Print a line to standard error on one of so many joints that a robot tried."""
+    said = f"{attempt.reason}: {attempt.message}"
+    if attempt.solved:
+        said = f"solved in {attempt.steps} steps, with up to {attempt.peak_force:.0f} N"
+    what = f"[{attempt.robot} {number}/{total}] {attempt.asset} {attempt.joint}"
+    complain(f"{what}: {said} ({attempt.seconds:.0f} s)")
 
 
 def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
@@ -55,10 +43,3 @@ def print_table(attempts: Mapping[str, Sequence[Mapping[str, Any]]]) -> None:
                 "" if row["solved"] else escape(f"{row['reason']}: {row['message']}"),
             )
         console.print(table)
-
-
-def _said(attempt: Attempt) -> str:
-    said = f"{attempt.reason}: {attempt.message}"
-    if attempt.solved:
-        said = f"solved in {attempt.steps} steps, with up to {attempt.peak_force:.0f} N"
-    return f"{said} ({attempt.seconds:.0f} s)"

@@ -40,14 +40,10 @@ class Balls:
         turned = (chosen[..., :3, :3] @ self.points[:, :, None])[..., 0]
         return np.asarray(turned + chosen[..., :3, 3])
 
-    def of(self, links: Sequence[int]) -> Balls:
-        """Return only the points of some links."""
-        keep = np.isin(self.link, list(links))
+    def of(self, links: Sequence[int], every: int = 1) -> Balls:
+        """Return only the points of some links, one of every so many."""
+        keep = np.flatnonzero(np.isin(self.link, list(links)))[::every]
         return Balls(self.points[keep], self.link[keep], self.radius[keep])
-
-    def thinned(self, every: int) -> Balls:
-        """Return every so manieth point."""
-        return Balls(self.points[::every], self.link[::every], self.radius[::every])
 
 
 @dataclass(frozen=True)

@@ -155,11 +155,6 @@ def replay(
     return success, share
 
 
-def episode_options(asset_id: str, joint: str) -> dict[str, Any]:
-    """Return reset options of an attempt; a rebuilt scene keeps nothing of an earlier episode."""
-    return {"asset": asset_id, "joint": joint, "reconfigure": True}
-
-
 def _solve_in(environment: Any, task: SolveTask) -> Attempt:
     best = _nothing(task)
     avoided: frozenset[tuple[object, ...]] = frozenset()
@@ -213,5 +208,6 @@ def _try(
 
 
 def _nothing(task: SolveTask) -> Attempt:
-    options = episode_options(task.asset_id, task.joint)
+    # A rebuilt scene keeps nothing of an earlier episode.
+    options = {"asset": task.asset_id, "joint": task.joint, "reconfigure": True}
     return Attempt(task.asset_id, "", task.joint, task.robot, task.seed, options, solved=False)

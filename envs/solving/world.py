@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from asset_factory.factory.export.manifest import ManifestTarget
+
 from ..assets import FloatArray, OpenableJoint, RegisteredAsset
 from ..geometry import carried_links
 from .kinematics import Chain, reach, read_chain
@@ -30,21 +32,13 @@ class GraspTarget:
 
     Attributes:
         number: among all targets of the asset.
-        kind: ``grasp``, ``hook`` or ``push``.
         link: index of the link that is held.
-        point, normal, fingers: [m] and unit directions, shape [3].
-        opening: [m].
-        score: 0 to 1.
+        stated: what the asset says of it.
     """
 
     number: int
-    kind: str
     link: int
-    point: FloatArray
-    normal: FloatArray
-    fingers: FloatArray
-    opening: float
-    score: float
+    stated: ManifestTarget
 
 
 @dataclass(frozen=True)
@@ -199,14 +193,10 @@ def read_targets(
     record: RegisteredAsset, joint: OpenableJoint, links: Sequence[str]
 ) -> tuple[GraspTarget, ...]:
     """Return a joint's interaction targets, best first; its handle if it has none."""
-    found = []
-    for number, target in enumerate(record.targets):
-        if target.joint == joint.name:
-            held = (number, target.kind, links.index(target.part))
-            point, normal, fingers = map(np.array, (target.point, target.normal, target.fingers))
-            sizes = (target.opening_m, target.score)
-            found.append(GraspTarget(*held, point, normal, fingers, *sizes))
-    return tuple(sorted(found, key=lambda target: -target.score))
+    named = enumerate(record.manifest.targets)
+    own = ((number, target) for number, target in named if target.joint == joint.name)
+    found = (GraspTarget(number, links.index(target.part), target) for number, target in own)
+    return tuple(sorted(found, key=lambda target: -target.stated.score))
 
 
 def _matrix(pose: Any) -> FloatArray:

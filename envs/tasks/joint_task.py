@@ -7,11 +7,12 @@ from typing import Any
 import sapien  # noqa: TID253 - this module is only imported to make an environment
 import torch  # noqa: TID253
 from mani_skill.utils import common  # noqa: TID253
+from mani_skill.utils.geometry.rotation_conversions import quaternion_apply  # noqa: TID253
 from mani_skill.utils.structs import Pose  # noqa: TID253
 
 from ..assets import OpenableJoint, RegisteredAsset
 from ..placement import ROBOTS, Place
-from ..targets import named_slot, turned
+from ..targets import named_slot
 from .arguments import check_share
 from .joint_scene import JointScene
 
@@ -157,7 +158,7 @@ class JointTask(JointScene):
     def handle_position(self) -> torch.Tensor:
         """Return where to hold, world frame [m], shape [environment, 3]."""
         pose = self.targets.handle_pose()
-        return pose[:, :3] + turned(self.targets["point"], pose[:, 3:])
+        return pose[:, :3] + quaternion_apply(pose[:, 3:], self.targets["point"])
 
     def open_fraction(self) -> torch.Tensor:
         """Return how far the targets are open: 0 closed, 1 fully open, shape [environment]."""
@@ -183,7 +184,7 @@ class JointTask(JointScene):
 
     def _get_obs_extra(self, info: dict[str, Any]) -> dict[str, torch.Tensor]:
         handle = info["handle_position"]
-        pull = turned(self.targets["pull"], self.targets.handle_pose()[:, 3:])
+        pull = quaternion_apply(self.targets.handle_pose()[:, 3:], self.targets["pull"])
         goal = self._goal_start[0].clone()
         observation = {"handle_position": handle, "pull": pull, "goal_fraction": goal}
         if self.agent is not None:
@@ -191,7 +192,7 @@ class JointTask(JointScene):
         if self.obs_mode_struct.use_state:
             # Turning about its own axis leaves the axis where it is, so that the child's frame
             # serves.
-            observation["axis"] = turned(self.targets["axis"], self.targets.motion()[0])
+            observation["axis"] = quaternion_apply(self.targets.motion()[0], self.targets["axis"])
             observation["open_fraction"] = info["open_fraction"]
             observation["slides"] = self.targets["slides"].clone()
             if self.agent is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 
@@ -18,18 +19,12 @@ def make_processes(task_id: str, count: int, **options: Any) -> Any:
     """
     from gymnasium.vector import AsyncVectorEnv
 
-    return AsyncVectorEnv([_Maker(task_id, options) for _ in range(count)])
+    return AsyncVectorEnv([partial(_made_here, task_id, options)] * count)
 
 
-class _Maker:
-    """What each process calls; a class, so that it can be pickled."""
+def _made_here(task_id: str, options: dict[str, Any]) -> Any:
+    """Return one environment, in the process that asks."""
+    import gymnasium
+    from mani_skill.utils.wrappers.gymnasium import CPUGymWrapper
 
-    def __init__(self, task_id: str, options: dict[str, Any]) -> None:
-        self.task_id = task_id
-        self.options = options
-
-    def __call__(self) -> Any:
-        import gymnasium
-        from mani_skill.utils.wrappers.gymnasium import CPUGymWrapper
-
-        return CPUGymWrapper(gymnasium.make(f"asset_factory.envs:{self.task_id}", **self.options))
+    return CPUGymWrapper(gymnasium.make(f"asset_factory.envs:{task_id}", **options))

@@ -57,7 +57,7 @@ class Solve:
 def run(command: Solve) -> int:
     """Solve; returns the exit code."""
     from asset_factory.envs.assets import read_registry
-    from asset_factory.envs.solving.printing import Progress, print_table
+    from asset_factory.envs.solving.printing import print_table, show_attempt
     from asset_factory.envs.solving.record import UNJUDGED, SolveRecord, read_record, write_record
 
     from ..registry import Registry
@@ -69,7 +69,6 @@ def run(command: Solve) -> int:
     records: dict[str, SolveRecord] = {}
     for asset in assets.values():
         records[asset.id] = read_record(command.output, asset.id, asset.digest)
-    progress = Progress()
     for robot in ROBOTS if command.robot == "any" else (command.robot,):
         missing = [
             (asset.id, joint.name)
@@ -83,11 +82,10 @@ def run(command: Solve) -> int:
                 and not _film_path(command, asset.id, joint.name, robot).exists()
             )
         ]
-        progress.expect(robot, len(missing))
-        for attempt in _attempts(command, missing, robot):
+        for number, attempt in enumerate(_attempts(command, missing, robot), start=1):
             records[attempt.asset] = records[attempt.asset].noting(attempt, command.tries)
             write_record(command.output, records[attempt.asset])
-            progress.show(attempt)
+            show_attempt(number, len(missing), attempt)
     for asset in assets.values():
         verdict = records[asset.id].verdict([joint.name for joint in asset.openable])
         if verdict:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import os
 import re
-from contextlib import suppress
 from pathlib import Path
 
-from asset_factory.sim_checks.read.document import inside
+from asset_factory.sim_checks.read.document import inside, is_there
 from asset_factory.sim_checks.read.regular import open_regular
 
 from ..config import IntakeConfig
@@ -115,13 +114,6 @@ class InputFiles:
     def read_reference(self, reference: str, base: Path) -> bytes:
         """Return the content of a file referred to; raise as :meth:`find` and :meth:`read`."""
         return self.read(self.find(reference, base))
-
-
-def is_there(path: Path) -> bool:
-    """Return whether something is there; nothing has a name that no file can have."""
-    with suppress(OSError, ValueError):
-        return path.exists()
-    return False
 
 
 def _external(reference: str, why: str) -> InputRejected:

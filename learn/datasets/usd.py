@@ -16,7 +16,7 @@ from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.errors import ConfigError, InputRejected
 from asset_factory.factory.intake.discover import MAIN_LAYERS
-from asset_factory.factory.intake.importers.usd import read_annotated, require_own_layers
+from asset_factory.factory.intake.importers.usd import read_annotated
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from .categories import categories_of
@@ -45,8 +45,8 @@ def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:
             ``empty``, ``not_a_tree``, ``unsupported_joint``, ``no_limits``, ``bad_axis``,
             ``no_movable_joint``.
     """
-    require_own_layers(item.main, item.folder, settings.max_bytes)
-    mesh, annotation, transform = read_annotated(item.main, settings.max_faces)
+    limits = (settings.max_bytes, settings.max_faces)
+    mesh, annotation, transform = read_annotated(item.main, item.folder, *limits)
     articulator = AnnotatedArticulator(annotation, transform, np.arange(len(mesh.faces)))
     articulation = articulator.articulate(mesh)
     if not articulation.movable_joints:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from ..config import PenetrationConfig
+
 #: A joint that is clear for this share of its range opens; only its end is wrong.
 MOST_OF_THE_RANGE = 0.5
 #: A joint that is clear for less than this share of its range is blocked from the start.
@@ -42,6 +44,30 @@ CLAUSES = {
 }
 
 
+def shown_cause(
+    depth: float, allowed: float, visual: float | None, *, leaked: bool, at_rest: bool
+) -> Cause | None:
+    """Return what the visible surfaces say of a contact that is too deep, or nothing.
+
+    Args:
+        depth: of the hulls [m].
+        allowed: depth that would pass there [m].
+        visual: how the visible surfaces stand [m], negative where they overlap; ``None``
+            if not known.
+        leaked: without a small loose piece that lies at the other part, the visible surfaces would
+            be clean.
+        at_rest: nothing has moved to get there.
+    """
+    if visual is None:
+        return None
+    shown = max(0.0, -visual)
+    if shown <= allowed and shown <= FAR_SHALLOWER * depth:
+        return Cause.HULL_INFLATION
+    if leaked:
+        return Cause.LEAKED_SEGMENT
+    return Cause.PARTS_OVERLAP if at_rest else None
+
+
 @dataclass(frozen=True)
 class Way:
     """How a joint gets to a contact.
@@ -59,62 +85,19 @@ class Way:
     otherwise: float | None
     at_rest: float
 
-
-@dataclass(frozen=True)
-class CauseEvidence:
-    """Evidence on a contact that is too deep.
-
-    Attributes:
-        depth: of the hulls [m].
-        allowed: depth that would pass there [m].
-        visual: how the visible surfaces stand [m], negative where they overlap; ``None``
-            if not known.
-        leaked: without a small loose piece that lies at the other part, the visible surfaces would
-            be clean.
-        at_rest: nothing has moved to get there.
-        way: how a joint gets there alone; ``None`` at rest, and where several are open.
-    """
-
-    depth: float
-    allowed: float
-    visual: float | None
-    leaked: bool = False
-    at_rest: bool = False
-    way: Way | None = None
-
-
-def likely_cause(evidence: CauseEvidence, rest_m: float, excess_m: float) -> Cause | None:
-    """Return what the numbers say, or nothing.
-
-    Args:
-        evidence: of one contact.
-        rest_m: deepest overlap that is allowed at rest [m].
-        excess_m: deepest excess that is allowed along a joint [m].
-    """
-    if evidence.visual is not None:
-        shown = max(0.0, -evidence.visual)
-        if shown <= evidence.allowed and shown <= FAR_SHALLOWER * evidence.depth:
-            return Cause.HULL_INFLATION
-        if evidence.leaked:
-            return Cause.LEAKED_SEGMENT
-        if evidence.at_rest:
+    def cause(self, seen: bool, config: PenetrationConfig) -> Cause | None:
+        """Return what it says of the contact, whose surfaces were ``seen`` or not, or nothing."""
+        if self.clear >= MOST_OF_THE_RANGE:
+            return Cause.LIMIT_TOO_LONG
+        if not seen:
+            # Fat hulls would block a joint just so.
+            return None
+        better = max(config.excess_m, MUCH_BETTER * self.excess)
+        if self.otherwise is not None and self.otherwise <= better:
+            return Cause.WRONG_AXIS
+        if self.clear >= FROM_THE_START:
+            return None
+        if self.at_rest > config.rest_m:
+            # Parts that overlap before anything moves say nothing of the joint.
             return Cause.PARTS_OVERLAP
-    if evidence.way is None:
-        return None
-    return _along(evidence.way, evidence.visual is not None, rest_m, excess_m)
-
-
-def _along(way: Way, seen: bool, rest_m: float, excess_m: float) -> Cause | None:
-    if way.clear >= MOST_OF_THE_RANGE:
-        return Cause.LIMIT_TOO_LONG
-    if not seen:
-        # Fat hulls would block a joint just so.
-        return None
-    if way.otherwise is not None and way.otherwise <= max(excess_m, MUCH_BETTER * way.excess):
         return Cause.WRONG_AXIS
-    if way.clear >= FROM_THE_START:
-        return None
-    if way.at_rest > rest_m:
-        # Parts that overlap before anything moves say nothing of the joint.
-        return Cause.PARTS_OVERLAP
-    return Cause.WRONG_AXIS

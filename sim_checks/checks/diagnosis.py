@@ -12,11 +12,10 @@ from functools import cache
 
 import numpy as np
 
-from ..config import PenetrationConfig
 from ..geometry.path import Path
-from .cause import MOST_OF_THE_RANGE, CauseEvidence, Way, likely_cause
-from .joint_sweep import JointCourse, Rest, clear_until
-from .pairs import Pairs
+from .cause import MOST_OF_THE_RANGE, Way, shown_cause
+from .joint_sweep import JointCourse, clear_until
+from .pairs import RestingSolids
 from .penetration_study import (
     BothOpen,
     Combination,
@@ -37,15 +36,11 @@ class Diagnosis:
     """Where to look again.
 
     Attributes:
-        pairs: the solids, and which pairs of them are exempt.
-        rest: contacts at rest, with which every joint's are compared.
-        config: of the limits.
+        rest: the solids, and contacts at rest, with which every joint's are compared.
         visible: what the parts show.
     """
 
-    pairs: Pairs
-    rest: Rest
-    config: PenetrationConfig
+    rest: RestingSolids
     visible: Visible
 
     def explained(self, study: PenetrationStudy) -> PenetrationStudy:
@@ -61,9 +56,9 @@ class Diagnosis:
         )
 
     def _at_rest(self, contact: Contact) -> Contact:
-        if contact.depth <= self.config.rest_m:
+        if contact.depth <= self.rest.config.rest_m:
             return contact
-        return self._judged(contact, self.config.rest_m, at_rest=True)
+        return self._judged(contact, self.rest.config.rest_m, at_rest=True)
 
     def _judged(
         self,
@@ -75,22 +70,20 @@ class Diagnosis:
         visual = self.visible.gap(contact)
         meets = visual is not None and visual < -allowed
         leaked = meets and self.visible.strayed(contact, allowed)
-        evidence = CauseEvidence(contact.depth, allowed, visual, leaked, at_rest)
-        cause = likely_cause(evidence, self.config.rest_m, self.config.excess_m)
+        cause = shown_cause(contact.depth, allowed, visual, leaked=leaked, at_rest=at_rest)
         if cause is None and way is not None:
             # Other ways are looked for only where the surfaces alone do not tell.
-            evidence = replace(evidence, way=way())
-            cause = likely_cause(evidence, self.config.rest_m, self.config.excess_m)
+            cause = way().cause(visual is not None, self.rest.config)
         return replace(contact, visual=visual, cause=cause)
 
     def _along(self, sweep: JointSweep) -> JointSweep:
-        failing = [pair for pair in sweep.pairs if pair.excess > self.config.excess_m]
+        failing = [pair for pair in sweep.pairs if pair.excess > self.rest.config.excess_m]
         if not failing:
             return self._with_clearance(sweep)
         if sweep.alternative is not None:
             # What others have to make way for is no fault that wants a cause.
             return sweep
-        course = JointCourse(sweep.joint, self.pairs, self.rest, self.config, self.rest.lower)
+        course = JointCourse(sweep.joint, self.rest, self.rest.lower)
         otherwise = cache(lambda: self._least_otherwise(course))
         pairs = (
             self._failing(pair, sweep, course, otherwise) if pair in failing else pair
@@ -126,7 +119,7 @@ class Diagnosis:
         # How a joint goes says something of what blocks it, not of its knuckles or of pairs that
         # may touch. Where another joint would have to make way first, it says nothing of this one.
         plain = pair.contact.kind is PairKind.PLAIN and not sweep.waits_for
-        allowed = self.config.excess_m + at_rest
+        allowed = self.rest.config.excess_m + at_rest
         contact = self._judged(pair.contact, allowed, way=way if plain else None)
         return replace(pair, contact=contact)
 
@@ -142,13 +135,13 @@ class Diagnosis:
         None for a joint that others follow: turned around, it would take them to where they never
         go.
         """
-        if self.pairs.solids.tree.followers(course.joint):
+        if self.rest.solids.tree.followers(course.joint):
             return ()
         own = course.path()
         if own.turning and own.length >= WHOLE_TURN:
             return ()
         around = replace(own, axis=-own.axis)
-        solids = self.pairs.solids
+        solids = self.rest.solids
         links = solids.tree.below(course.joint)
         moving = [item.collider.hull.vertices for item in solids.items if item.link in links]
         if not own.turning or not moving:
@@ -166,17 +159,17 @@ class Diagnosis:
         return (around, *(replace(path, origin=edge) for path, edge in hung))
 
     def _both_open(self, item: BothOpen) -> BothOpen:
-        if item.pair.excess <= self.config.excess_m:
+        if item.pair.excess <= self.rest.config.excess_m:
             return item
         contact = self._met_open(item.pair.contact, item.pair.excess)
         return replace(item, pair=replace(item.pair, contact=contact))
 
     def _combined(self, item: Combination) -> Combination:
-        if item.excess <= self.config.excess_m:
+        if item.excess <= self.rest.config.excess_m:
             return item
         return replace(item, contact=self._met_open(item.contact, item.excess))
 
     def _met_open(self, contact: Contact, excess: float) -> Contact:
         """Tell only causes that the surfaces show: two open joints may meet by design."""
-        allowed = self.config.excess_m + max(0.0, contact.depth - excess)
+        allowed = self.rest.config.excess_m + max(0.0, contact.depth - excess)
         return self._judged(contact, allowed)

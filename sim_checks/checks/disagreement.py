@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from ..report import Disagreement, Finding
-from .disagreement_reasons import PASS, Dispute, EngineEvidence, likely_reason
+from ..report import PASS, Disagreement, Finding
+from .disagreement_reasons import EngineEvidence, likely_reason
 from .result import DECIMALS
 
 NOT_FINITE = "not_finite"
@@ -75,11 +75,10 @@ def disagreements(
     """
     evidence = EngineEvidence(findings, measurements, simulators)
     disputes = (case for case in _cases(evidence) if len(set(case.verdicts.values())) > 1)
-    told = ((d.question, d.joint, d.verdicts, d.values, d.unit, likely_reason(d)) for d in disputes)
-    return tuple(Disagreement(*each) for each in told)
+    return tuple(replace(case, reason=likely_reason(case, evidence)) for case in disputes)
 
 
-def _cases(evidence: EngineEvidence) -> Iterator[Dispute]:
+def _cases(evidence: EngineEvidence) -> Iterator[Disagreement]:
     yield _loads(evidence)
     yield _link_poses(evidence)
     for joint in _joints(evidence):
@@ -87,18 +86,18 @@ def _cases(evidence: EngineEvidence) -> Iterator[Dispute]:
             yield _asked(question, joint, evidence)
 
 
-def _loads(evidence: EngineEvidence) -> Dispute:
+def _loads(evidence: EngineEvidence) -> Disagreement:
     answers = {name: evidence.answer(name, LOADING_CODES) for name in evidence.simulators}
     verdicts = {n: a for n, a in answers.items() if a != PASS or evidence.said(n, "loading")}
-    return Dispute("loads", None, verdicts, dict.fromkeys(verdicts), None, evidence)
+    return Disagreement("loads", None, verdicts, dict.fromkeys(verdicts), None, "")
 
 
-def _link_poses(evidence: EngineEvidence) -> Dispute:
+def _link_poses(evidence: EngineEvidence) -> Disagreement:
     said = {name: evidence.said(name, "loading") for name in evidence.simulators}
     worst = {name: numbers.get("worst_position_m") for name, numbers in said.items()}
     values = {name: round(value, DECIMALS) for name, value in worst.items() if value is not None}
     verdicts = {name: evidence.answer(name, frozenset({"pose_mismatch"})) for name in values}
-    return Dispute("link_poses", None, verdicts, values, "m", evidence)
+    return Disagreement("link_poses", None, verdicts, values, "m", "")
 
 
 def _joints(evidence: EngineEvidence) -> Iterator[str]:
@@ -108,7 +107,7 @@ def _joints(evidence: EngineEvidence) -> Iterator[str]:
     yield from dict.fromkeys(entry["joint"] for entries in lists for entry in entries)
 
 
-def _asked(question: _Question, joint: str, evidence: EngineEvidence) -> Dispute:
+def _asked(question: _Question, joint: str, evidence: EngineEvidence) -> Disagreement:
     verdicts: dict[str, str] = {}
     values: dict[str, float | None] = {}
     for name in evidence.simulators:
@@ -122,4 +121,4 @@ def _asked(question: _Question, joint: str, evidence: EngineEvidence) -> Dispute
         if entry["finite"]:
             verdicts[name] = evidence.answer(name, frozenset({question.code}), joint)
             values[name] = round(question.number(entry), DECIMALS)
-    return Dispute(question.name, joint, verdicts, values, "of range", evidence)
+    return Disagreement(question.name, joint, verdicts, values, "of range", "")

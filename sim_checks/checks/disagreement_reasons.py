@@ -6,10 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..report import Finding
+from ..report import PASS, Disagreement, Finding
 
 UNKNOWN = "no known difference between these engines explains it"
-PASS = "pass"  # noqa: S105 - a verdict
 TITLES = {"sapien": "SAPIEN", "mujoco": "MuJoCo", "pybullet": "PyBullet"}
 #: Depths and growths below this are touch, not overlap [mm].
 TOUCH_MM = 0.01
@@ -56,70 +55,41 @@ class EngineEvidence:
             if sweep["joint"] == joint:
                 yield sweep
 
-
-@dataclass(frozen=True)
-class Dispute:
-    """One question and the answers.
-
-    Attributes:
-        question, joint, verdicts, values, unit: as in
-            :class:`~asset_factory.sim_checks.report.Disagreement`.
-        evidence: everything known of the asset.
-    """
-
-    question: str
-    joint: str | None
-    verdicts: Mapping[str, str]
-    values: Mapping[str, float | None]
-    unit: str | None
-    evidence: EngineEvidence
-
-    @property
-    def passing(self) -> frozenset[str]:
-        """Return the engines that found nothing wrong."""
-        return frozenset(name for name, verdict in self.verdicts.items() if verdict == PASS)
-
-    @property
-    def failing(self) -> frozenset[str]:
-        """Return the others."""
-        return frozenset(self.verdicts) - self.passing
-
-    @property
-    def parts(self) -> frozenset[str]:
+    def parts(self, case: Disagreement) -> frozenset[str]:
         """Return parent and child of the joint, as a finding names them; empty if none does."""
-        told = (f for f in self.evidence.findings if f.simulator in self.failing)
-        both = (f.parts for f in told if f.joint == self.joint and len(f.parts) == 2)
+        told = (f for f in self.findings if f.simulator in case.failing)
+        both = (f.parts for f in told if f.joint == case.joint and len(f.parts) == 2)
         return frozenset(next(both, ()))
 
-    @property
-    def blockers(self) -> frozenset[str]:
+    def blockers(self, case: Disagreement) -> frozenset[str]:
         """Return the two links in contact where an engine stopped the joint; empty if unknown."""
-        for name in sorted(self.failing):
-            for motion in self.evidence.said(name, "motion").get("joints", ()):
-                if motion["joint"] == self.joint and motion.get("blocked_by"):
+        for name in sorted(case.failing):
+            for motion in self.said(name, "motion").get("joints", ()):
+                if motion["joint"] == case.joint and motion.get("blocked_by"):
                     return frozenset(motion["blocked_by"])
         return frozenset()
 
-    def nearest(self) -> Mapping[str, Any] | None:
+    def nearest(self, case: Disagreement) -> Mapping[str, Any] | None:
         """Return the deepest overlap or narrowest gap of the parts that block the joint.
 
         Looked at are contacts on the joint's way, and at rest at its parent or child; of all of
         them where nobody names what blocks it. ``None`` if nothing comes near.
         """
-        contacts = list(self._contacts())
-        blocking = [contact for contact in contacts if set(contact["links"]) == self.blockers]
+        contacts = list(self._contacts(case))
+        blockers = self.blockers(case)
+        blocking = [contact for contact in contacts if set(contact["links"]) == blockers]
         return max(blocking or contacts, key=lambda each: float(each["depth_mm"]), default=None)
 
-    def _contacts(self) -> Iterator[Mapping[str, Any]]:
-        if self.question != "rests":
-            for sweep in self.evidence.sweeps(self.joint):
+    def _contacts(self, case: Disagreement) -> Iterator[Mapping[str, Any]]:
+        if case.question != "rests":
+            for sweep in self.sweeps(case.joint):
                 yield from sweep["pairs"]
-        for contact in self.evidence.measurements.get("penetration", {}).get("rest", ()):
-            if self.parts & set(contact["links"]):
+        for contact in self.measurements.get("penetration", {}).get("rest", ()):
+            if self.parts(case) & set(contact["links"]):
                 yield contact
 
 
-def likely_reason(case: Dispute) -> str:
+def likely_reason(case: Disagreement, evidence: EngineEvidence) -> str:
     """Return a sentence with the number in it; or that no known trait explains it."""
     if case.question == "loads":
         return _loading(case) or UNKNOWN
@@ -127,15 +97,15 @@ def likely_reason(case: Dispute) -> str:
         return UNKNOWN
     return (
         _soft_limit(case)
-        or _follower(case)
-        or _explicit_damping(case)
-        or _contact(case)
-        or _friction(case)
+        or _follower(case, evidence)
+        or _explicit_damping(case, evidence)
+        or _contact(case, evidence)
+        or _friction(case, evidence)
         or UNKNOWN
     )
 
 
-def _loading(case: Dispute) -> str | None:
+def _loading(case: Disagreement) -> str | None:
     refusing = [name for name, verdict in case.verdicts.items() if verdict == "load_failed"]
     if not refusing or len(refusing) != len(case.failing):
         return None
@@ -143,7 +113,7 @@ def _loading(case: Dispute) -> str | None:
     return f"the loader of {_titles(refusing)} asks more of a file; {own_words}"
 
 
-def _soft_limit(case: Dispute) -> str | None:
+def _soft_limit(case: Disagreement) -> str | None:
     value = case.values.get("mujoco")
     asked = case.question == "keeps_limits" and case.failing == {"mujoco"}
     if not asked or value is None or value > SOFT_LIMIT_SHARE:
@@ -152,12 +122,12 @@ def _soft_limit(case: Dispute) -> str | None:
     return f"{gave}; the others' are hard"
 
 
-def _follower(case: Dispute) -> str | None:
+def _follower(case: Disagreement, evidence: EngineEvidence) -> str | None:
     """Blame coupling where some engine couples the joint, or what it pushed, to another joint."""
     coupled: dict[str, set[str]] = {}
     concerned = {case.joint}
     for name in case.verdicts:
-        motion = case.evidence.said(name, "motion")
+        motion = evidence.said(name, "motion")
         coupled[name] = set(motion["moved_with_others"])
         concerned |= {entry["pushed"] for entry in motion["joints"] if entry["joint"] == case.joint}
     free = [name for name in case.verdicts if not coupled[name]]
@@ -167,33 +137,35 @@ def _follower(case: Dispute) -> str | None:
     return f"the file couples joints, which {_titles(bound)} obeyed and {_titles(free)} did not"
 
 
-def _explicit_damping(case: Dispute) -> str | None:
-    told = (f for f in case.evidence.findings if f.code == "damping_stiff")
+def _explicit_damping(case: Disagreement, evidence: EngineEvidence) -> str | None:
+    told = (f for f in evidence.findings if f.code == "damping_stiff")
     stiff = [f for f in told if f.joint == case.joint]
-    if not stiff or case.failing != {"pybullet"} or case.blockers:
+    if not stiff or case.failing != {"pybullet"} or evidence.blockers(case):
         return None
     takes = f"damping takes {stiff[0].value:.3g} times the speed in one step"
     return f"{takes}, and Bullet, which integrates it explicitly, explodes"
 
 
-def _contact(case: Dispute) -> str | None:
+def _contact(case: Disagreement, evidence: EngineEvidence) -> str | None:
     """Blame how the engines treat the deepest overlap or the narrowest gap."""
-    contact = case.nearest()
+    contact = evidence.nearest(case)
     if contact is None:
         return None
     pair = " and ".join(contact["links"])
     if contact["kind"] == "excluded" and "mujoco" in case.passing:
         return f"the file excludes {pair} from contact, which of these engines only MuJoCo reads"
     if contact["depth_mm"] > TOUCH_MM:
-        return _overlap(case, contact, f"{pair} overlap by {contact['depth_mm']:.2f} mm")
-    return _gap(case, contact, pair)
+        return _overlap(case, evidence, contact, f"{pair} overlap by {contact['depth_mm']:.2f} mm")
+    return _gap(case, evidence, contact, pair)
 
 
-def _overlap(case: Dispute, contact: Mapping[str, Any], overlap: str) -> str | None:
-    slides = any(sweep["unit"] == "m" for sweep in case.evidence.sweeps(case.joint))
+def _overlap(
+    case: Disagreement, evidence: EngineEvidence, contact: Mapping[str, Any], overlap: str
+) -> str | None:
+    slides = any(sweep["unit"] == "m" for sweep in evidence.sweeps(case.joint))
     # An overlap across a slide neither grows nor begins as it moves.
     across = slides and contact.get("excess_mm", 0.0) <= TOUCH_MM and "pybullet" in case.passing
-    if "sapien" in case.passing and set(contact["links"]) == case.parts:
+    if "sapien" in case.passing and set(contact["links"]) == evidence.parts(case):
         never = "are parent and child, which PhysX never collides: SAPIEN cannot feel it"
         nor = "; nor can Bullet, which exerts no force for overlap across a slide's axis"
         return f"{overlap} and {never}{nor if across else ''}"
@@ -205,25 +177,27 @@ def _overlap(case: Dispute, contact: Mapping[str, Any], overlap: str) -> str | N
     return None
 
 
-def _gap(case: Dispute, contact: Mapping[str, Any], pair: str) -> str | None:
+def _gap(
+    case: Disagreement, evidence: EngineEvidence, contact: Mapping[str, Any], pair: str
+) -> str | None:
     gap = max(0.0, -contact["depth_mm"])
     margin = sum(BULLET_MARGIN_MM for shape in contact["shapes"] if shape not in PRIMITIVES)
     if case.failing == {"pybullet"} and gap < margin:
         wraps = f"Bullet wraps every mesh hull in {BULLET_MARGIN_MM:g} mm"
         return f"{pair} are {gap:.2f} mm apart, and {wraps}: to it they touch"
-    if gap <= TOUCH_MM and set(contact["links"]) == case.blockers:
+    if gap <= TOUCH_MM and set(contact["links"]) == evidence.blockers(case):
         feels = f"whether {_titles(sorted(case.failing))} feels friction there or an edge"
         flush = f"{pair} touch without a gap, measured to {TOUCH_MM:g} mm"
         return f"{flush}: {feels} is a matter of rounding"
     return None
 
 
-def _friction(case: Dispute) -> str | None:
-    contact = case.nearest()
+def _friction(case: Disagreement, evidence: EngineEvidence) -> str | None:
+    contact = evidence.nearest(case)
     touches = contact is not None and contact["depth_mm"] > TOUCH_MM
     if touches or case.passing != {"sapien"} or case.question not in {"opens", "returns"}:
         return None
-    told = (f for f in case.evidence.findings if f.code == "friction_ignored")
+    told = (f for f in evidence.findings if f.code == "friction_ignored")
     dropped = any(f.simulator == "sapien" and case.joint in f.joints for f in told)
     return "nothing is in the way, and SAPIEN drops the file's joint friction" if dropped else None
 

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import combinations
 
 import numpy as np
 
-from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
 from ..geometry.coupled_path import AnyPath, CoupledPath
-from ..geometry.depth import HullOverlap, contact_region
+from ..geometry.depth import contact_region
 from ..geometry.looks import LookBudget
 from ..geometry.path import Path, joint_path
-from ..geometry.solids import SolidGroup, SolidPair
+from ..geometry.solids import SolidGroup
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
 from .hinge import within
-from .pairs import Pairs
+from .pairs import RestingSolids
 from .penetration_study import JointSweep, PairKind, PairSweep, PartPair
 
 #: Fewest and most intervals that a joint's range is cut into before refinement.
@@ -28,27 +26,6 @@ MAX_STEPS = 256
 CLEAR_HALVINGS = 7
 
 Candidates = dict[tuple[PartPair, PairKind], list[Candidate]]
-
-
-@dataclass(frozen=True)
-class Rest:
-    """The pose that every sweep is held against.
-
-    Attributes:
-        lower, upper: the ends of the range of every joint that follows no other [rad] or [m].
-        standings: pairs of solids that are near each other with every joint at lower.
-        diagonal: of the object there [m].
-    """
-
-    lower: Mapping[str, float]
-    upper: Mapping[str, float]
-    standings: tuple[SolidPair, ...]
-    diagonal: float
-
-    @cached_property
-    def overlaps(self) -> Mapping[PartPair, HullOverlap]:
-        """Return how the solids of ``standings`` stand, by their indices."""
-        return {(pair.first, pair.second): pair.overlap for pair in self.standings}
 
 
 def clear_until(course: JointCourse, failing: PairSweep) -> float:
@@ -67,7 +44,7 @@ def clear_until(course: JointCourse, failing: PairSweep) -> float:
         pairs = replace(course, rest=rest).run().pairs
         alike = (pair for pair in pairs if pair.contact.kind is kind)
         worst = max((pair.excess for pair in alike), default=0.0)
-        clear, fails = (middle, fails) if worst <= course.config.excess_m else (clear, middle)
+        clear, fails = (middle, fails) if worst <= rest.config.excess_m else (clear, middle)
     return clear
 
 
@@ -77,9 +54,7 @@ class JointCourse:
 
     Attributes:
         joint: which moves; it follows no other.
-        pairs: the solids.
-        rest: contacts at rest, and the range.
-        config: limits, and steps of the sweep.
+        rest: the solids, their contacts at rest, and the range.
         values: where the other joints stand [rad] or [m]; of those that follow none.
         only: the pairs of parts to look at; ``None`` for all.
         motion: another motion than the joint's own, from the same start; only for one that has no
@@ -90,9 +65,7 @@ class JointCourse:
     """
 
     joint: JointLine
-    pairs: Pairs
-    rest: Rest
-    config: PenetrationConfig
+    rest: RestingSolids
     values: Mapping[str, float]
     only: frozenset[PartPair] | None = None
     motion: Path | None = None
@@ -127,20 +100,20 @@ class JointCourse:
 
     def _placed(self) -> Mapping[str, FloatArray]:
         name = self.joint.name
-        return self.pairs.solids.place({**self.values, name: self.rest.lower[name]})
+        return self.rest.solids.place({**self.values, name: self.rest.lower[name]})
 
     def _groups(self) -> tuple[SolidGroup, ...]:
         """Return the solids that are looked at, those that stand first."""
-        groups = self.pairs.solids.groups(self.joint)
+        groups = self.rest.solids.groups(self.joint)
         if self.only is None:
             return groups
         parts = {part for pair in self.only for part in pair}
-        items = self.pairs.solids.items
+        items = self.rest.solids.items
         kept = (tuple(i for i in group.solids if items[i].part in parts) for group in groups)
         return tuple(replace(g, solids=solids) for g, solids in zip(groups, kept, strict=True))
 
     def _encounter(self, moving: SolidGroup, standing: SolidGroup) -> _Encounter:
-        solids = self.pairs.solids
+        solids = self.rest.solids
         poses = self._placed()
         if self.motion is not None:
             path: AnyPath = self.path()
@@ -149,7 +122,7 @@ class JointCourse:
         colliders = [solids.items[index].collider for index in moving.solids]
         corners = [np.zeros((0, 3)), *(collider.hull.vertices for collider in colliders)]
         reach = path.travel(np.vstack(corners))
-        step = self.config.step_fraction * self.rest.diagonal
+        step = self.rest.config.step_fraction * self.rest.diagonal
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
         still = [solids.items[index].collider for index in standing.solids]
         sweep = Sweep(path, colliders, still, steps, self.looks or solids.looks)
@@ -188,21 +161,20 @@ class _Encounter:
                     yield (parts, pair.contact.kind), pair
 
     def _tolerance(self, kind: PairKind) -> Tolerance:
-        config = self.course.config
+        config = self.course.rest.config
         # Whether a knuckle stays one is seen where it is worst.
         decides = self.course.decides and kind is PairKind.PLAIN
         return Tolerance(floor=config.clearance_m, limit=config.excess_m, decides=decides)
 
     def _candidates(self) -> Candidates:
-        pairs = self.course.pairs
         rest = self.course.rest
         only = self.course.only
         at_rest = self.course.values == rest.lower
         groups: Candidates = {}
-        for row, column in np.argwhere(self.sweep.near(self.course.config.clearance_m)).tolist():
+        for row, column in np.argwhere(self.sweep.near(rest.config.clearance_m)).tolist():
             mover = self.moving[row]
             stander = self.standing[column]
-            if only is not None and pairs.parts(mover, stander) not in only:
+            if only is not None and rest.parts(mover, stander) not in only:
                 continue
             overlap = rest.overlaps.get((min(mover, stander), max(mover, stander)))
             depth = 0.0 if overlap is None else max(0.0, overlap.depth)
@@ -210,7 +182,7 @@ class _Encounter:
             # Directions known at rest hold for this path only if it starts there.
             if overlap is not None and at_rest:
                 directions = (overlap.direction * (1.0 if mover < stander else -1.0),)
-            group = pairs.parts(mover, stander), pairs.kind(mover, stander)
+            group = rest.parts(mover, stander), rest.kind(mover, stander)
             groups.setdefault(group, []).append(Candidate(row, column, depth, directions))
         return groups
 
@@ -225,7 +197,7 @@ class _Encounter:
         at = course.rest.lower[course.joint.name] + float(worst.at)
         pose = {**course.values, course.joint.name: at}
         where = (first, second, worst.depth, kind, pose)
-        contact = course.pairs.contact(*where, located=course.located)
+        contact = course.rest.contact(*where, located=course.located)
         if contact.point is not None and self.frame is not None:
             frame = self.frame.pose(worst.at)
             point = frame[:3, :3] @ contact.point + frame[:3, 3]
@@ -234,8 +206,8 @@ class _Encounter:
 
     def _still_knuckle(self, first: int, second: int, worst: Worst) -> bool:
         """Return a knuckle stays within its radius and never gains more than it had."""
-        items = self.course.pairs.solids.items
-        config = self.course.config
+        items = self.course.rest.solids.items
+        config = self.course.rest.config
         path = self.sweep.path
         # What a hinge joins, it alone moves against one another.
         line = path.steps[0][0] if isinstance(path, CoupledPath) else path

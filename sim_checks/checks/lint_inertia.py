@@ -10,7 +10,7 @@ from ..config import LintConfig
 from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, sensible
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import find_tree
-from ..geometry.placing import box_around
+from ..geometry.placing import box_around, diagonal
 from .result import Findings, error, graded, in_mm, measured, rounded, significant, warning
 
 #: Relative slack of the triangle inequality: files are written with few digits.
@@ -79,27 +79,24 @@ def _plausible(
     shapes = link.collisions or link.visuals
     if not shapes:
         return
-    points = np.vstack([shape.vertices for shape in shapes])
-    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    across = diagonal(shape.vertices for shape in shapes)
     box = box_around(shape.vertices for shape in (*link.collisions, *link.visuals))
     yield from _center(link, inertia.center, box, config)
     gyration = math.sqrt(float(moments[2]) / inertia.mass)
-    second = np.trace(inertia.tensor) / 2.0 - np.diag(inertia.tensor)
-    spread = np.sqrt(np.maximum(second, 0.0) / inertia.mass)
-    yield from _gyration(link, gyration, spread, box, diagonal, config)
+    yield from _gyration(link, inertia, gyration, box, across, config)
     yield from _density(link, inertia.mass, config)
 
 
 def _center(link: Link, center: FloatArray, box: FloatArray, config: LintConfig) -> Findings:
     """Check how far the centre of mass lies outside the box around the link's shapes."""
     low, high = box
-    diagonal = float(np.linalg.norm(high - low))
     outside = float(np.linalg.norm(np.maximum(0.0, np.maximum(low - center, center - high))))
-    if outside <= config.center_soft * diagonal:
+    soft = config.center_soft * diagonal([box])
+    if outside <= soft:
         return
-    most = max(config.center_hard * diagonal, config.center_m)
+    most = max(config.center_hard * diagonal([box]), config.center_m)
     hard = outside > most
-    limit = most if hard else config.center_soft * diagonal
+    limit = most if hard else soft
     message = (
         f"link {link.name!r}: centre of mass lies {1000 * outside:.1f} mm outside the link's box, "
         f"want at most {1000 * limit:.3g} mm"
@@ -130,22 +127,19 @@ def _density(link: Link, mass: float, config: LintConfig) -> Findings:
 
 def _gyration(
     link: Link,
+    inertia: LinkInertia,
     gyration: float,
-    spread: FloatArray,
     box: FloatArray,
-    diagonal: float,
+    across: float,
     config: LintConfig,
 ) -> Findings:
     """Check an inertia against the extents that it must fit in.
 
-    Args:
-        link: whose.
-        gyration: the largest radius of gyration [m].
-        spread: root mean square distance of its mass from its centre along each axis [m], [3].
-        box: lowest and highest corner around all its shapes [m], shape [2, 3].
-        diagonal: of its collision shapes [m].
-        config: thresholds.
+    Its largest radius of gyration [m] is held against the diagonal of the collision shapes
+    (``across`` [m]), and the spread of its mass along each axis against the box around all.
     """
+    second = np.trace(inertia.tensor) / 2.0 - np.diag(inertia.tensor)
+    spread = np.sqrt(np.maximum(second, 0.0) / inertia.mass)
     extent = np.ptp(box, axis=0)
     # Within an extent mass spreads furthest at its two ends, half of it at each.
     most = extent / 2.0 + max(config.center_hard * float(np.linalg.norm(extent)), config.center_m)
@@ -157,10 +151,10 @@ def _gyration(
         )
         told = measured(significant(float(spread[axis])), "m", round(float(most[axis]), 6))
         yield error("inertia_impossible", message, parts=(link.name,), **told)
-    elif gyration > config.gyration_share * diagonal:
+    elif gyration > config.gyration_share * across:
         message = f"link {link.name!r}: radius of gyration {gyration:.3g} m is too large for a "
-        message += f"link {diagonal:.3g} m across"
-        told = rounded(gyration, "m", config.gyration_share * diagonal)
+        message += f"link {across:.3g} m across"
+        told = rounded(gyration, "m", config.gyration_share * across)
         yield warning("inertia_implausible", message, parts=(link.name,), **told)
 
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
-from ..geometry.kinematics import Tree, find_tree, sweep_range, unit_axis
+from ..geometry.kinematics import find_tree, sweep_range, unit_axis
 from ..geometry.placing import placed
 from .lint_ranges import closed_poses
 from .result import Findings, about, graded, measured, significant, warning
@@ -17,18 +16,7 @@ from .result import Findings, about, graded, measured, significant, warning
 #: What robot-learning environments commonly step by [s].
 TIME_STEP_S = 1.0 / 240.0
 
-
-@dataclass(frozen=True)
-class _Lever:
-    """What a joint moves: its lever about the axis, and its resistance to acceleration.
-
-    Attributes:
-        reach: of the farthest point from the axis [m]; 1 for a slide, whose forces need no lever.
-        inertia: about the axis [kg m2], or along it [kg]; 0 where the file gives none.
-    """
-
-    reach: float
-    inertia: float
+Posed = list[tuple[Link, FloatArray]]
 
 
 def resistance_findings(description: Description, config: LintConfig) -> Findings:
@@ -46,15 +34,17 @@ def resistance_findings(description: Description, config: LintConfig) -> Finding
         points = float(np.linalg.norm(joint.axis)) > 0.0
         if limits is None or not points or not min(joint.friction, joint.damping) >= 0.0:
             continue
-        lever = _lever(joint, tree, links, poses)
-        if lever.reach > 0.0:
-            yield from _force_findings(joint, limits[1] - limits[0], lever, config)
-        yield from _step_finding(joint, lever, config)
+        moved = [(links[name], poses[name]) for name in sorted(tree.below(joint))]
+        frame = poses[joint.child]
+        reach = _reach(joint, moved, frame)
+        if reach > 0.0:
+            yield from _force_findings(joint, limits[1] - limits[0], reach, config)
+        yield from _step_finding(joint, _moved_inertia(joint, moved, frame), config)
 
 
-def _force_findings(joint: JointLine, length: float, lever: _Lever, config: LintConfig) -> Findings:
-    friction = joint.friction / lever.reach
-    damping = joint.damping * length / config.opening_s / lever.reach
+def _force_findings(joint: JointLine, length: float, reach: float, config: LintConfig) -> Findings:
+    friction = joint.friction / reach
+    damping = joint.damping * length / config.opening_s / reach
     within = f"open it against its damping within {config.opening_s:g} s"
     where = "" if joint.kind == "prismatic" else " at its far edge"
     ways = (
@@ -71,10 +61,10 @@ def _force_findings(joint: JointLine, length: float, lever: _Lever, config: Lint
             yield graded(hard, code, message, **about(joint), **told)
 
 
-def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Findings:
-    if not lever.inertia > 0.0:
+def _step_finding(joint: JointLine, inertia: float, config: LintConfig) -> Findings:
+    if not inertia > 0.0:
         return
-    share = joint.damping * TIME_STEP_S / lever.inertia
+    share = joint.damping * TIME_STEP_S / inertia
     if share > config.damping_step:
         message = (
             f"joint {joint.name!r}: damping takes away {share:.3g} times its speed in one step of "
@@ -85,24 +75,25 @@ def _step_finding(joint: JointLine, lever: _Lever, config: LintConfig) -> Findin
         yield warning("damping_stiff", message, **about(joint), **told)
 
 
-def _lever(
-    joint: JointLine, tree: Tree, links: dict[str, Link], poses: dict[str, FloatArray]
-) -> _Lever:
-    frame = poses[joint.child]
+def _reach(joint: JointLine, moved: Posed, frame: FloatArray) -> float:
+    """Return the farthest point's distance from the axis [m]; 1 for a slide, which has no lever."""
+    if joint.kind == "prismatic":
+        return 1.0
     axis = frame[:3, :3] @ unit_axis(joint)
-    slides = joint.kind == "prismatic"
-    reach = 0.0
-    inertia = 0.0
-    for name in sorted(tree.below(joint)):
-        link = links[name]
-        pose = poses[name]
-        for shape in (*link.collisions, *link.visuals):
-            arms = np.cross(axis, placed(shape.vertices, pose) - frame[:3, 3])
-            reach = max(reach, float(np.linalg.norm(arms, axis=1).max(initial=0.0)))
+    shapes = ((s, pose) for link, pose in moved for s in (*link.collisions, *link.visuals))
+    arms = (np.cross(axis, placed(shape.vertices, pose) - frame[:3, 3]) for shape, pose in shapes)
+    return max((float(np.linalg.norm(a, axis=1).max(initial=0.0)) for a in arms), default=0.0)
+
+
+def _moved_inertia(joint: JointLine, moved: Posed, frame: FloatArray) -> float:
+    """Return the inertia about the axis [kg m2], or along it [kg]; 0 where the file gives none."""
+    axis = frame[:3, :3] @ unit_axis(joint)
+    total = 0.0
+    for link, pose in moved:
         held = link.inertia
         if held is not None and math.isfinite(held.mass) and np.isfinite(held.tensor).all():
             along = pose[:3, :3].T @ axis
             arm = np.cross(axis, pose[:3, :3] @ held.center + pose[:3, 3] - frame[:3, 3])
             turning = float(along @ held.tensor @ along + held.mass * (arm @ arm))
-            inertia += held.mass if slides else turning
-    return _Lever(1.0 if slides else reach, inertia)
+            total += held.mass if joint.kind == "prismatic" else turning
+    return total

@@ -15,14 +15,13 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from ..config import PenetrationConfig
 from ..description import FloatArray, JointLine
 from ..geometry.coupled_path import swept_boxes
 from ..geometry.looks import LookBudget, TooManyLooks
 from ..geometry.placing import box_around
 from ..geometry.solids import Solids
-from .joint_sweep import JointCourse, Rest, clear_until
-from .pairs import Pairs
+from .joint_sweep import JointCourse, clear_until
+from .pairs import RestingSolids
 from .penetration_study import BothOpen, Neighbours, PairKind, PairSweep, PartPair
 
 #: Values of a joint, from a little open to upper, at each of which the other is swept.
@@ -33,25 +32,23 @@ REFINED = 3
 SWEEP_LOOKS = 10
 
 
-def open_neighbours(
-    pairs: Pairs, rest: Rest, config: PenetrationConfig, told: frozenset[PartPair]
-) -> Neighbours:
+def open_neighbours(rest: RestingSolids, told: frozenset[PartPair]) -> Neighbours:
     """Sweep joints together whose ways meet; return the worst depth by pair of joints and parts.
 
     Only joints that do not move the same part are asked, and only what the one moves against what
     the other does; what follows a joint moves with it. Pairs of parts that meet while all joints
     but one are closed (``told``) are no news here.
     """
-    looks = LookBudget(config.pair_looks)
+    looks = LookBudget(rest.config.pair_looks)
     met: list[BothOpen] = []
     unswept = []
     asked = 0
-    for first, second in _near(pairs.solids, rest):
-        moved = product(_parts(pairs.solids, first), _parts(pairs.solids, second))
+    for first, second in _near(rest):
+        moved = product(_parts(rest.solids, first), _parts(rest.solids, second))
         only = frozenset((min(pair), max(pair)) for pair in moved)
         asked += 1
         try:
-            met += _Together(pairs, rest, config, looks).met(first, second, only - told)
+            met += _Together(rest, looks).met(first, second, only - told)
         except TooManyLooks:
             unswept.append((first.name, second.name))
     return Neighbours(tuple(met), asked, tuple(unswept))
@@ -61,9 +58,7 @@ def open_neighbours(
 class _Together:
     """What two joints are swept by; see :func:`open_neighbours`."""
 
-    pairs: Pairs
-    rest: Rest
-    config: PenetrationConfig
+    rest: RestingSolids
     looks: LookBudget
 
     def met(
@@ -78,7 +73,7 @@ class _Together:
         for parts in sorted({item.pair.parts for item in found}):
             alike = (item for item in found if item.pair.parts == parts)
             worst = max(alike, key=lambda item: (item.obstructed, item.pair.excess))
-            if worst.pair.excess > self.config.excess_m:
+            if worst.pair.excess > self.rest.config.excess_m:
                 course = self._course(worst.joint, worst.other, worst.other_at, frozenset({parts}))
                 worst = replace(worst, free_until=clear_until(course, worst.pair))
             yield worst
@@ -88,11 +83,11 @@ class _Together:
     ) -> Iterator[BothOpen]:
         """Yield the worst of every pair of parts as one joint makes its way past another."""
         limits = self.rest.lower[other.name], self.rest.upper[other.name]
-        grid = np.interp(np.linspace(self.config.little_open, 1.0, GRID), (0.0, 1.0), limits)
+        grid = np.interp(np.linspace(self.rest.config.little_open, 1.0, GRID), (0.0, 1.0), limits)
         swept = {at: self._swept(joint, other, at, only) for at in grid.tolist()}
         for parts in sorted(only):
             tried = {at: found[parts] for at, found in swept.items() if parts in found}
-            failing = [at for at, pair in tried.items() if pair.excess > self.config.excess_m]
+            failing = [at for at, pair in tried.items() if pair.excess > self.rest.config.excess_m]
             obstructed = len(failing) == GRID
             at = failing[0] if obstructed else self._deepest(joint, other, parts, tried)
             if at is not None and tried[at].excess > 0.0:
@@ -107,7 +102,7 @@ class _Together:
         low = self.rest.lower[other.name]
         high = self.rest.upper[other.name]
         only = frozenset({parts})
-        step = (1.0 - self.config.little_open) / (GRID - 1) * (high - low)
+        step = (1.0 - self.rest.config.little_open) / (GRID - 1) * (high - low)
         for _ in range(REFINED):
             step /= 2.0
             middle = max(tried, key=lambda at: tried[at].excess)
@@ -128,15 +123,15 @@ class _Together:
         self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
     ) -> JointCourse:
         values = {**self.rest.lower, other.name: at}
-        shared = (self.pairs, self.rest, self.config)
-        return JointCourse(joint, *shared, values, only, looks=self.looks)
+        return JointCourse(joint, self.rest, values, only, looks=self.looks)
 
 
-def _near(solids: Solids, rest: Rest) -> Iterator[tuple[JointLine, JointLine]]:
+def _near(rest: RestingSolids) -> Iterator[tuple[JointLine, JointLine]]:
     """Yield the pairs of joints whose ways come near each other; file order."""
+    solids = rest.solids
     joints = [joint for joint in solids.tree.free if joint.name in rest.lower]
     independent = _independent(solids, joints)
-    swept = _swept(solids, rest, [joints[i] for i in np.flatnonzero(independent.any(axis=1))])
+    swept = _swept(rest, [joints[i] for i in np.flatnonzero(independent.any(axis=1))])
     around = np.full((len(joints), 2, 3), np.nan)
     for index, joint in enumerate(joints):
         if joint.name in swept:
@@ -160,8 +155,9 @@ def _independent(solids: Solids, joints: list[JointLine]) -> npt.NDArray[np.bool
     return apart
 
 
-def _swept(solids: Solids, rest: Rest, joints: list[JointLine]) -> Mapping[str, FloatArray]:
+def _swept(rest: RestingSolids, joints: list[JointLine]) -> Mapping[str, FloatArray]:
     """Return boxes around all below each joint, by interval from lower to upper [m]."""
+    solids = rest.solids
     poses = solids.place(rest.lower)
     boxes: dict[str, FloatArray] = {}
     for joint in joints:

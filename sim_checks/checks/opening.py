@@ -11,10 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-from ..config import PenetrationConfig
 from ..description import JointLine
-from .joint_sweep import JointCourse, Rest, clear_until
-from .pairs import Pairs
+from .joint_sweep import JointCourse, clear_until
+from .pairs import RestingSolids
 from .penetration_study import JointSweep, PairKind, PairSweep
 
 #: How often the joints that make way are added to, because another part stands behind them.
@@ -24,14 +23,12 @@ Names = frozenset[str]
 CLOSED: Names = frozenset()
 
 
-def judge_joints(
-    joints: Sequence[JointLine], pairs: Pairs, rest: Rest, config: PenetrationConfig
-) -> tuple[JointSweep, ...]:
+def judge_joints(joints: Sequence[JointLine], rest: RestingSolids) -> tuple[JointSweep, ...]:
     """Sweep every joint with the others at lower; if it fails, again with obstacles opened.
 
     Asked are joints with a range that follow no other, in file order.
     """
-    courses = (JointCourse(joint, pairs, rest, config, rest.lower) for joint in joints)
+    courses = (JointCourse(joint, rest, rest.lower) for joint in joints)
     order = _OpeningOrder({course.joint.name: course for course in courses})
     order.settle()
     return tuple(order.judged(joint.name) for joint in joints)
@@ -86,7 +83,7 @@ class _OpeningOrder:
         return self.swept[name, opened]
 
     def _clean(self, name: str, opened: Names) -> bool:
-        return self._swept(name, opened).excess <= self.courses[name].config.excess_m
+        return self._swept(name, opened).excess <= self.courses[name].rest.config.excess_m
 
     def _freed(self, name: str) -> Names | None:
         """Return the joints with which open this one opens; ``None`` if there are none."""
@@ -113,12 +110,12 @@ class _OpeningOrder:
         yield frozenset(self.needs)
 
     def _failing(self, sweep: JointSweep) -> list[PairSweep]:
-        allowed = self.courses[sweep.joint.name].config.excess_m
+        allowed = self.courses[sweep.joint.name].rest.config.excess_m
         plain = (pair for pair in sweep.pairs if pair.contact.kind is PairKind.PLAIN)
         return [pair for pair in plain if pair.excess > allowed]
 
     def _between(self, failing: Sequence[PairSweep]) -> Names:
-        solids = next(iter(self.courses.values())).pairs.solids
+        solids = next(iter(self.courses.values())).rest.solids
         return CLOSED.union(*(solids.between(*pair.parts) for pair in failing))
 
     def _with_needs(self, names: Names) -> Names:

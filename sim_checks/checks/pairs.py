@@ -1,28 +1,44 @@
-"""Pairs of solids: which are exempt, and where they meet."""
+"""Pairs of solids: how they stand at rest, which are exempt, and where they meet."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
-from ..geometry.depth import contact_region
+from ..config import PenetrationConfig
+from ..geometry.depth import HullOverlap, contact_region
 from ..geometry.solids import SolidPair, Solids
 from .penetration_study import Contact, PairKind, PartPair
 
 
 @dataclass(frozen=True)
-class Pairs:
-    """The solids, and which pairs of them are exempt.
+class RestingSolids:
+    """The solids with every joint at lower, against which every pose and every way is held.
 
     Attributes:
         solids: posed by whoever asks.
         excluded: pairs of links that the file forbids to collide.
+        config: limits, and steps of the search along a joint.
+        lower, upper: the ends of the range of every joint that follows no other [rad] or [m].
+        standings: pairs of solids that are near each other at rest.
+        diagonal: of the object there [m].
         knuckles: pairs of solids (lower index first) that are some hinge's knuckle.
     """
 
     solids: Solids
     excluded: frozenset[frozenset[str]]
+    config: PenetrationConfig
+    lower: Mapping[str, float]
+    upper: Mapping[str, float]
+    standings: tuple[SolidPair, ...]
+    diagonal: float
     knuckles: frozenset[PartPair] = frozenset()
+
+    @cached_property
+    def overlaps(self) -> Mapping[PartPair, HullOverlap]:
+        """Return how the solids of ``standings`` stand, by their indices."""
+        return {(pair.first, pair.second): pair.overlap for pair in self.standings}
 
     def kind(self, first: int, second: int) -> PairKind:
         """Return how an overlap of the pair counts."""

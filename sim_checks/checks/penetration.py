@@ -9,7 +9,7 @@ wherever a joint goes, its followers are where it takes them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
 from ..config import PenetrationConfig, WorkConfig
@@ -21,10 +21,9 @@ from ..geometry.solids import SolidPair, Solids
 from .diagnosis import Diagnosis
 from .extent import beyond
 from .hinge import knuckles
-from .joint_sweep import Rest
 from .neighbours import open_neighbours
 from .opening import judge_joints
-from .pairs import Pairs
+from .pairs import RestingSolids
 from .penetration_report import report, told_parts
 from .penetration_study import Combination, Contact, PairKind, PartPair, PenetrationStudy
 from .result import CheckResult
@@ -73,14 +72,15 @@ def _measured(
     lower = {name: limits[0] for name, limits in ranges.items()}
     upper = {name: limits[1] for name, limits in ranges.items()}
     poses = solids.place(lower)
-    rest = Rest(lower, upper, tuple(solids.standings(config.clearance_m)), solids.diagonal())
-    pairs = Pairs(solids, description.excluded)
-    pairs = replace(pairs, knuckles=_knuckles(pairs, rest, poses, config))
+    standings = tuple(solids.standings(config.clearance_m))
+    known = (solids, description.excluded, config, lower, upper)
+    rest = RestingSolids(*known, standings, solids.diagonal())
+    rest = replace(rest, knuckles=_knuckles(rest, poses))
     # Contacts are located as the solids are placed, which sweeps change.
-    at_rest = pairs.worst(rest.standings, lower)
-    at_zero = _at_zero(pairs, ranges, config)
+    at_rest = rest.worst(standings, lower)
+    at_zero = _at_zero(rest)
     asked = [joint for joint in tree.free if joint.name in ranges]
-    sweeps = judge_joints(asked, pairs, rest, config)
+    sweeps = judge_joints(asked, rest)
     study = PenetrationStudy(
         diagonal=rest.diagonal,
         parts=tree.parts,
@@ -88,23 +88,20 @@ def _measured(
         rest=at_rest,
         zero=at_zero,
         sweeps=sweeps,
-        neighbours=open_neighbours(pairs, rest, config, told_parts(sweeps, config)),
-        combinations=_combinations(pairs, ranges, rest.standings, config),
+        neighbours=open_neighbours(rest, told_parts(sweeps, config)),
+        combinations=_combinations(rest, ranges),
     )
-    visible = Visible(description, pairs, rest, config)
-    return report(Diagnosis(pairs, rest, config, visible).explained(study), config)
+    return report(Diagnosis(rest, Visible(description, rest)).explained(study), config)
 
 
-def _knuckles(
-    pairs: Pairs, rest: Rest, poses: Mapping[str, FloatArray], config: PenetrationConfig
-) -> frozenset[PartPair]:
+def _knuckles(rest: RestingSolids, poses: Mapping[str, FloatArray]) -> frozenset[PartPair]:
     """Return every pair of solids that is some hinge's knuckle at rest."""
-    tree = pairs.solids.tree
+    tree = rest.solids.tree
     part_of = tree.part_of()
     overlapping: dict[PartPair, list[SolidPair]] = {}
     for pair in rest.standings:
         if pair.overlap.depth > TOUCH:
-            overlapping.setdefault(pairs.parts(pair.first, pair.second), []).append(pair)
+            overlapping.setdefault(rest.parts(pair.first, pair.second), []).append(pair)
     found: set[PartPair] = set()
     for joint in tree.moving:
         if joint.kind == "prismatic" or not (joint.name in rest.lower or joint.name in tree.mimics):
@@ -112,33 +109,31 @@ def _knuckles(
         first, second = sorted((part_of[joint.parent], part_of[joint.child]))
         overlaps = overlapping.get((first, second), [])
         path = joint_path(joint, poses[joint.child], 0.0)
-        found |= knuckles(pairs.solids, overlaps, path, part_of[joint.child], config)
+        found |= knuckles(rest.solids, overlaps, path, part_of[joint.child], rest.config)
     return frozenset(found)
 
 
-def _at_zero(pairs: Pairs, ranges: Ranges, config: PenetrationConfig) -> tuple[Contact, ...] | None:
+def _at_zero(rest: RestingSolids) -> tuple[Contact, ...] | None:
     """Return contacts in the pose of the file, where that is reachable and not rest."""
-    reachable = all(low <= 0.0 <= high for low, high in ranges.values())
-    if not reachable or all(low == 0.0 for low, _ in ranges.values()):
+    reachable = all(low <= 0.0 <= rest.upper[name] for name, low in rest.lower.items())
+    if not reachable or all(low == 0.0 for low in rest.lower.values()):
         return None
-    pairs.solids.place({})
-    return pairs.worst(pairs.solids.standings(config.clearance_m), {})
+    rest.solids.place({})
+    return rest.worst(rest.solids.standings(rest.config.clearance_m), {})
 
 
-def _combinations(
-    pairs: Pairs, ranges: Ranges, standings: Sequence[SolidPair], config: PenetrationConfig
-) -> tuple[Combination, ...]:
+def _combinations(rest: RestingSolids, ranges: Ranges) -> tuple[Combination, ...]:
     """Return the combination in which each pair of parts overlaps deepest beyond rest."""
-    rest = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in standings}
+    depths = {solids: max(0.0, overlap.depth) for solids, overlap in rest.overlaps.items()}
     worst: dict[PartPair, Combination] = {}
-    for values in combination_values(ranges, config.combinations):
-        pairs.solids.place(values)
-        for pair in pairs.solids.standings(0.0):
-            key = pairs.parts(pair.first, pair.second)
-            excess = pair.overlap.depth - rest.get((pair.first, pair.second), 0.0)
-            kind = pairs.kind(pair.first, pair.second)
+    for values in combination_values(ranges, rest.config.combinations):
+        rest.solids.place(values)
+        for pair in rest.solids.standings(0.0):
+            key = rest.parts(pair.first, pair.second)
+            excess = pair.overlap.depth - depths.get((pair.first, pair.second), 0.0)
+            kind = rest.kind(pair.first, pair.second)
             if kind is PairKind.PLAIN and (key not in worst or excess > worst[key].excess):
-                contact = pairs.contact(pair.first, pair.second, pair.overlap.depth, kind, values)
+                contact = rest.contact(pair.first, pair.second, pair.overlap.depth, kind, values)
                 worst[key] = Combination(values, contact, excess)
     return tuple(worst[key] for key in sorted(worst))
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -29,21 +28,6 @@ GRAVITY = 9.81
 SAMPLES = 17
 #: Points this much alike in distance are equally far [m].
 SAME = 1e-9
-
-
-@dataclass(frozen=True)
-class Stance:
-    """How the object stands at one set of joint values.
-
-    Attributes:
-        margin: how far within the support the centre of mass lies [m]; negative outside; ``None``
-            where fewer than three points, or none apart, touch the floor.
-        tilt: how far the floor may lean until it topples [rad]; negative where it topples by
-            itself.
-    """
-
-    margin: float | None
-    tilt: float | None
 
 
 class _RestingBody:
@@ -77,14 +61,27 @@ class _RestingBody:
         """Return how far the lowest point is below the floor [m]."""
         return max(0.0, self.floor - float(self._placed(values)[:, 2].min()))
 
-    def stance(self, values: Mapping[str, float]) -> Stance:
-        """Return the margin and tilt here."""
+    def margin(self, values: Mapping[str, float]) -> float | None:
+        """Return how far within the support the centre of mass lies [m]; negative outside.
+
+        ``None`` where fewer than three points, or none apart, touch the floor.
+        """
         edges = self._support(values)
         if edges is None:
-            return Stance(None, None)
-        center = self._center()
-        margin = float((edges[:, 2] - edges[:, :2] @ center[:2]).min())
-        return Stance(margin, math.atan2(margin, max(float(center[2]) - self.floor, 1e-6)))
+            return None
+        return float((edges[:, 2] - edges[:, :2] @ self._center()[:2]).min())
+
+    def stance(self, values: Mapping[str, float]) -> dict[str, Any]:
+        """Return the margin, and how far the floor may lean until the object topples.
+
+        Negative where it topples by itself; ``None`` both where it has nothing to stand on.
+        """
+        margin = self.margin(values)
+        if margin is None:
+            return {"margin_mm": None, "tilt_deg": None}
+        height = max(float(self._center()[2]) - self.floor, 1e-6)
+        tilt = round(math.degrees(math.atan2(margin, height)), 3)
+        return {"margin_mm": round(1000 * margin, 3), "tilt_deg": tilt}
 
     def tipping_force(self, joint: JointLine, values: Mapping[str, float]) -> float | None:
         """Return the least opening force at the part's farthest point that tips the object [N].
@@ -176,15 +173,15 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
         return CheckResult((), {"unweighed": unweighed})
     body = _RestingBody(description, tree, config)
     closed = body.stance(body.closed)
-    measurements: dict[str, Any] = {"mass_kg": round(body.mass, 6), "closed": _numbers(closed)}
-    if closed.margin is None:
+    measurements: dict[str, Any] = {"mass_kg": round(body.mass, 6), "closed": closed}
+    if closed["margin_mm"] is None:
         touch = "fewer than three points apart touch the floor with every joint closed"
         found = (warning("no_stable_footing", f"{touch}: it does not stand by itself"),)
         return CheckResult(found, {**measurements, "joints": []})
     rows = [_joint_row(body, joint) for joint in tree.free if joint.name in body.ranges]
-    together = _numbers(body.stance(body.opened))
+    together = body.stance(body.opened)
     measurements |= {"joints": rows, "all_upper": together}
-    told = tuple(_topples(measurements["closed"], rows, together, config.margin_m))
+    told = tuple(_topples(closed, rows, together, config.margin_m))
     return CheckResult(told or tuple(_pulled(rows, config)), measurements)
 
 
@@ -197,19 +194,19 @@ def _weighed(link: Link) -> bool:
 
 
 def _joint_row(body: _RestingBody, joint: JointLine) -> dict[str, Any]:
-    at, worst = _worst(body, joint)
+    at = _worst(body, joint)
     ends = [{**body.closed, joint.name: end} for end in body.ranges[joint.name]]
     forces = [force for values in ends if (force := body.tipping_force(joint, values)) is not None]
     return {
         "joint": joint.name,
         "worst_at": round(at, 6),
-        **_numbers(worst),
+        **body.stance({**body.closed, joint.name: at}),
         "tipping_force_n": round(min(forces), 3) if forces else None,
         "below_floor_mm": round(1000 * body.sunk(ends[1]), 3),
     }
 
 
-def _worst(body: _RestingBody, joint: JointLine) -> tuple[float, Stance]:
+def _worst(body: _RestingBody, joint: JointLine) -> float:
     """Return where in its range, others closed, a joint leaves the least margin.
 
     No footing at all is the worst.
@@ -217,7 +214,7 @@ def _worst(body: _RestingBody, joint: JointLine) -> tuple[float, Stance]:
     lower, upper = body.ranges[joint.name]
 
     def margin(value: float) -> float:
-        found = body.stance({**body.closed, joint.name: float(value)}).margin
+        found = body.margin({**body.closed, joint.name: float(value)})
         return -math.inf if found is None else found
 
     values = np.linspace(lower, upper, SAMPLES)
@@ -229,7 +226,7 @@ def _worst(body: _RestingBody, joint: JointLine) -> tuple[float, Stance]:
         near = 1e-6 * (upper - lower)
         found = minimize_scalar(margin, bounds=around, method="bounded", options={"xatol": near})
         at = float(found.x) if found.fun < margins[least] else at
-    return at, body.stance({**body.closed, joint.name: at})
+    return at
 
 
 def _topples(
@@ -273,13 +270,6 @@ def _pulled(rows: list[dict[str, Any]], config: StandingConfig) -> Findings:
         tips = f"pulling joint {joint!r} open tips the whole object at {force:.1f} N"
         message = f"{tips}, want it to withstand {most:g} N or be fastened{others}"
         yield warning("topples_when_pulled", message, joint=joint, **measured(force, "N", most))
-
-
-def _numbers(stance: Stance) -> dict[str, Any]:
-    if stance.margin is None or stance.tilt is None:
-        return {"margin_mm": None, "tilt_deg": None}
-    tilt = round(math.degrees(stance.tilt), 3)
-    return {"margin_mm": round(1000 * stance.margin, 3), "tilt_deg": tilt}
 
 
 def _corners(shapes: tuple[DescribedShape, ...]) -> FloatArray:

@@ -8,15 +8,13 @@ from functools import cached_property
 
 import numpy as np
 
-from ..config import PenetrationConfig
 from ..description import Description, FloatArray, Link
 from ..geometry.depth import contact_region
 from ..geometry.gaps import visible_gap
 from ..geometry.loose import strayed
 from ..geometry.placing import joined
 from ..geometry.surfaces import SurfaceMeeting, VisibleSurface, patches
-from .joint_sweep import Rest
-from .pairs import Pairs
+from .pairs import RestingSolids
 from .penetration_study import Contact
 
 #: A look at two visible surfaces takes as long as so many at two hulls.
@@ -29,20 +27,17 @@ class Visible:
 
     Attributes:
         description: as read.
-        pairs: the hulls; posed anew by every question.
-        rest: where a stray piece is held against both parts.
-        config: how far gaps are measured.
+        rest: the hulls, posed anew by every question; at rest a stray piece is held against both
+            parts.
     """
 
     description: Description
-    pairs: Pairs
-    rest: Rest
-    config: PenetrationConfig
+    rest: RestingSolids
 
     @cached_property
     def surfaces(self) -> tuple[VisibleSurface | None, ...]:
         """Return each part's visible surface in its first link's frame; ``None`` without one."""
-        tree = self.pairs.solids.tree
+        tree = self.rest.solids.tree
         links = {link.name: link for link in self.description.links}
         at_zero = tree.link_poses({})
         return tuple(_surface([links[name] for name in part], at_zero) for part in tree.parts)
@@ -52,7 +47,7 @@ class Visible:
         one, other = (self.surfaces[part] for part in contact.parts)
         if one is None or other is None:
             return None
-        self.pairs.solids.looks.take(SURFACE_LOOKS)
+        self.rest.solids.looks.take(SURFACE_LOOKS)
         meeting, poses = self._met(contact)
         return visible_gap(one, other, poses, meeting)
 
@@ -71,15 +66,15 @@ class Visible:
     @cached_property
     def _resting(self) -> dict[str, FloatArray]:
         """Link poses at rest."""
-        return self.pairs.solids.tree.link_poses(self.rest.lower)
+        return self.rest.solids.tree.link_poses(self.rest.lower)
 
     def _met(self, contact: Contact) -> tuple[SurfaceMeeting, FloatArray]:
         """Return where a contact's hulls meet or come nearest, and the two parts' frames there."""
-        solids = self.pairs.solids
+        solids = self.rest.solids
         poses = solids.place(contact.pose)
         a, b = (solids.items[index].collider for index in contact.hulls)
         overlap = a.stand(b)
-        margin = self.config.clearance_m
+        margin = self.rest.config.clearance_m
         region = contact_region(a.hull, b.hull)
         low = region.min(axis=0) if len(region) else np.maximum(a.bounds[0], b.bounds[0]) - margin
         high = region.max(axis=0) if len(region) else np.minimum(a.bounds[1], b.bounds[1]) + margin
@@ -88,7 +83,7 @@ class Visible:
         return meeting, self._frames(contact, poses)
 
     def _frames(self, contact: Contact, poses: dict[str, FloatArray]) -> FloatArray:
-        parts = self.pairs.solids.tree.parts
+        parts = self.rest.solids.tree.parts
         return np.array([poses[parts[part][0]] for part in contact.parts])
 
 

@@ -27,14 +27,12 @@ class LinkSolid:
         link: the link whose it is.
         shape: its shape's name.
         part: index of the part, see :class:`Tree`.
-        in_part: the link's frame in the part's frame, shape [4, 4].
         collider: the hull, in the link's frame.
     """
 
     link: str
     shape: str
     part: int
-    in_part: FloatArray
     collider: Collider
 
 
@@ -77,17 +75,15 @@ class Solids:
         self.tree = tree
         self.looks = looks or LookBudget()
         part_of = tree.part_of()
-        at_zero = tree.link_poses({})
         self.items: list[LinkSolid] = []
         for link in description.links:
             part = part_of[link.name]
-            in_part = np.linalg.inv(at_zero[tree.parts[part][0]]) @ at_zero[link.name]
             for shape in link.collisions:
                 try:
                     hull = convex_hull(shape.vertices)
                 except FlatHull:
                     continue
-                self.items.append(LinkSolid(link.name, shape.name, part, in_part, Collider(hull)))
+                self.items.append(LinkSolid(link.name, shape.name, part, Collider(hull)))
         self._poser = Poser(tree)
         self._steps = _steps(tree, part_of)
         self._groups: dict[str, tuple[SolidGroup, ...]] = {}

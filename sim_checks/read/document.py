@@ -150,6 +150,13 @@ def outside_error(reference: str, places: Sequence[Path]) -> DescriptionError:
     return DescriptionError("outside_folder", message, places)
 
 
+def is_there(place: Path) -> bool:
+    """Return whether something lies there; nothing has a name that no file can have."""
+    with suppress(OSError, ValueError):
+        return place.exists()
+    return False
+
+
 def is_file(place: Path) -> bool:
     """Return whether a file lies there; none has a name that is too long."""
     with suppress(OSError):

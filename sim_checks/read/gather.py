@@ -81,7 +81,10 @@ def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
         _copy_mjcf(path, document, copies, target)
     else:
         _copy_urdf(path, document, copies, target)
-        _copy_srdf(options.srdf or path.with_name(target.name).with_suffix(SRDF), copies, target)
+        # One that somebody names may lie anywhere.
+        srdf = options.srdf or path.with_name(target.name).with_suffix(SRDF)
+        if is_file(srdf):
+            target.with_suffix(SRDF).write_bytes(copies.read(srdf))
     told = Finding("read_by_xacro", Severity.NOTE, f"{path.name} was expanded by xacro")
     findings = (*([told] if made else []), *([_told(path, roots)] if strays else []))
     return Gathered(target, (*included, *copies.originals), findings)
@@ -130,12 +133,6 @@ def _copy_urdf(path: Path, document: ET.Element, copies: Copies, target: Path) -
         else:
             element.set("filename", copies.take(file).relative_to(copies.folder).as_posix())
     copies.write(document, path, target)
-
-
-def _copy_srdf(srdf: Path, copies: Copies, target: Path) -> None:
-    """Copy an SRDF beside the copy of its URDF; one that somebody names may lie anywhere."""
-    if is_file(srdf):
-        target.with_suffix(SRDF).write_bytes(copies.read(srdf))
 
 
 def _copy_mjcf(path: Path, document: ET.Element, copies: Copies, target: Path) -> None:

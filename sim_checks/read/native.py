@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ..description import DescriptionError
-from ..processes.isolation import Failure, Limits, Outcome, WarmChild
+from ..processes.isolation import Failure, Limits, WarmChild
 
 T = TypeVar("T")
 #: Time only ends what hangs, and is no verdict.
@@ -37,16 +37,23 @@ def ask_of(
 
     The call is that of :meth:`WarmChild.call`; ``name``, the file's, opens the sentence.
 
+    What a reader answers or raises is its word, and so is a fault that it dies of.
+
     Raises:
         DescriptionError: what the function raises, ``unreadable`` or ``too_large``.
-        TimeoutError, ChildProcessError: nobody can say; see :func:`require_word`.
+        TimeoutError: it hung: nobody can say.
+        ChildProcessError: somebody killed it, or it did not start: the same.
     """
     outcome = child.call(function, *args, limits=limits)
     if outcome.failure is Failure.CRASHED and not outcome.killed:
         outcome = child.call(function, *args, limits=limits)
     if isinstance(outcome.error, DescriptionError):
         raise outcome.error
-    require_word(outcome, name)
+    said = f"{name}: what reads it gave no answer: {outcome.detail}"
+    if outcome.failure is Failure.TIMEOUT:
+        raise TimeoutError(said)
+    if outcome.failure is Failure.CRASHED and (outcome.exited or not outcome.deaths):
+        raise ChildProcessError(said)
     if outcome.failure is not None:
         code = "too_large" if isinstance(outcome.error, MemoryError) else "unreadable"
         raise DescriptionError(code, f"{name}: its reader fails: {outcome.detail}")
@@ -73,20 +80,3 @@ def memory_bounded(most: int) -> Iterator[None]:
         raise
     finally:
         resource.setrlimit(resource.RLIMIT_AS, usual)
-
-
-def require_word(outcome: Outcome[Any], name: str) -> None:
-    """Tell an outcome that says something of a file from one that does not.
-
-    What a reader answers or raises is its word, and so is a fault that it dies of. The file's name
-    opens the sentence.
-
-    Raises:
-        TimeoutError: it hung.
-        ChildProcessError: somebody killed it, or it did not start.
-    """
-    said = f"{name}: what reads it gave no answer: {outcome.detail}"
-    if outcome.failure is Failure.TIMEOUT:
-        raise TimeoutError(said)
-    if outcome.failure is Failure.CRASHED and (outcome.exited or not outcome.deaths):
-        raise ChildProcessError(said)

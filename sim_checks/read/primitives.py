@@ -27,7 +27,7 @@ def box(size: FloatArray) -> tuple[FloatArray, IntArray]:
 def cylinder(radius: float, length: float) -> tuple[FloatArray, IntArray]:
     """Return a cylinder along z, centred at the origin [m]."""
     half = length / 2
-    return _lathe([(0.0, -half), (radius, -half), (radius, half), (0.0, half)])
+    return lathe(np.array([(0.0, -half), (radius, -half), (radius, half), (0.0, half)]), SEGMENTS)
 
 
 def capsule(radius: float, length: float) -> tuple[FloatArray, IntArray]:
@@ -81,19 +81,22 @@ def _hull(points: FloatArray) -> tuple[FloatArray, IntArray]:
     return hull.vertices, hull.triangles
 
 
-def _lathe(profile: list[tuple[float, float]]) -> tuple[FloatArray, IntArray]:
-    """Turn (radius, height) pairs, from pole to pole, around z; the first and last radius are 0."""
-    turn = 2.0 * np.pi * np.arange(SEGMENTS) / SEGMENTS
-    ring = np.column_stack([np.cos(turn), np.sin(turn), np.ones(SEGMENTS)])
+def lathe(profile: FloatArray, segments: int) -> tuple[FloatArray, IntArray]:
+    """Turn pairs of radius and height [m], shape [pair_count, 2], around z, in so many steps.
+
+    They go from the lower pole to the upper one, both of radius 0, which are the first vertices.
+    """
+    turn = 2.0 * np.pi * np.arange(segments) / segments
+    ring = np.column_stack([np.cos(turn), np.sin(turn), np.ones(segments)])
     rings = [ring * [r, r, z] for r, z in profile[1:-1]]
-    poles = np.array([[0.0, 0.0, profile[0][1]], [0.0, 0.0, profile[-1][1]]])
-    here = np.arange(SEGMENTS)
-    following = (here + 1) % SEGMENTS
-    faces = [np.column_stack([np.zeros(SEGMENTS, int), 2 + following, 2 + here])]
-    for a in range(2, 2 + (len(rings) - 1) * SEGMENTS, SEGMENTS):
-        b = a + SEGMENTS
+    poles = np.array([[0.0, 0.0, profile[0, 1]], [0.0, 0.0, profile[-1, 1]]])
+    here = np.arange(segments)
+    following = (here + 1) % segments
+    faces = [np.column_stack([np.zeros(segments, int), 2 + following, 2 + here])]
+    for a in range(2, 2 + (len(rings) - 1) * segments, segments):
+        b = a + segments
         faces.append(np.column_stack([a + here, a + following, b + following]))
         faces.append(np.column_stack([a + here, b + following, b + here]))
-    last = 2 + (len(rings) - 1) * SEGMENTS
-    faces.append(np.column_stack([np.ones(SEGMENTS, int), last + here, last + following]))
+    last = 2 + (len(rings) - 1) * segments
+    faces.append(np.column_stack([np.ones(segments, int), last + here, last + following]))
     return np.vstack([poles, *rings]), np.vstack(faces).astype(np.int64)

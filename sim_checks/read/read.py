@@ -23,7 +23,7 @@ def read_description(path: Path) -> Description:
 
     Raises:
         DescriptionError: with a stable code, whatever is wrong with the file.
-        TimeoutError, ChildProcessError: nobody can say; see :func:`.native.require_word`.
+        TimeoutError, ChildProcessError: nobody can say; see :func:`.native.ask_of`.
     """
     document = parse_document(path)
     if _format(document, path) == "urdf":

@@ -8,12 +8,19 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..description import DescriptionError
-from .document import inside, is_file, locate, outside_error, parse_document, refuse_address
+from .document import (
+    inside,
+    is_file,
+    is_there,
+    locate,
+    outside_error,
+    parse_document,
+    refuse_address,
+)
 from .meshes import MAX_MESH_BYTES
 from .regular import read_regular
 
@@ -164,7 +171,7 @@ class ModelWalk:
         outside = [place for place in places if not self._allows(place)]
         # Which rule it goes by depends on its version: a place it might look at counts where
         # something lies there.
-        if places[0] in outside or any(_exists(place) for place in outside):
+        if places[0] in outside or any(is_there(place) for place in outside):
             raise outside_error(reference, outside)
         within = tuple(place for place in places if place not in outside)
         files = found(within)
@@ -175,13 +182,6 @@ class ModelWalk:
 def found(places: Sequence[Path]) -> tuple[Path, ...]:
     """Return those of some places where a file lies, links followed, each once."""
     return tuple(dict.fromkeys(place.resolve() for place in places if is_file(place)))
-
-
-def _exists(place: Path) -> bool:
-    # Path.exists raises at names that are too long.
-    with suppress(OSError):
-        return place.exists()
-    return False
 
 
 def nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:

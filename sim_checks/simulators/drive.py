@@ -9,7 +9,7 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .joints import Groups, Ranges, any_carried, companions, pressing, ranges, share
+from .joints import Groups, Ranges, any_carried, companions, pressing, ranges, share, standing_open
 from .law import drive_law
 from .rest import Gain, let_go
 from .simulator import JointMotion, World
@@ -158,9 +158,7 @@ def drive(
     joints are held the same way, but softly: those in ``opened`` at upper, the rest at lower. What
     rides on the part that is driven, a button on a door, is held so that the ride hardly moves it.
     """
-    start = span.lower.copy()
-    together = sorted(CLOSED.union(*(companions(world, other) for other in opened)))
-    start[together] = span.upper[together]
+    start = standing_open(world, opened, span)
     world.place(start)
     mass = world.mass_matrix()
     law = drive_law(world, mass, indices, span, config)

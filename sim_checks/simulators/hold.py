@@ -9,7 +9,7 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray
 from .drive import arrived
-from .joints import Groups, Ranges, companions, pressing, ranges
+from .joints import Groups, Ranges, companions, pressing, ranges, standing_open
 from .rest import left_alone
 from .simulator import HoldMotion, JointMotion, World
 
@@ -46,31 +46,21 @@ def hold(
     free = {i: motion.joint for i, motion in asked.items() if not motion.needs_open}
     together = [[i for i, joint in free.items() if joint in names] for names in apart]
     alone = [[i] for i in asked.keys() - {i for group in together for i in group}]
+    needs = {i: [numbers[name] for name in motion.needs_open] for i, motion in asked.items()}
     found = {
         (numbers[held.joint], share): held
         for group in (*together, *alone)
         if group
-        for share, held in _held(world, group, _start(world, group, asked, span), span, config)
+        # Those of a larger group need none.
+        for share, held in _held(world, group, needs[group[0]], span, config)
     }
     return tuple(found[i, share] for i in asked for share in SHARES if (i, share) in found)
 
 
-def _start(
-    world: World, group: list[int], asked: dict[int, JointMotion], span: Ranges
-) -> FloatArray:
-    """Return where the other joints stand [rad] or [m], shape [joint_count]."""
-    start = span.lower.copy()
-    opened = {name for index in group for name in asked[index].needs_open}
-    for i, joint in enumerate(world.joints):
-        if joint.name in opened:
-            together = sorted(companions(world, i))
-            start[together] = span.upper[together]
-    return start
-
-
 def _held(
-    world: World, group: list[int], start: FloatArray, span: Ranges, config: MotionConfig
+    world: World, group: list[int], opened: list[int], span: Ranges, config: MotionConfig
 ) -> Iterator[tuple[float, HoldMotion]]:
+    start = standing_open(world, opened, span)
     friction = np.array([world.joints[i].friction for i in group], np.float64)
     for share in SHARES:
         start[group] = span.lower[group] + share * span.travel[group]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -82,6 +83,14 @@ def companions(world: World, index: int) -> frozenset[int]:
     for _ in pairs:
         found |= {name for pair in pairs if pair & found for name in pair}
     return frozenset(i for i, joint in enumerate(world.joints) if joint.name in found)
+
+
+def standing_open(world: World, opened: Iterable[int], span: Ranges) -> FloatArray:
+    """Return joints at upper, with all that move with them, and the others at lower."""
+    values = span.lower.copy()
+    together = sorted(frozenset[int]().union(*(companions(world, index) for index in opened)))
+    values[together] = span.upper[together]
+    return values
 
 
 def pressing(world: World, index: int) -> tuple[str, str] | None:

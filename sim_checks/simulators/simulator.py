@@ -308,23 +308,18 @@ class World(Protocol):
     """A loaded asset, its base fixed, gravity on, self-collision on, ready to be moved.
 
     Vectors are ordered as :attr:`joints`.
+
+    Attributes:
+        model: what arrived.
+        joints: those that :meth:`step` pushes, all with one degree of freedom.
+        time_step: what one :meth:`step` advances [s].
+        carried: the names of the links that each joint moves.
     """
 
-    @property
-    def model(self) -> LoadedModel:
-        """Return what arrived."""
-
-    @property
-    def joints(self) -> tuple[LoadedJoint, ...]:
-        """Return the joints that :meth:`step` pushes, all with one degree of freedom."""
-
-    @property
-    def time_step(self) -> float:
-        """Return what one :meth:`step` advances [s]."""
-
-    @property
-    def carried(self) -> tuple[frozenset[str], ...]:
-        """Return the names of the links that each joint moves."""
+    model: LoadedModel
+    joints: tuple[LoadedJoint, ...]
+    time_step: float
+    carried: tuple[frozenset[str], ...]
 
     def weigh(self, on: bool) -> None:
         """Turn gravity and springs on, as after loading, or off."""

@@ -16,10 +16,9 @@ from asset_factory.factory.registry.entry import TEST_SHARE, split_of
 def assets(tmp_path):
     stone = assemble("stone", [box([0, 0, 0], [1, 1, 1])], (), {})
     read = read_registry(write_registry(tmp_path, cabinet(), oven(), valve(), stone))
-    return {
-        key: replace(asset, category="furniture" if key == "cabinet" else "other")
-        for key, asset in read.items()
-    }
+    called = {key: "furniture" if key == "cabinet" else "other" for key in read}
+    manifests = {key: replace(read[key].manifest, category=word) for key, word in called.items()}
+    return {key: replace(asset, manifest=manifests[key]) for key, asset in read.items()}
 
 
 def names(assets):

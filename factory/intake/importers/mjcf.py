@@ -6,7 +6,7 @@ The format: https://mujoco.readthedocs.io/en/stable/XMLreference.html.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -40,6 +40,14 @@ from .xml_source import read_xml
 KINDS = {"hinge": "revolute", "slide": "prismatic"}
 #: Geoms of these groups are shown by MuJoCo's viewer unless asked otherwise.
 SHOWN_GROUPS = range(3)
+#: Makers by MuJoCo's name of a shape; its sizes are half extents.
+_PRIMITIVES: Mapping[str, Callable[[FloatArray, Material], Mesh]] = {
+    "box": lambda size, material: primitives.box(2.0 * size, material),
+    "sphere": lambda size, material: primitives.ellipsoid(np.full(3, size[0]), material),
+    "ellipsoid": primitives.ellipsoid,
+    "cylinder": lambda size, material: primitives.cylinder(size[0], 2.0 * size[1], material),
+    "capsule": lambda size, material: primitives.capsule(size[0], 2.0 * size[1], material),
+}
 
 
 def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
@@ -157,23 +165,11 @@ def _mesh_of(geom: CompiledGeom, model: CompiledModel, images: dict[int, Texture
 
 
 def _shape(geom: CompiledGeom, model: CompiledModel, material: Material) -> Mesh | None:
-    radius, half, _ = geom.size.tolist()
     if geom.mesh >= 0:
         mesh = model.meshes[geom.mesh]
         return Mesh.from_triangles(mesh.vertices, mesh.faces, material)
-    shape = None
-    match geom.shape:
-        case "box":
-            shape = primitives.box(2.0 * geom.size, material)
-        case "sphere":
-            shape = primitives.ellipsoid((radius, radius, radius), material)
-        case "ellipsoid":
-            shape = primitives.ellipsoid(geom.size, material)
-        case "cylinder":
-            shape = primitives.cylinder(radius, 2.0 * half, material)
-        case "capsule":
-            shape = primitives.capsule(radius, 2.0 * half, material)
-    return shape
+    make = _PRIMITIVES.get(geom.shape)
+    return None if make is None else make(geom.size, material)
 
 
 def _images(model: CompiledModel, files: InputFiles, folder: Path) -> dict[int, Texture]:

@@ -45,24 +45,8 @@ def capsule(radius: float, length: float, material: Material) -> Mesh:
 
 def _revolved(profile: FloatArray, material: Material) -> Mesh:
     """Turn a profile of (radius, height) [m], from the bottom pole to the top pole, about z."""
-    angles = np.arange(SECTIONS) * (2.0 * np.pi / SECTIONS)
-    circle = np.stack([np.cos(angles), np.sin(angles), np.zeros(SECTIONS)], axis=1)
-    rings = [
-        circle * [radius, radius, 0.0] + [0.0, 0.0, height] for radius, height in profile[1:-1]
-    ]
-    poles = np.array([[0.0, 0.0, profile[0, 1]], [0.0, 0.0, profile[-1, 1]]])
-    vertices = np.concatenate([*rings, poles])
-    here = np.arange(SECTIONS)
-    there = (here + 1) % SECTIONS
-    bottom = len(vertices) - 2
-    top = len(vertices) - 1
-    last = (len(rings) - 1) * SECTIONS
-    faces = [np.stack([np.full(SECTIONS, bottom), there, here], axis=1)]
-    for base in range(0, last, SECTIONS):
-        a = base + here
-        b = base + there
-        c = base + SECTIONS + there
-        d = base + SECTIONS + here
-        faces += [np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]
-    faces.append(np.stack([last + here, last + there, np.full(SECTIONS, top)], axis=1))
-    return Mesh.from_triangles(vertices, np.concatenate(faces), material)
+    vertices, faces = primitives.lathe(profile, SECTIONS)
+    # Files written before have the poles last, and the rings before them.
+    faces = (faces - 2) % len(vertices)
+    faces[-SECTIONS:] = np.roll(faces[-SECTIONS:], -1, axis=1)
+    return Mesh.from_triangles(np.roll(vertices, -2, axis=0), faces, material)

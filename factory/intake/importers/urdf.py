@@ -25,7 +25,7 @@ from ..annotation import AnnotatedJoint
 from ..limits import require_at_most
 from ..reads import ReadLog
 from .imported import Imported, rigid_groups
-from .urdf_geometry import GeometryReader, Palette, painted
+from .urdf_geometry import ShapeReader
 
 MAX_LINKS = 4096
 MAX_SHAPES = 10_000
@@ -47,10 +47,11 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
     _refuse_repeats(names, path.name)
     known = frozenset(names)
     joints = [_joint(element, known, path.name) for element in robot.findall("joint")]
-    poses = _poses_at_zero(names, _root_first(names, joints, path.name))
+    poses = {name: np.eye(4) for name in names}
+    for joint in _root_first(names, joints, path.name):
+        poses[joint.child] = poses[joint.parent] @ joint.origin
     notes = _notes(robot, joints)
-    reader = GeometryReader(path.parent, config, log)
-    palette = Palette(robot, path.parent, config, log)
+    reader = ShapeReader(robot, path.parent, config, log)
     part_of = {name: part for part, name in enumerate(names)}
     welds = [(part_of[j.parent], part_of[j.child]) for j in joints if j.kind == "fixed"]
     shapes = _choose_shapes(links, rigid_groups(len(names), welds), notes)
@@ -64,7 +65,7 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
             faces += len(mesh.faces)
             require_at_most(path.name, faces, config.max_faces, "faces")
             pose = poses[names[part]] @ LENIENT.origin(element, where)
-            pieces.append((part, painted(mesh, element, palette, where).transformed(pose)))
+            pieces.append((part, reader.painted(mesh, element, where).transformed(pose)))
     return Imported(
         pieces=tuple(pieces),
         part_names=names,
@@ -72,7 +73,7 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
             _annotated(joint, part_of, poses[joint.child], element)
             for joint, element in zip(joints, robot.findall("joint"), strict=True)
         ),
-        digests=(digest_file(path), *(v.digest for v in reader.visuals), palette.digest),
+        digests=(digest_file(path), *reader.digests),
         notes=(*notes, *reader.notes),
         source="urdf",
         licenses=tuple(dict.fromkeys(v.license for v in reader.visuals if v.license)),
@@ -129,14 +130,6 @@ def _root_first(names: tuple[str, ...], joints: list[JointLine], file: str) -> l
         ordered += ready
         reached |= {j.child for j in ready}
     return ordered
-
-
-def _poses_at_zero(names: tuple[str, ...], ordered: list[JointLine]) -> dict[str, FloatArray]:
-    """Return each link's pose in the root's frame, shape [4, 4]."""
-    poses = {name: np.eye(4) for name in names}
-    for joint in ordered:
-        poses[joint.child] = poses[joint.parent] @ joint.origin
-    return poses
 
 
 def _choose_shapes(

@@ -36,10 +36,10 @@ _PRIMITIVES: dict[str, Callable[..., Mesh]] = {
 }
 
 
-class GeometryReader:
-    """Reads shapes of one description, every mesh file in or below its folder once."""
+class ShapeReader:
+    """Reads shapes of one description, every mesh and texture in or below its folder once."""
 
-    def __init__(self, folder: Path, config: IntakeConfig, log: ReadLog) -> None:
+    def __init__(self, robot: ET.Element, folder: Path, config: IntakeConfig, log: ReadLog) -> None:
         self._folder = folder
         self._log = log
         self._config = config
@@ -47,6 +47,14 @@ class GeometryReader:
         self._visuals: dict[Path, Visual | None] = {}
         self._left_out: list[str] = []
         self._said: list[str] = []
+        self._files = InputFiles(folder, config, log)
+        self._textures: dict[Path, Texture | None] = {}
+        self._materials = {each.get("name", ""): each for each in robot.findall("material")}
+        # A local definition may be referred to by name further down the file, as ROS's parser
+        # allows.
+        for element in robot.iterfind("link/visual/material"):
+            if len(element):
+                self._materials.setdefault(element.get("name", ""), element)
 
     @property
     def notes(self) -> list[str]:
@@ -59,6 +67,11 @@ class GeometryReader:
     def visuals(self) -> tuple[Visual, ...]:
         """Return the content of each mesh file, in the order of first use."""
         return tuple(visual for visual in self._visuals.values() if visual is not None)
+
+    @property
+    def digests(self) -> tuple[str, ...]:
+        """Return the SHA-256 of each mesh file, and of all textures, in the order of first use."""
+        return (*(visual.digest for visual in self.visuals), self._files.digest)
 
     def read(self, shape: ET.Element, where: str) -> Mesh | None:
         """Return what a ``<visual>`` or ``<collision>`` shows [m]; ``None`` if nothing.
@@ -103,34 +116,24 @@ class GeometryReader:
         self._said += [f"{path.name}: {note}" for note in visual.notes]
         return visual
 
+    def painted(self, mesh: Mesh, shape: ET.Element, where: str) -> Mesh:
+        """Return a mesh in the colours of its shape's ``<material>``, unless its file has some."""
+        says_itself = len(mesh.materials) > 1 or not is_plain(mesh.materials[0])
+        material = None if says_itself else self._material(shape, where)
+        if material is None:
+            return mesh
+        if mesh.corner_uv is None:
+            material = replace(material, texture=None)
+        return replace(mesh, materials=(material,))
 
-class Palette:
-    """The materials that a file defines for all its links."""
-
-    def __init__(self, robot: ET.Element, folder: Path, config: IntakeConfig, log: ReadLog) -> None:
-        self._folder = folder
-        self._files = InputFiles(folder, config, log)
-        self._global = {element.get("name", ""): element for element in robot.findall("material")}
-        # A local definition may be referred to by name further down the file, as ROS's parser
-        # allows.
-        for element in robot.iterfind("link/visual/material"):
-            if len(element):
-                self._global.setdefault(element.get("name", ""), element)
-        self._textures: dict[Path, Texture | None] = {}
-
-    @property
-    def digest(self) -> str:
-        """Return the SHA-256 of the textures read so far, in the order of first use."""
-        return self._files.digest
-
-    def material(self, shape: ET.Element, where: str) -> Material | None:
+    def _material(self, shape: ET.Element, where: str) -> Material | None:
         """Return what a shape's ``<material>`` says; ``None`` if none, or an undefined one."""
         element = shape.find("material")
         if element is None:
             return None
         name = element.get("name", "")
         if not len(element):
-            element = self._global.get(name, element)
+            element = self._materials.get(name, element)
         color = element.find("color")
         texture = element.find("texture")
         if color is None and texture is None:
@@ -145,21 +148,10 @@ class Palette:
     def _texture(self, reference: str, where: str) -> Texture | None:
         if not reference:
             return None
-        path = find_reference(reference, self._folder, where, self._files.log)
+        path = find_reference(reference, self._folder, where, self._log)
         if path not in self._textures:
             self._textures[path] = load_texture(self._files.read(path), path.name, self._files)
         return self._textures[path]
-
-
-def painted(mesh: Mesh, shape: ET.Element, palette: Palette, where: str) -> Mesh:
-    """Return a mesh in the colours of its shape's ``<material>``, unless its file has its own."""
-    says_itself = len(mesh.materials) > 1 or not is_plain(mesh.materials[0])
-    material = None if says_itself else palette.material(shape, where)
-    if material is None:
-        return mesh
-    if mesh.corner_uv is None:
-        material = replace(material, texture=None)
-    return replace(mesh, materials=(material,))
 
 
 def is_plain(material: Material) -> bool:

@@ -73,38 +73,29 @@ def load_usd(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> In
     return Intake(safe_name(path), mesh, faces, transform, provenance, annotation)
 
 
-def require_own_layers(main: Path, folder: Path, max_bytes: int) -> None:
-    """Refuse a USD asset that leads out of a folder, or is too large, as an input.
+def read_annotated(
+    main: Path, folder: Path, max_bytes: int, max_faces: int
+) -> tuple[Mesh, Annotation, FloatArray]:
+    """Return all surfaces of a stage as one mesh, its parts and joints, and how it was turned.
 
     Args:
         main: the layer to begin with.
         folder: everything lies in or below it, symbolic links followed.
         max_bytes: of all layers' files together [bytes].
-
-    Raises:
-        InputRejected: ``external_reference``, ``missing_file``, ``unreadable``, ``unsupported``
-            (value clips and computed references, whose files cannot be known beforehand),
-            ``too_large``.
-    """
-    with rejecting(main.name, folder):
-        require_inside(main, folder, max_bytes)
-
-
-def read_annotated(path: Path, max_faces: int) -> tuple[Mesh, Annotation, FloatArray]:
-    """Return all surfaces of a stage as one mesh, its parts and joints, and how it was turned.
-
-    ``path`` is the root layer's; see :func:`require_own_layers` for what to ask before.
+        max_faces: of all surfaces together.
 
     Returns:
         The mesh in metres, z up; parts and joints in the stage's frame and units; the transform
         from there, shape [4, 4].
 
     Raises:
-        InputRejected: ``unreadable``, ``empty``, ``too_large``, ``not_a_tree``,
-            ``unsupported_joint``.
+        InputRejected: ``external_reference``, ``missing_file``, ``unreadable``, ``unsupported``
+            (value clips and computed references, whose files cannot be known beforehand),
+            ``too_large``, ``empty``, ``not_a_tree``, ``unsupported_joint``.
     """
-    with rejecting(path.name, path.parent):
-        return _annotated(_read_leniently(path), path.name, max_faces)
+    with rejecting(main.name, folder):
+        require_inside(main, folder, max_bytes)
+        return _annotated(_read_leniently(main), main.name, max_faces)
 
 
 def _read_leniently(path: Path) -> PhysicsStage:

@@ -15,7 +15,7 @@ from asset_factory.sim_checks.read.usd.stage import PhysicsStage
 
 from ...articulation import rotation_about
 from ...errors import InputRejected
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import FloatArray, Mesh
 from ..annotation import AnnotatedJoint, Annotation
 from ..limits import unreadable
 from .imported import fixed, rigid_groups
@@ -56,15 +56,19 @@ def annotation_of(
     face_group = np.repeat([group[index[body]] for body, _ in pieces], sizes)
     roots = {group[index[body]] for body in stage.roots if body in index}
     world = group[index[WORLD]] if WORLD in index else None
-    order = _by_rank(links, group, roots, world, face_group)
+    moved = {link.child for link in links}
+    count = Counter(face_group.tolist())
+
+    def rank(g: int) -> tuple[bool, bool, bool, int, int]:
+        """Rank groups, the best root first: world, articulation root, no ``body1``, then size."""
+        return g != world, g not in roots, g in moved, -count[g], g
+
+    order = sorted(set(group), key=rank)
     number = {g: part for part, g in enumerate(order)}
     return Annotation(
         face_part=np.repeat([number[group[index[body]]] for body, _ in pieces], sizes),
         part_names=tuple(bodies[g].rsplit("/", 1)[-1] or "base" for g in order),
-        joints=tuple(
-            _directed(link, number, parent, child)
-            for link, parent, child in _hung(links, order, file)
-        ),
+        joints=tuple(_hung(links, number, file)),
         source="usd",
     )
 
@@ -139,39 +143,24 @@ def _value_at_pose(joint: PhysicsJoint, first: FloatArray, second: FloatArray) -
     return along if off_angle <= ALIGNED and off_axis <= CLOSE * reach else 0.0
 
 
-def _by_rank(
-    links: list[AnnotatedJoint],
-    group: list[int],
-    roots: set[int],
-    world: int | None,
-    face_group: IntArray,
-) -> list[int]:
-    """Return the groups, best root first: world, articulation root, no ``body1``, then size."""
-    faces = Counter(face_group.tolist())
-    moved = {link.child for link in links}
+def _hung(links: list[AnnotatedJoint], parts: dict[int, int], file: str) -> list[AnnotatedJoint]:
+    """Return the joints between parts, from the root on; what none holds is fixed to the root.
 
-    def rank(g: int) -> tuple[bool, bool, bool, int, int]:
-        return g != world, g not in roots, g in moved, -faces[g], g
-
-    return sorted(set(group), key=rank)
-
-
-def _hung(
-    links: list[AnnotatedJoint], order: list[int], file: str
-) -> list[tuple[AnnotatedJoint | None, int, int]]:
-    """Return joints with their parent's and child's group, from the root on; ``None``: fixed."""
+    The parts' numbers are given by group, the root's first. Seen from ``body1``, ``body0`` moves
+    the other way round.
+    """
     at: dict[int, list[int]] = {}
     for number, link in enumerate(links):
         for end in (link.parent, link.child):
             at.setdefault(end, []).append(number)
-    joints: list[tuple[AnnotatedJoint | None, int, int]] = []
+    joints: list[AnnotatedJoint] = []
     reached: set[int] = set()
     used: set[int] = set()
-    for start in order:
+    for start, part in parts.items():
         if start in reached:
             continue
         if reached:
-            joints.append((None, order[0], start))
+            joints.append(fixed(f"hold_{part}", 0, part))
         waiting = [start]
         reached.add(start)
         for here in waiting:
@@ -186,15 +175,7 @@ def _hung(
                 used.add(number)
                 reached.add(there)
                 waiting.append(there)
-                joints.append((link, here, there))
+                axis = -link.axis if link.child == here else link.axis
+                hung = replace(link, parent=parts[here], child=parts[there], axis=axis)
+                joints.append(hung)
     return joints
-
-
-def _directed(
-    link: AnnotatedJoint | None, number: dict[int, int], parent: int, child: int
-) -> AnnotatedJoint:
-    """Return the joint between parts; seen from ``body1``, ``body0`` moves the other way round."""
-    if link is None:
-        return fixed(f"hold_{number[child]}", number[parent], number[child])
-    axis = -link.axis if link.child == parent else link.axis
-    return replace(link, parent=number[parent], child=number[child], axis=axis)

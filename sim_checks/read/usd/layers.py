@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -22,29 +21,35 @@ def is_usd(path: Path) -> bool:
     return path.suffix.lower() in SUFFIXES
 
 
-def layer_files(main: Path, folder: Path) -> Iterator[Path]:
-    """Yield the file of each layer that an asset is composed of, before it is opened.
+def require_inside(path: Path, folder: Path, most_bytes: int = MOST_BYTES) -> tuple[Path, ...]:
+    """Refuse an asset that leads out of a folder by composition arcs, or is too large.
 
     It is followed through sublayers, references and payloads. Opening a layer opens no other; only
     composing does, and that comes later. Textures and materials named in attributes are never
     opened. Everything lies in or below the folder, symbolic links followed.
 
+    Returns:
+        The files that it is composed of, in order of their names; at most so many bytes together.
+
     Raises:
         DescriptionError: ``outside_folder``, ``missing_file``, ``unreadable``, ``unknown_format``
             (other files; value clips and computed references, whose files cannot be known
-            beforehand), ``too_large`` once it would be composed.
+            beforehand), ``too_large``, also once it would be composed.
     """
     from pxr import Sdf
 
     root = folder.resolve()
-    waiting = [str(main.resolve())]
+    waiting = [str(path.resolve())]
     layers: dict[str, Any] = {}
     named: dict[tuple[str, str], str] = {}
+    files: dict[Path, int] = {}
     while waiting:
         identifier = waiting.pop()
         if identifier in layers:
             continue
-        yield _own_file(identifier, root)
+        file = _own_file(identifier, root)
+        files[file] = file.stat().st_size
+        _refuse_large(path.name, len(layers) + 1, sum(files.values()), most_bytes)
         with refusing(Path(identifier).name, root):
             layer = Sdf.Layer.FindOrOpen(identifier)
             if layer is None:
@@ -54,29 +59,17 @@ def layer_files(main: Path, folder: Path) -> Iterator[Path]:
             for reference in filter(None, layer.GetCompositionAssetDependencies()):
                 named[identifier, reference] = _identifier(reference, layer)
                 waiting.append(named[identifier, reference])
-    with refusing(main.name, root):
-        refuse_multiplied(main.name, str(main.resolve()), layers, named)
-
-
-def require_inside(path: Path, folder: Path, most_bytes: int = MOST_BYTES) -> tuple[Path, ...]:
-    """Refuse an asset that leads out of a folder by composition arcs, or is too large.
-
-    Returns:
-        The files that it is composed of, in order of their names; at most so many bytes together.
-
-    Raises:
-        DescriptionError: ``too_large``, and those of :func:`layer_files`.
-    """
-    files: dict[Path, int] = {}
-    for number, file in enumerate(layer_files(path, folder), start=1):
-        files[file] = file.stat().st_size
-        total = sum(files.values())
-        if number > MOST_LAYERS or total > most_bytes:
-            limit = f"the limit is {MOST_LAYERS:,} and {most_bytes:,}"
-            message = f"{path.name}: {number:,} layers of {total:,} bytes together, {limit}; "
-            message += "simplify it or raise the limit"
-            raise DescriptionError("too_large", message)
+    with refusing(path.name, root):
+        refuse_multiplied(path.name, str(path.resolve()), layers, named)
     return tuple(sorted(files))
+
+
+def _refuse_large(name: str, number: int, total: int, most_bytes: int) -> None:
+    if number > MOST_LAYERS or total > most_bytes:
+        limit = f"the limit is {MOST_LAYERS:,} and {most_bytes:,}"
+        message = f"{name}: {number:,} layers of {total:,} bytes together, {limit}; "
+        message += "simplify it or raise the limit"
+        raise DescriptionError("too_large", message)
 
 
 def _identifier(reference: str, layer: Any) -> str:

@@ -121,7 +121,7 @@ def test_a_drawer_moves_only_beyond_the_friction_its_manifest_states(registry, s
     env = make(registry, asset="cabinet", joint="slide", robot_uids="none")
     env.reset(seed=0)
     task = env.unwrapped
-    friction = task.asset_record.movable["slide"].friction
+    friction = task.asset_record.manifest.movable["slide"].friction
     for _ in range(10):
         task.asset.set_qf(np.array([[0.0, share * friction]], dtype=np.float32))
         env.step(None)
@@ -133,7 +133,7 @@ def test_a_pushed_drawer_slows_down_as_its_damping_says(registry):
     env = make(registry, asset="cabinet", joint="slide", robot_uids="none")
     env.reset(seed=0)
     task = env.unwrapped
-    data = task.asset_record.movable["slide"]
+    data = task.asset_record.manifest.movable["slide"]
     for joint in task.asset.active_joints:
         joint.set_drive_properties(0.0, 0.0)
     task.asset.set_qvel(np.array([[0.0, 0.2]], dtype=np.float32))
@@ -199,7 +199,7 @@ def test_a_mobile_robot_stands_on_the_floor_before_the_object(registry):
 def test_friction_is_drawn_within_its_range_and_again_for_every_seed(registry):
     env = make(registry, asset="cabinet", joint="slide", robot_uids="none", friction_range=(0.5, 2))
     task = env.unwrapped
-    stated = task.asset_record.movable["slide"].friction
+    stated = task.asset_record.manifest.movable["slide"].friction
     drawn = []
     for seed in (0, 1, 0):
         env.reset(seed=seed)

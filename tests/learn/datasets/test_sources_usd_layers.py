@@ -8,14 +8,14 @@ pytest.importorskip("pxr")
 from usda import CABINET, stage, write
 
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.intake.importers.usd import require_own_layers
+from asset_factory.factory.intake.importers.usd import read_annotated
 
 ROOM = 10_000_000
 
 
 def refusal(main):
     with pytest.raises(InputRejected) as caught:
-        require_own_layers(main, main.parent, ROOM)
+        read_annotated(main, main.parent, ROOM, ROOM)
     return caught.value.code
 
 
@@ -91,6 +91,6 @@ def test_own_layers_and_looks_elsewhere_are_fine(tmp_path):
             "asset map = @../../outside.png@\n}\n"
         ),
     )
-    require_own_layers(main, main.parent, ROOM)
+    read_annotated(main, main.parent, ROOM, ROOM)
     with pytest.raises(InputRejected, match="limit"):
-        require_own_layers(main, folder, 1000)
+        read_annotated(main, folder, 1000, ROOM)

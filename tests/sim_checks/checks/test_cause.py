@@ -9,7 +9,7 @@ from box_world import body, box_shape, cabinet, described, joint, with_joint, wi
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.checks.cause import Cause, CauseEvidence, Way, likely_cause
+from asset_factory.sim_checks.checks.cause import Cause, Way, shown_cause
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
 
@@ -151,42 +151,43 @@ def test_a_sound_cabinet_needs_no_explanation():
 
 
 WAY = Way(clear=0.2, excess=0.03, otherwise=0.03, at_rest=0.0)
-DEEP = CauseEvidence(depth=0.03, allowed=0.001, visual=-0.03, way=WAY)
 
 
-def cause(evidence):
-    return likely_cause(evidence, CONFIG.rest_m, CONFIG.excess_m)
+def cause(way=WAY, depth=0.03, allowed=0.001, visual=-0.03, leaked=False, at_rest=False):
+    """What the surfaces say; where they say nothing, what the way does."""
+    told = shown_cause(depth, allowed, visual, leaked=leaked, at_rest=at_rest)
+    return told if told or way is None else way.cause(visual is not None, CONFIG)
 
 
 @pytest.mark.parametrize(
-    ("evidence", "expected"),
+    ("numbers", "expected"),
     [
-        (DEEP, None),
-        (replace(DEEP, visual=0.001), Cause.HULL_INFLATION),
-        (replace(DEEP, visual=-0.0009), Cause.HULL_INFLATION),
-        (replace(DEEP, visual=-0.002), None),
-        (replace(DEEP, leaked=True), Cause.LEAKED_SEGMENT),
-        (replace(DEEP, way=None, at_rest=True), Cause.PARTS_OVERLAP),
-        (replace(DEEP, way=None, at_rest=True, visual=None), None),
-        (replace(DEEP, way=None), None),
-        (replace(DEEP, way=replace(WAY, clear=0.6)), Cause.LIMIT_TOO_LONG),
-        (replace(DEEP, way=replace(WAY, clear=0.6, otherwise=0.0)), Cause.LIMIT_TOO_LONG),
-        (replace(DEEP, way=replace(WAY, otherwise=0.0005)), Cause.WRONG_AXIS),
-        (replace(DEEP, way=replace(WAY, otherwise=0.007)), Cause.WRONG_AXIS),
-        (replace(DEEP, way=replace(WAY, otherwise=0.009)), None),
-        (replace(DEEP, way=replace(WAY, clear=0.01)), Cause.WRONG_AXIS),
-        (replace(DEEP, way=replace(WAY, clear=0.01, at_rest=0.01)), Cause.PARTS_OVERLAP),
-        (replace(DEEP, visual=None, way=replace(WAY, otherwise=0.0)), None),
+        ({}, None),
+        ({"visual": 0.001}, Cause.HULL_INFLATION),
+        ({"visual": -0.0009}, Cause.HULL_INFLATION),
+        ({"visual": -0.002}, None),
+        ({"leaked": True}, Cause.LEAKED_SEGMENT),
+        ({"way": None, "at_rest": True}, Cause.PARTS_OVERLAP),
+        ({"way": None, "at_rest": True, "visual": None}, None),
+        ({"way": None}, None),
+        ({"way": replace(WAY, clear=0.6)}, Cause.LIMIT_TOO_LONG),
+        ({"way": replace(WAY, clear=0.6, otherwise=0.0)}, Cause.LIMIT_TOO_LONG),
+        ({"way": replace(WAY, otherwise=0.0005)}, Cause.WRONG_AXIS),
+        ({"way": replace(WAY, otherwise=0.007)}, Cause.WRONG_AXIS),
+        ({"way": replace(WAY, otherwise=0.009)}, None),
+        ({"way": replace(WAY, clear=0.01)}, Cause.WRONG_AXIS),
+        ({"way": replace(WAY, clear=0.01, at_rest=0.01)}, Cause.PARTS_OVERLAP),
+        ({"visual": None, "way": replace(WAY, otherwise=0.0)}, None),
     ],
 )
-def test_what_the_numbers_say(evidence, expected):
-    assert cause(evidence) is expected
+def test_what_the_numbers_say(numbers, expected):
+    assert cause(**numbers) is expected
 
 
 @given(depth=st.floats(0.0021, 1.0), share=st.floats(-1.0, 1.0), leaked=st.booleans())
 def test_at_rest_what_is_seen_always_decides(depth, share, leaked):
     """The deeper the visible surfaces lie, the less the hulls are to blame."""
-    seen = CauseEvidence(depth, CONFIG.rest_m, share * depth, leaked=leaked, at_rest=True)
-    deeper = replace(seen, visual=min(0.0, share * depth) - CONFIG.rest_m - 1e-6)
-    assert cause(seen) is not None
-    assert cause(deeper) is (Cause.LEAKED_SEGMENT if leaked else Cause.PARTS_OVERLAP)
+    met = (None, depth, CONFIG.rest_m)
+    assert cause(*met, share * depth, leaked, at_rest=True) is not None
+    told = cause(*met, min(0.0, share * depth) - CONFIG.rest_m - 1e-6, leaked, at_rest=True)
+    assert told is (Cause.LEAKED_SEGMENT if leaked else Cause.PARTS_OVERLAP)

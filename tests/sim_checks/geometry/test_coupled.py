@@ -9,8 +9,8 @@ from box_world import body, box_hull, described, joint
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.checks.joint_sweep import JointCourse, Rest
-from asset_factory.sim_checks.checks.pairs import Pairs
+from asset_factory.sim_checks.checks.joint_sweep import JointCourse
+from asset_factory.sim_checks.checks.pairs import RestingSolids
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.description import Mimic
@@ -221,17 +221,17 @@ def test_no_pose_on_the_way_is_worse_than_what_is_found(seed):
     description = tangle(seed)
     tree = build_tree(description)
     solids = Solids(description, tree)
-    lower = {"j1": -1.0}
-    solids.place(lower)
-    rest = Rest(lower, {"j1": 1.5}, tuple(solids.standings(CONFIG.clearance_m)), solids.diagonal())
-    pairs = Pairs(solids, frozenset())
-    course = JointCourse(tree.free[0], pairs, rest, CONFIG, lower).run()
+    ends = ({"j1": -1.0}, {"j1": 1.5})
+    solids.place(ends[0])
+    near = tuple(solids.standings(CONFIG.clearance_m))
+    rest = RestingSolids(solids, frozenset(), CONFIG, *ends, near, solids.diagonal())
+    course = JointCourse(tree.free[0], rest, ends[0]).run()
     found = {pair.parts: pair for pair in course.pairs}
     known = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in rest.standings}
     for at in np.linspace(-1.0, 1.5, 100):
         solids.place({"j1": at})
         for pair in solids.standings(0.0):
-            bound = found[pairs.parts(pair.first, pair.second)].bound
+            bound = found[rest.parts(pair.first, pair.second)].bound
             at_rest = known.get((pair.first, pair.second), 0.0)
             assert pair.overlap.depth - at_rest <= bound + 1e-9
     for item in found.values():
