@@ -8,7 +8,7 @@ from functools import partial
 
 from ..kit.assembly import Assembly, named
 from ..kit.boards import cornice, slab, stand, worktop
-from ..kit.casework import casework, furniture
+from ..kit.casework import Casework, furniture
 from ..kit.layouts import (
     Cell,
     Node,
@@ -84,7 +84,7 @@ def stored(plan: CaseworkPlan, a: Assembly) -> None:
     node = plan.node(a, width, height)
     cells, _ = divided(node, (0.0, width), span(base, height), style.board, False)
     style = _spaced(a, style, cells)
-    case = casework(a, style, (0.0, width), (0.0, depth), span(base, height), node)
+    case = Casework(a, style, (0.0, width), (0.0, depth), span(base, height)).build(node)
     if not a.parts:
         case.build("double")
     stand(a, support, case.x, case.y, base, style.body if a.happens(0.7) else BLACK)
@@ -325,7 +325,7 @@ def hutch(a: Assembly) -> None:
     below = row(*((1.0, filling(a, each, low, MIX)) for _ in range(columns)))
     if a.happens(0.5):
         below = column((0.75, below), (0.25, grid(a, columns, 1)))
-    case = casework(a, style, x, y, span(base, low), below, "low_")
+    case = Casework(a, style, x, y, span(base, low), "low_").build(below)
     stand(a, a.weighted(LEGS), x, y, base, style.body)
     body.add(slab(x, (min(0.0, case.face), depth), base + low, 0.025, 0.01), look=any_color(a))
     start = base + low + 0.025
@@ -342,7 +342,7 @@ def hutch(a: Assembly) -> None:
     # The lower top stands out before the upper fronts: they keep a gap to it.
     body.add(box(within(x, 0.01), (depth - 0.2, depth), span(start, 0.003)), look=style.body)
     deep = (depth - a.draw(0.25, 0.33), depth)
-    casework(a, upper, x, deep, span(start + 0.003, high), above, "high_")
+    Casework(a, upper, x, deep, span(start + 0.003, high), "high_").build(above)
     if a.happens(0.5):
         body.add(*cornice(x, (depth - 0.36, depth), start + 0.003 + high), look=style.body)
 
