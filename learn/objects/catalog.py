@@ -3,39 +3,19 @@
 from __future__ import annotations
 
 import zlib
+from importlib import import_module
 
 import numpy as np
 
 from asset_factory.factory.articulation import Articulation
 
-from .kinds import (
-    bins,
-    boxes,
-    carts,
-    coffee,
-    cooking,
-    cooling,
-    fans,
-    fittings,
-    gadgets,
-    hand_tools,
-    kitchens,
-    lamps,
-    laundry,
-    lidded,
-    openings,
-    screens,
-    seats,
-    storage,
-    tables,
-    vessels,
-)
 from .kit.assembly import Assembly, Maker
 
-#: One entry per file of kinds; a file's ``MAKERS`` names what it makes.
+#: Files of kinds, in their order in the catalog; a file's ``MAKERS`` names what it makes.
 _FILES = (
-    storage, cooling, cooking, laundry, openings, tables, lidded, kitchens, bins, boxes, carts,
-    coffee, fans, fittings, gadgets, hand_tools, lamps, screens, seats, vessels,
+    "storage", "cooling", "cooking", "laundry", "openings", "tables", "lidded", "kitchens", "bins",
+    "boxes", "carts", "coffee", "fans", "fittings", "gadgets", "hand_tools", "lamps", "screens",
+    "seats", "vessels",
 )  # fmt: skip
 
 #: Kinds for demonstrations: of convex forms only, each with corners of its own.
@@ -45,7 +25,9 @@ DEMO_CATEGORIES: tuple[str, ...] = (
 #: How far short of its place every form of the demo ends [m].
 HAIRLINE_M = 5e-5
 
-_MAKERS: dict[str, Maker] = {name: maker for file in _FILES for name, maker in file.MAKERS.items()}
+_MAKERS: dict[str, Maker] = {}
+for _file in _FILES:
+    _MAKERS |= import_module(f"{__package__}.kinds.{_file}").MAKERS
 
 CATEGORIES: tuple[str, ...] = tuple(dict.fromkeys((*DEMO_CATEGORIES, *_MAKERS)))
 
