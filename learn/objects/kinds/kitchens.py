@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..kit.assembly import Assembly, facing_front, named
+from ..kit.assembly import Assembly, facing_front
 from ..kit.boards import rack, slab, worktop
 from ..kit.casework import Casework
 from ..kit.controls import knob_row
@@ -125,6 +125,3 @@ def oven_tower(a: Assembly) -> None:
     case = Casework(a, _oven_style(style), x, y, middle, "oven_").build(oven)
     Casework(a, style, x, y, (middle[1], base + height), "high_").build(above)
     _dials(a, case, 0.18 * size(middle))
-
-
-MAKERS = named(kitchen, oven_tower)

@@ -8,7 +8,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, FRONT, LEFT, UP, Assembly, PartDraft, named
+from ..kit.assembly import BACK, FRONT, LEFT, UP, Assembly, PartDraft
 from ..kit.boards import frame
 from ..kit.casework import Casework, Leaf
 from ..kit.hinges import stop
@@ -229,6 +229,3 @@ def _pivoted(a: Assembly, style: Style, cell: Cell) -> None:
     at = (mid(x), style.front / 2, mid(z))
     sash = a.hinge(cell.name, UP if upright else LEFT, at, a.degrees(45, 90), look=style.face)
     panel(sash, style.panel, x, (0.0, style.front), z, style.rail)
-
-
-MAKERS = named(door, sliding_door, window)

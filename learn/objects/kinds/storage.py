@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-from ..kit.assembly import Assembly, named
+from ..kit.assembly import Assembly
 from ..kit.boards import cornice, slab, stand, worktop
 from ..kit.casework import Casework, furniture
 from ..kit.layouts import (
@@ -375,6 +375,4 @@ def storage_bed(a: Assembly) -> None:
     a.root.add(mattress, box(pillow, within(case.y, 0.1), span(top[1], 0.09)), look=WHITE)
 
 
-MAKERS = named(cabinet, hutch, secretaire, storage_bed) | {
-    name: partial(stored, plan) for name, plan in PLANS.items()
-}
+PLANNED = {name: partial(stored, plan) for name, plan in PLANS.items()}

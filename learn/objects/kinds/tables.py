@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, Assembly, named
+from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, Assembly
 from ..kit.boards import stand
 from ..kit.casework import Casework, furniture
 from ..kit.layouts import column, drawers, grid, row
@@ -109,6 +109,3 @@ def vanity(a: Assembly) -> None:
     at = (width / 2, mid(y), mid(z))
     mirror = a.hinge("mirror", a.pick(LEFT, RIGHT), at, a.degrees(15, 30), look=any_color(a))
     mirror.add(box(x, y, z))
-
-
-MAKERS = named(table, desk, folding_table, vanity)
