@@ -95,11 +95,11 @@ def _converted(source: DataSource, cache: Path) -> Files:
 
     settings = overlay(SourceSettings(), source.options, f"{source.kind}: options")
     split = Path(source.split) if source.split else None
-    prepared = prepare(source.kind, Path(source.path), cache, split=split, settings=settings)
-    if not prepared.sampled_objects:
-        said = "\n".join(prepared.report.lines())
+    report = prepare(source.kind, Path(source.path), cache, split=split, settings=settings)
+    if not report.read:
+        said = "\n".join(report.lines())
         raise ConfigError(f"{source.path}: no object in it can be used; want at least one\n{said}")
-    return Files(tuple(sorted(prepared.sampled_objects)), source.weight, prepared.report)
+    return Files(tuple(sorted(report.read.values())), source.weight, report)
 
 
 def _sampled_files(source: DataSource) -> Files:

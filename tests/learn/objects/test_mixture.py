@@ -13,8 +13,7 @@ from asset_factory.learn.objects.mixture import in_character
 
 @pytest.mark.parametrize("seed", range(12))
 def test_any_seed_gives_a_closed_object_with_a_joint_and_the_same_one_again(seed):
-    one = sample_object(np.random.default_rng(seed))[1]
-    again = sample_object(np.random.default_rng(seed))[1]
+    one, again = (sample_object(np.random.default_rng(seed))[1] for _ in range(2))
     assert one.movable_joints
     assert len(one.movable_joints) < 16
     assert all(joint.lower <= 0.0 for joint in one.joints)
