@@ -22,7 +22,7 @@ from asset_factory.factory.models.detector.canvas import (
     on_canvas,
 )
 
-from .labelled import LabelledPart, labelled_objects
+from .labelled import LabelledObject, LabelledPart, labelled_objects
 from .sides import Instances, LabelledSides
 
 #: Of the meshes of a folder every so many is kept for measuring.
@@ -31,12 +31,10 @@ HELD_OUT = 5
 
 @dataclass(frozen=True, eq=False)
 class RealObject:
-    """One labelled mesh, z up: its kind, the number of its front, its sides."""
+    """One labelled mesh, z up, and its sides."""
 
     name: str
-    kind: str
-    opens: bool
-    front: int
+    label: LabelledObject
     mesh: Mesh
     sides: LabelledSides
 
@@ -61,8 +59,7 @@ def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObj
         mesh = load(folder / file, IntakeConfig()).mesh
         part = np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8)
         sides = LabelledSides(look_at(mesh), part, _on_canvas(label.parts, mesh))
-        front = SIDES.index(label.front)
-        yield RealObject(name, label.kind, label.opens, front, mesh, sides)
+        yield RealObject(name, label, mesh, sides)
 
 
 def _on_canvas(parts: Sequence[LabelledPart], mesh: Mesh) -> Instances:
