@@ -17,7 +17,6 @@ from ..kit.layouts import (
     drawers,
     filling,
     grid,
-    leaves,
     random_node,
     row,
 )
@@ -241,7 +240,7 @@ def _shelves(a: Assembly, w: float, h: float) -> Node:
 
 def _any(a: Assembly, w: float, h: float) -> Node:
     node = random_node(a, w, h, USUAL)
-    while leaves(node) > MOST_CELLS:
+    while len(divided(node, (0.0, w), (0.0, h), 0.0, False)[0]) > MOST_CELLS:
         node = random_node(a, w, h, USUAL)
     return "double" if node == "open" else node
 
