@@ -44,11 +44,7 @@ class ScoredCloud:
 
     def at(self, share: float) -> FloatArray:
         """Return the points with joints at a share from lower to upper, shape [point_count, 3]."""
-        return self.moved(self.poses(share))
-
-    def moved(self, poses: FloatArray) -> FloatArray:
-        """Return the points moved with their parts, shape [point_count, 3]."""
-        own = poses[self.labels]
+        own = self.poses(share)[self.labels]
         return np.asarray(np.einsum("nij,nj->ni", own[:, :3, :3], self.points) + own[:, :3, 3])
 
     def parts(self, points: FloatArray) -> list[FloatArray]:
