@@ -64,7 +64,7 @@ def write_inputs(source: Path, folder: Path) -> dict[str, Any]:
     folder.mkdir(parents=True, exist_ok=True)
     taken: dict[str, Any] = {}
     for seed, each in enumerate(real_objects(source, held_out=True)):
-        if each.opens and each.name not in labels:
+        if each.label.opens and each.name not in labels:
             continue
         taken |= {key: labels.get(key, []) for key in (each.name, f"{each.name}:optional")}
         if not (written := folder / f"{each.name}.glb").exists():

@@ -23,7 +23,7 @@ from asset_factory.factory.models.particulate import sampling
 from asset_factory.factory.models.particulate.components import component_features
 from asset_factory.factory.models.particulate.sampling import sharp_edges
 from asset_factory.factory.models.particulate.surface import Surface
-from asset_factory.learn.objects import CATEGORIES, MixtureSettings, training_object
+from asset_factory.learn.objects import CATEGORIES, MixtureSettings, sample_object
 from asset_factory.learn.samples.sample import DrawSettings, draw
 from asset_factory.learn.samples.sampled_object import sampled_from
 
@@ -37,7 +37,8 @@ def ours(category: str, seed: int, reuse: int) -> tuple[float, float, float]:
     """Processor seconds to make an object, to pool it, and to draw it ``reuse`` times."""
     rng = np.random.default_rng(seed)
     started = time.process_time()
-    articulation = training_object(seed, MixtureSettings(categories=(category,)))
+    rng = np.random.default_rng(seed)
+    _, articulation = sample_object(rng, MixtureSettings(categories=(category,)))
     made = time.process_time()
     sampled = sampled_from(
         articulation, name="object", category=category, source="", points=POOL, rng=rng
@@ -55,7 +56,8 @@ def anew(category: str, seed: int) -> float:
     """
     rng = np.random.default_rng(seed)
     started = time.process_time()
-    articulation = training_object(seed, MixtureSettings(categories=(category,)))
+    rng = np.random.default_rng(seed)
+    _, articulation = sample_object(rng, MixtureSettings(categories=(category,)))
     values = {
         joint.name: float(rng.uniform(joint.lower, joint.upper))
         for joint in articulation.movable_joints

@@ -29,7 +29,7 @@ def main(arguments: list[str] | None = None) -> int:
             say("\n".join(map(str, write_split(asked.write_split, names, asked.held_out))))
             return 0
         started = time.monotonic()
-        prepared = prepare(
+        report = prepare(
             asked.kind,
             asked.path,
             asked.cache,
@@ -41,9 +41,9 @@ def main(arguments: list[str] | None = None) -> int:
     except ConfigError as error:
         complain(error)
         return 2
-    say("\n".join(prepared.report.lines()))
+    say("\n".join(report.lines()))
     known = source(asked.kind).front if asked.front == "auto" else asked.front
-    say(f"  {front_advice(prepared.sampled_objects, known)}")
+    say(f"  {front_advice(report.read.values(), known)}")
     say(f"  {time.monotonic() - started:.1f} s; sampled objects in {asked.cache}")
     return 0
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 
 from asset_factory.factory.errors import ConfigError
@@ -31,14 +31,6 @@ LARGE_CHILD = 1536 * 1024 * 1024
 COMMON_MODULES = ("scipy.spatial", "scipy.sparse.csgraph", "asset_factory.learn.datasets.making")
 
 
-@dataclass(frozen=True)
-class Prepared:
-    """A dataset in the cache: sampled objects' files, in the order of ``report.read``."""
-
-    sampled_objects: tuple[Path, ...]
-    report: SourceReport
-
-
 def prepare(
     kind: str,
     path: Path,
@@ -48,7 +40,7 @@ def prepare(
     settings: SourceSettings | None = None,
     workers: int | None = None,
     on_progress: Callable[[int, int], None] | None = None,
-) -> Prepared:
+) -> SourceReport:
     """Bring a dataset into the cache; samples in it are not made again.
 
     Every object is read in a process that may crash, hang or run out of memory; that costs the
@@ -89,9 +81,9 @@ def prepare(
     said = folder / f"{safe_name(Path(path.resolve().name + '.json'))}.json"
     gone = tuple(sorted(set(names_read(said)) - {item.name for item in found}))
     made = len(set(read.values()) - there_before)
-    report = SourceReport(kind, tuple(read), skipped, made, gone)
+    report = SourceReport(kind, read, skipped, made, gone)
     report.write(said)
-    return Prepared(tuple(read.values()), report)
+    return report
 
 
 def find_all(kind: str, path: Path) -> tuple[SourceItem, ...]:

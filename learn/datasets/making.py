@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from asset_factory.factory.articulation import Articulation, rotation_about
+from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.errors import AssetFactoryError, InputRejected
 from asset_factory.factory.geometry.posing import UP, turned
 
@@ -51,7 +51,14 @@ def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: in
     if isinstance(read, SampledObject):
         sampled = replace(read if not quarters else turned_sampled(read, yaw), name=item.name)
     else:
-        sampled = _drawn(read if not quarters else turned(read, yaw), kind, item, settings, seed)
+        articulation = read if not quarters else turned(read, yaw)
+        if settings.skin:
+            from ..surfaces import skin_like
+
+            articulation = skin_like(articulation, seed % 2**32)
+        about = {"name": item.name, "category": item.category, "source": kind}
+        rng = np.random.default_rng([settings.seed, seed])
+        sampled = sampled_from(articulation, **about, points=settings.points, rng=rng)
     require_parts(item.name, len(sampled.parents), settings.max_parts)
     return sampled
 
@@ -61,15 +68,3 @@ def turned_sampled(sampled: SampledObject, yaw: float) -> SampledObject:
     turn = rotation_about(UP, yaw).T
     vectors = ("points", "normals", "axis", "origin", "slide_direction")
     return replace(sampled, **{name: getattr(sampled, name) @ turn for name in vectors})
-
-
-def _drawn(
-    articulation: Articulation, kind: str, item: SourceItem, settings: SourceSettings, seed: int
-) -> SampledObject:
-    if settings.skin:
-        from ..surfaces import skin_like
-
-        articulation = skin_like(articulation, seed % 2**32)
-    about = {"name": item.name, "category": item.category, "source": kind}
-    rng = np.random.default_rng([settings.seed, seed])
-    return sampled_from(articulation, **about, points=settings.points, rng=rng)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -40,7 +41,4 @@ def _category(item: SourceItem) -> str:
 
 def words(name: str) -> str:
     """Split ``StorageFurniture`` into ``Storage Furniture``."""
-    return "".join(
-        f" {c}" if c.isupper() and i and not name[i - 1].isupper() else c
-        for i, c in enumerate(name)
-    )
+    return re.sub("(?<=[^A-Z])(?=[A-Z])", " ", name)

@@ -34,14 +34,14 @@ class SourceReport:
 
     Attributes:
         kind: of dataset.
-        read: names of the objects that are sampled objects now.
+        read: by name of the objects that are sampled objects now, their files in the cache.
         skipped: why the others are not, by reason code: names, each with a sentence.
         made: how many of ``read`` were not in the cache before.
         gone: names that a former pass read and that are not among the dataset's objects any more.
     """
 
     kind: str
-    read: tuple[str, ...]
+    read: dict[str, Path]
     skipped: dict[str, dict[str, str]]
     made: int
     gone: tuple[str, ...] = ()

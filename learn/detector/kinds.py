@@ -1,4 +1,4 @@
-"""What the kinds of generated objects and of inventories are to the detector."""
+"""Kinds of generated objects and of descriptions by what they are to the detector."""
 
 from __future__ import annotations
 
@@ -24,7 +24,6 @@ _ALIKE: dict[str, str] = {
         "bed": "storage_bed still_bed",
         "chair": "office_chair folding_chair still_chair",
         "sofa": "still_sofa",
-        "lockers": "locker",
         "laptop": "notebook",
         "screen": "monitor still_screen",
         "lamp": "desk_lamp standing_lamp",
@@ -32,13 +31,13 @@ _ALIKE: dict[str, str] = {
         "box": "flap_box",
         "crate": "still_crate",
         "barrel": "still_barrel",
-        "still": "still_heap other_rigid vase",
+        "still": "still_heap",
     }.items()
     for name in names.split()
 }
 
 
 def kind_number(name: str) -> int:
-    """Return the number of a kind by a generated object's or an inventory's word for it."""
+    """Return the number of a kind by a generated object's or a description's word for it."""
     kind = _ALIKE.get(name, name)
     return KINDS.index(kind if kind in KINDS else "gadget")

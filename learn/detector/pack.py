@@ -58,7 +58,9 @@ def write_pack(
         found_in = chain.from_iterable(map(real_objects, real))
         shown = pool.imap(forming, enumerate(found_in))
         for number, (found, forms) in enumerate(shown):
-            truth = WholeTruth(kind_number(found.kind), found.opens, found.front, real=True)
+            label = found.label
+            front = SIDES.index(label.front)
+            truth = WholeTruth(kind_number(label.kind), label.opens, front, real=True)
             note = asdict(truth) | {"held_out": is_held_out(found.name)}
             _add(pack, f"real_{number:04d}_{found.name}", note, found.sides)
             for form, sides in enumerate(forms):
@@ -85,7 +87,7 @@ def _with_forms(
     It is made so once if it is held out, or does not open.
     """
     number, found = numbered
-    forms = count if found.opens and not is_held_out(found.name) else min(count, 1)
+    forms = count if found.label.opens and not is_held_out(found.name) else min(count, 1)
     skins = [coloured_skin(found.mesh, 1000 * number + form) for form in range(forms)]
     return found, [replace(found.sides, canvases=look_at(skin)) for skin in skins]
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from multiprocessing import get_context
-from multiprocessing.shared_memory import SharedMemory
 from queue import Empty
 from typing import Any
 
@@ -24,10 +22,6 @@ _KEPT = (
     ((*_SHAPE, 3), torch.uint8), (_SHAPE, torch.int16), (_SHAPE, torch.uint8),
     ((MOST, 10), torch.float32), ((4,), torch.long),
 )  # fmt: skip
-_COLOR = int(np.prod(_SHAPE)) * 3
-_DEPTH = int(np.prod(_SHAPE)) * 2
-_PART = int(np.prod(_SHAPE))
-_BYTES = _COLOR + _DEPTH + _PART
 #: Objects that wait between the workers and the pool.
 SLOTS = 96
 
@@ -77,8 +71,9 @@ class Makers:
     """
 
     def __init__(self, pool: Pool, workers: int, seed: int, one_piece: bool = False) -> None:
-        context = get_context("spawn")
-        self.memory = SharedMemory(create=True, size=SLOTS * _BYTES)
+        context = torch.multiprocessing.get_context("spawn")
+        pictures = (torch.zeros((SLOTS, *shape), dtype=kind) for shape, kind in _KEPT[:3])
+        self.slots = [each.share_memory_() for each in pictures]
         self.free = context.Queue()
         self.ready = context.Queue()
         self.pool = pool
@@ -86,7 +81,7 @@ class Makers:
             self.free.put(slot)
         self.workers = []
         for number in range(workers):
-            given = (self.memory.name, self.free, self.ready, seed, number, one_piece)
+            given = (self.slots, self.free, self.ready, seed, number, one_piece)
             self.workers.append(context.Process(target=make_into, args=given, daemon=True))
             self.workers[-1].start()
 
@@ -97,40 +92,31 @@ class Makers:
                 slot, table, truth = self.ready.get_nowait()
             except Empty:
                 return
-            self.pool.add(*_views(self.memory, slot), table, truth)
+            color, depth, part = (each[slot] for each in self.slots)
+            self.pool.add(color, depth, part, table, truth)
             self.free.put(slot)
 
     def stop(self) -> None:
         """End the workers."""
         for worker in self.workers:
             worker.kill()
-        if self.workers:
-            self.memory.unlink()
         self.workers = []
 
 
-def _views(memory: SharedMemory, slot: int) -> tuple[Any, Any, Any]:
-    at = slot * _BYTES
-    color = np.ndarray((*_SHAPE, 3), np.uint8, memory.buf, at)
-    depth = np.ndarray(_SHAPE, np.int16, memory.buf, at + _COLOR)
-    return color, depth, np.ndarray(_SHAPE, np.uint8, memory.buf, at + _COLOR + _DEPTH)
-
-
-def make_into(name: str, free: Any, ready: Any, seed: int, number: int, one_piece: bool) -> None:
+def make_into(slots: Any, free: Any, ready: Any, seed: int, number: int, one_piece: bool) -> None:
     """Make objects for ever; runs in a worker process."""
     from .drawn import drawn_one_piece, drawn_sides
     from .kinds import kind_number
 
     torch.set_num_threads(1)
-    memory = SharedMemory(name=name)
     rng = np.random.default_rng([seed, number, int(one_piece)])
     drawn = drawn_one_piece if one_piece else drawn_sides
     while True:
         kind, sides = drawn(rng)
         slot = free.get()
         shown = (sides.canvases.color, sides.canvases.depth, sides.part)
-        for place, given in zip(_views(memory, slot), shown, strict=True):
-            place[:] = given
+        for pictures, given in zip(slots, shown, strict=True):
+            pictures.numpy()[slot] = given
         table = sides.instances.table()
         moving = table[(table[:, 9] == 0.0) & (table[:, 6] < OPENING)]
         ready.put((slot, table, WholeTruth(kind_number(kind), bool(len(moving)), 0, False)))

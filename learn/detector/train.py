@@ -24,6 +24,7 @@ from asset_factory.factory.models.detector.canvas import CANVAS, KINDS
 from asset_factory.factory.models.detector.network import Detector
 from asset_factory.factory.runtime.terminal import say
 
+from ..train.averaging import follow
 from .evaluate import evaluate
 from .kinds import kind_number
 from .looks import show
@@ -98,7 +99,7 @@ def train(options: Any) -> None:
     if options.start:
         # Weights part of the way are as good, and surer of meshes unlike all that they learned
         # from (Wortsman et al., Robust fine-tuning of zero-shot models, CVPR 2022).
-        _follow(kept, _begun(options).to(device), options.share)
+        follow(kept, _begun(options).to(device), options.share)
     _keep(kept, options.out)
     figures: dict[str, Any] = {"steps": steps, "batch": options.batch, "made": made.made}
     figures |= {"made one piece": one_piece.made}
@@ -151,7 +152,7 @@ def _fitted(
         loss.backward()
         torch.nn.utils.clip_grad_norm_(network.parameters(), 2.0)
         optimizer.step()
-        _follow(kept, network, min(FOLLOW, step / (step + 50.0)))
+        follow(kept, network, min(FOLLOW, step / (step + 50.0)))
         for name, value in terms.items():
             sums[name] = sums.get(name, 0.0) + value.detach()
         for each in makers:
@@ -240,15 +241,6 @@ def _loss(network: Any, source: Pools, count: int) -> tuple[Any, dict[str, Any]]
     front = functional.cross_entropy(answers.front.float(), shown.front, reduction="none")
     terms["front"] = 0.3 * (front * opens).sum() / opens.sum().clamp(min=1.0)
     return loss + terms["kind"] + terms["opens"] + terms["front"], terms
-
-
-def _follow(kept: Any, network: Any, share: float) -> None:
-    """Move the weights that are kept towards those that learn."""
-    mine = [v for v in kept.state_dict().values() if v.dtype.is_floating_point]
-    theirs = [v for v in network.state_dict().values() if v.dtype.is_floating_point]
-    with torch.no_grad():
-        torch._foreach_mul_(mine, share)
-        torch._foreach_add_(mine, theirs, alpha=1.0 - share)
 
 
 def _say(step: int, steps: int, sums: dict[str, Any], passed: float, made: int) -> None:

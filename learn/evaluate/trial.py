@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from asset_factory.factory.articulate.rigid import RigidArticulator
-from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.errors import ConfigError, InputRejected
 from asset_factory.factory.runtime.store import Store
 from asset_factory.sim_checks.processes.isolation import (
@@ -20,7 +18,7 @@ from asset_factory.sim_checks.processes.isolation import (
 
 from ..children import ask_children
 from .cases import Request, make_case
-from .methods import Method
+from .methods import NAIVE, Method
 from .physical import physical
 from .published.cloud import POINTS, cloud_of
 from .published.release import release
@@ -70,22 +68,8 @@ def score_trial(trial: Trial) -> Score:
         InputRejected: the method has no answer.
         ConfigError: the case's file is another one, or the method's checkpoint cannot be used.
     """
-    truth = _truth(trial)
+    truth = make_case(trial.request, None if trial.kept is None else Store(trial.kept))
     answer = trial.method.seeded(trial.repeat).answer(truth.mesh, trial.request.name)
-    return _scored(trial, truth, answer)
-
-
-def score_naively(trial: Trial) -> Score:
-    """Return the score of the answer that nothing moves."""
-    truth = _truth(trial)
-    return _scored(trial, truth, RigidArticulator().articulate(truth.mesh))
-
-
-def _truth(trial: Trial) -> Articulation:
-    return make_case(trial.request, None if trial.kept is None else Store(trial.kept))
-
-
-def _scored(trial: Trial, truth: Articulation, answer: Articulation) -> Score:
     truth = on_mesh(truth, answer.mesh)
     if trial.convention == "physical":
         return physical(truth, answer)
@@ -112,7 +96,8 @@ def run_trials(trials: Iterable[Trial], workers: int, limits: Limits) -> Iterato
             raise outcome.error
         if outcome.failure is Failure.TIMEOUT or outcome.killed:
             return Row(trial, None, _reason(outcome))
-        instead = child.call(score_naively, trial, limits=limits)
+        naively = replace(trial, method=replace(trial.method, name=NAIVE))
+        instead = child.call(score_trial, naively, limits=limits)
         return Row(trial, instead.value, _reason(outcome))
 
     return ask_children(ask, trials, workers, RESIDENT_BYTES)

@@ -2,10 +2,10 @@
 
 from ..surfaces import artist_like, fused_like
 from .catalog import CATEGORIES, make_object
-from .mixture import MixtureSettings, sample_object, training_object
+from .mixture import MixtureSettings, sample_object
 from .sample_files import write_sample
 
 __all__ = [
     "CATEGORIES", "MixtureSettings", "artist_like", "fused_like", "make_object", "sample_object",
-    "training_object", "write_sample",
+    "write_sample",
 ]  # fmt: skip

@@ -3,39 +3,20 @@
 from __future__ import annotations
 
 import zlib
+from importlib import import_module
+from inspect import isfunction, signature
 
 import numpy as np
 
 from asset_factory.factory.articulation import Articulation
 
-from .kinds import (
-    bins,
-    boxes,
-    carts,
-    coffee,
-    cooking,
-    cooling,
-    fans,
-    fittings,
-    gadgets,
-    hand_tools,
-    kitchens,
-    lamps,
-    laundry,
-    lidded,
-    openings,
-    screens,
-    seats,
-    storage,
-    tables,
-    vessels,
-)
 from .kit.assembly import Assembly, Maker
 
-#: One entry per file of kinds; a file's ``MAKERS`` names what it makes.
+#: Files of kinds, in their order in the catalog.
 _FILES = (
-    storage, cooling, cooking, laundry, openings, tables, lidded, kitchens, bins, boxes, carts,
-    coffee, fans, fittings, gadgets, hand_tools, lamps, screens, seats, vessels,
+    "storage", "cooling", "cooking", "laundry", "openings", "tables", "lidded", "kitchens", "bins",
+    "boxes", "carts", "coffee", "fans", "fittings", "gadgets", "hand_tools", "lamps", "screens",
+    "seats", "vessels",
 )  # fmt: skip
 
 #: Kinds for demonstrations: of convex forms only, each with corners of its own.
@@ -45,7 +26,18 @@ DEMO_CATEGORIES: tuple[str, ...] = (
 #: How far short of its place every form of the demo ends [m].
 HAIRLINE_M = 5e-5
 
-_MAKERS: dict[str, Maker] = {name: maker for file in _FILES for name, maker in file.MAKERS.items()}
+
+def _kinds_of(file: str) -> dict[str, Maker]:
+    """Return the kinds that a file describes, by name, in its order."""
+    module = vars(import_module(f"{__package__}.kinds.{file}"))
+    own = [each for each in module.values() if isfunction(each) and each.__globals__ is module]
+    public = [each for each in own if not each.__name__.startswith("_")]
+    alone = {each.__name__: each for each in public if len(signature(each).parameters) == 1}
+    planned: dict[str, Maker] = module.get("PLANNED", {})
+    return alone | planned
+
+
+_MAKERS = {name: maker for file in _FILES for name, maker in _kinds_of(file).items()}
 
 CATEGORIES: tuple[str, ...] = tuple(dict.fromkeys((*DEMO_CATEGORIES, *_MAKERS)))
 

@@ -62,11 +62,6 @@ class MixtureSettings:
         return self.artist, self.generated, self.skin
 
 
-def training_object(seed: int, settings: MixtureSettings | None = None) -> Articulation:
-    """Return a labelled object, closed; same seed and settings, same bytes."""
-    return sample_object(np.random.default_rng(seed), settings)[1]
-
-
 def sample_object(
     rng: np.random.Generator, settings: MixtureSettings | None = None
 ) -> tuple[str, Articulation]:

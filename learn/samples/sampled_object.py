@@ -23,6 +23,8 @@ from asset_factory.factory.models.particulate.sampling import draw, sharp_edges
 from asset_factory.factory.models.particulate.surface import BoolArray, Surface
 from asset_factory.factory.runtime.store import write_whole
 
+from ..joints import way_down
+
 MOST_PARTS = 16
 """Part queries of the network."""
 COVERED = 0.25
@@ -180,19 +182,15 @@ def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ..
     """Return the joints of each moving part, and every part's representative."""
     group = list(range(len(articulation.parts)))
     chains: dict[int, tuple[Joint, ...]] = {}
-    waiting: dict[int, Joint] = {}
-    for joint in articulation.joints:
-        if not joint.movable:
-            group[joint.child] = group[joint.parent]
-        elif not len(articulation.parts[joint.child].faces):
-            waiting[joint.child] = joint
-        else:
-            above = waiting.get(joint.parent)
-            chains[joint.child] = (joint,) if above is None else (above, joint)
-            first = chains[joint.child][0]
-            if (above is not None and above.turns == joint.turns) or group[first.parent] in waiting:
-                said = f"part {articulation.parts[joint.child].name!r}: want at most one turn"
-                raise InputRejected("unsupported_joint", f"{said} and one slide")
+    for index, part in enumerate(articulation.parts):
+        above, joints = way_down(articulation, index)
+        if not joints:
+            group[index] = group[above]
+        elif len(part.faces):
+            chains[index] = joints
+            if len({joint.turns for joint in joints}) < len(joints):
+                said = f"part {part.name!r}: want at most one turn and one slide"
+                raise InputRejected("unsupported_joint", said)
     return chains, group
 
 

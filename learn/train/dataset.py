@@ -95,11 +95,11 @@ def _converted(source: DataSource, cache: Path) -> Files:
 
     settings = overlay(SourceSettings(), source.options, f"{source.kind}: options")
     split = Path(source.split) if source.split else None
-    prepared = prepare(source.kind, Path(source.path), cache, split=split, settings=settings)
-    if not prepared.sampled_objects:
-        said = "\n".join(prepared.report.lines())
+    report = prepare(source.kind, Path(source.path), cache, split=split, settings=settings)
+    if not report.read:
+        said = "\n".join(report.lines())
         raise ConfigError(f"{source.path}: no object in it can be used; want at least one\n{said}")
-    return Files(tuple(sorted(prepared.sampled_objects)), source.weight, prepared.report)
+    return Files(tuple(sorted(report.read.values())), source.weight, report)
 
 
 def _sampled_files(source: DataSource) -> Files:
@@ -206,11 +206,10 @@ def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sampl
         ConfigError: there are sources of them, and none gives one that can be used.
     """
     samples = []
-    kept = _Kept(0)
     settings: DrawSettings = config.validation_draw
     per_pool = max(1, config.validation.objects // max(1, len(pools)))
     for which, pool in enumerate(pools):
-        for number, sampled in _some(pool, per_pool, which, config.seed, kept):
+        for number, sampled in _some(pool, per_pool, which, config.seed):
             if len(sampled.parents) <= config.network.max_parts:
                 rng = np.random.default_rng([config.seed, _HELD_OUT, which, number])
                 samples.append(draw(sampled, rng, settings))
@@ -220,22 +219,20 @@ def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sampl
     return samples
 
 
-def _some(
-    pool: Pool, wanted: int, which: int, seed: int, kept: _Kept
-) -> Iterable[tuple[int, SampledObject]]:
+def _some(pool: Pool, wanted: int, which: int, seed: int) -> Iterable[tuple[int, SampledObject]]:
     """Yield sampled objects with their numbers; those that cannot be used leave out theirs."""
     if isinstance(pool, Files):
         rows = np.unique(np.linspace(0, len(pool.paths) - 1, wanted).round().astype(int))
         for number, row in enumerate(rows):
             with suppress(AssetFactoryError):
-                yield number, kept.read(pool.paths[row])
+                yield number, read_sampled(pool.paths[row])
         return
     given = 0
     tried = 0
     while given < wanted and tried < _TRIES * wanted:
         tried += 1
         with suppress(AssetFactoryError):
-            yield given, kept.make(pool, (seed, _HELD_OUT, which, tried))
+            yield given, _made(pool, (seed, _HELD_OUT, which, tried))
             given += 1
 
 

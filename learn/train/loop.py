@@ -94,13 +94,13 @@ class _Run:
         config = self._config
         group = self._group
         if state is not None:
-            self._trainer.descent.restore(state, self._output / LAST)
+            self._trainer.restore(state, self._output / LAST)
             self._best = state.best
             self._seconds = state.seconds
         elif start is not None:
             weights = read_weights(start)
-            fill(self._trainer.network, weights, start)
-            self._trainer.descent.mean.load(weights)
+            for network in (self._trainer.network, self._trainer.mean_network):
+                fill(network, weights, start)
             if group.first:
                 # Resumed before its first checkpoint, a run would begin with random weights.
                 write_state(self._output / LAST, self._state(0))
@@ -186,7 +186,7 @@ class _Run:
 
     def _save(self, step: int) -> None:
         half = self._config.half
-        weights = self._trainer.descent.mean.weights
+        weights = self._trainer.mean_network.state_dict()
         kept = {name: each.half() if half else each.float() for name, each in weights.items()}
         # The checkpoint last: cut off in between, the run goes on from the one before.
         write_safetensors(self._output / MODEL, kept, self._about(step))
@@ -194,10 +194,10 @@ class _Run:
 
     def _state(self, step: int) -> State:
         seconds = self._seconds + time.monotonic() - self._since
-        descent = self._trainer.descent
-        weights = descent.network.state_dict()
-        kept = (weights, descent.mean.weights, descent.optimiser.state_dict())
-        return State(step, *kept, self._best, self._recipe, self._data, seconds)
+        trainer = self._trainer
+        learned = (trainer.network, trainer.mean_network, trainer.optimiser)
+        weights, mean, optimiser = (each.state_dict() for each in learned)
+        return State(step, weights, mean, optimiser, self._best, self._recipe, self._data, seconds)
 
     def _about(self, step: int) -> dict[str, str]:
         config = self._config

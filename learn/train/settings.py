@@ -174,6 +174,13 @@ class OptimiserSettings:
     clip: float = 1.0
     ema: float = 0.999
 
+    def decay_at(self, step: int) -> float:
+        """Return the share of the running mean that stays at a step, counted from 0.
+
+        In the first steps less does, so that the random start is forgotten.
+        """
+        return min(self.ema, (1.0 + step) / (10.0 + step))
+
 
 @dataclass(frozen=True)
 class RunSettings:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,7 +15,8 @@ from asset_factory.factory.models.network.shape import FREQUENCIES
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 
 from ..samples.batches import Batch
-from .descent import Descent
+from .averaging import follow
+from .checkpoints import State, fill
 from .distributed import ProcessGroup
 from .losses import NAMES, Counts, count, forward, losses, targets_of, taught, total
 from .settings import TrainConfig
@@ -21,6 +24,8 @@ from .settings import TrainConfig
 Tensor = Any
 COLUMNS = ("total", *NAMES, "rate", "gradient")
 _DROPOUT = 4
+_MOST_MISSED = 20
+"""Steps in a row whose gradients are not finite, after which a run ends."""
 _SPREAD = 1000.0
 _BASE = 10000.0
 
@@ -36,19 +41,27 @@ class Trainer:
         if config.network.quiet_start:
             quieten(network, config.network.quiet_below)
         self.network = network.to(group.device).train()
-        settings = config.optimiser
-        optimiser = _optimiser(self.network, config)
-        self.descent = Descent(self.network, optimiser, settings.clip, settings.ema)
-        with torch.device("meta"):
-            self.mean_network = PartArticulationTransformer(config.network.shape)
-        # It shares the running mean's tensors, so it always has the weights of the last step.
-        self.mean_network.load_state_dict(self.descent.mean.weights, assign=True)
-        self.mean_network.requires_grad_(False).eval()
+        self.mean_network = copy.deepcopy(self.network).requires_grad_(False).eval()
+        self.optimiser = _optimiser(self.network, config)
+        self._missed = 0
         if group.device.startswith("cuda"):
             torch.set_float32_matmul_precision("high")
             if config.run.compile:
                 for block in self.network.blocks:
                     block.compile()
+
+    def restore(self, state: State, path: Path) -> None:
+        """Go back to a stored state.
+
+        Raises:
+            ConfigError: it is another network's; says that of the file at ``path``.
+        """
+        fill(self.mean_network, state.mean, path)
+        fill(self.network, state.weights, path)
+        try:
+            self.optimiser.load_state_dict(state.optimiser)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise ConfigError(f"{path}: its optimiser's state does not fit: {error}") from error
 
     def require_finite(self, step: int) -> None:
         """See to it that no weights are kept that are not numbers.
@@ -56,8 +69,9 @@ class Trainer:
         Raises:
             ConfigError: some are not.
         """
-        for weights in (self.network.state_dict(), self.descent.mean.weights):
-            bad = [name for name, each in weights.items() if not bool(torch.isfinite(each).all())]
+        for network in (self.network, self.mean_network):
+            weights = network.state_dict().items()
+            bad = [name for name, each in weights if not bool(torch.isfinite(each).all())]
             if bad:
                 wanted = "nothing of it is kept; want a lower schedule.rate"
                 raise ConfigError(f"step {step}: {bad[0]} is not finite any more, {wanted}")
@@ -70,6 +84,9 @@ class Trainer:
         Returns:
             ``COLUMNS`` of this process's share, the sum of which over the processes is the step's,
             but for the last two, which only the first fills; and whether any was asked to stop.
+
+        Raises:
+            ConfigError: the gradients have not been finite for many steps.
         """
         config = self._config
         group = self._group
@@ -85,7 +102,7 @@ class Trainer:
         mine = [sum(column) for column in zip(*counted, strict=True)]
         *sums, stops = group.sums([*mine, float(stop)])
         counts = Counts(*sums)
-        self.descent.optimiser.zero_grad(set_to_none=True)
+        self.optimiser.zero_grad(set_to_none=True)
         values = torch.zeros(len(NAMES) + 1, device=group.device)
         lowered = config.run.precision == "bfloat16" and group.device.startswith("cuda")
         for each in micro:
@@ -98,9 +115,30 @@ class Trainer:
             values += torch.stack([weighted.detach(), *(found[name].detach() for name in NAMES)])
         group.add_gradients(list(self.network.parameters()))
         rate = config.schedule.rate_at(step)
-        norm = self.descent.step(step, rate)
+        norm = self._descend(step, rate)
         last = [torch.full_like(norm, rate), norm] if group.first else [torch.zeros_like(norm)] * 2
         return torch.cat([values, torch.stack(last)]), stops > 0
+
+    def _descend(self, step: int, rate: float) -> Tensor:
+        """Move the weights along the gradients, unless those are not finite; returns their norm."""
+        settings = self._config.optimiser
+        for each in self.optimiser.param_groups:
+            each["lr"] = rate
+        clip = settings.clip or math.inf
+        norm = torch.nn.utils.clip_grad_norm_(self.network.parameters(), clip)
+        # One bad step must not end the run: a sample may be so odd that it overflows.
+        if bool(torch.isfinite(norm)):
+            self.optimiser.step()
+            follow(self.mean_network, self.network, settings.decay_at(step))
+            self._missed = 0
+        else:
+            self._missed += 1
+        if self._missed >= _MOST_MISSED:
+            said = f"the gradients of {_MOST_MISSED} steps in a row are not finite"
+            wanted = "want a lower schedule.rate, or look at the data"
+            kept = "so nothing is learnt; the checkpoint is from before"
+            raise ConfigError(f"step {step}: {said}, {kept}; {wanted}")
+        return norm.detach()
 
     def _seed_dropout(self, step: int) -> None:
         seed = np.random.SeedSequence([self._config.seed, _DROPOUT, step, self._group.rank])

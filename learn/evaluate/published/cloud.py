@@ -44,36 +44,28 @@ class ScoredCloud:
 
     def at(self, share: float) -> FloatArray:
         """Return the points with joints at a share from lower to upper, shape [point_count, 3]."""
-        return self.moved(self.poses(share))
-
-    def moved(self, poses: FloatArray) -> FloatArray:
-        """Return the points moved with their parts, shape [point_count, 3]."""
-        own = poses[self.labels]
+        own = self.poses(share)[self.labels]
         return np.asarray(np.einsum("nij,nj->ni", own[:, :3, :3], self.points) + own[:, :3, 3])
 
     def parts(self, points: FloatArray) -> list[FloatArray]:
         """Split ``points`` by part, in the order of ``present``."""
         return [points[self.labels == part] for part in self.present]
 
-    def poses(
-        self, share: float, *, from_rest: bool = False, one_motion: bool = False
-    ) -> FloatArray:
+    def poses(self, share: float, as_released: bool = False) -> FloatArray:
         """Return the motions of the parts relative to rest, shape [part_count, 4, 4].
 
-        Args:
-            share: of each joint's range.
-            from_rest: count the range from 0 instead of from the lower limit.
-            one_motion: a part that turns and slides only turns.
+        Joints are at this share of their range. ``as_released``, that counts from 0 instead of from
+        the lower limit, and a part that turns and slides only turns.
         """
         poses = np.tile(np.eye(4), (len(self.parents), 1, 1))
         for part in parents_first(self.parents):
             own = self.joints[part]
-            if one_motion and any(joint.turns for joint in own):
+            if as_released and any(joint.turns for joint in own):
                 own = tuple(joint for joint in own if joint.turns)
             parent = self.parents[part]
             pose = np.eye(4) if parent < 0 else poses[parent]
             for joint in own:
-                start = 0.0 if from_rest else joint.lower
+                start = 0.0 if as_released else joint.lower
                 pose = pose @ joint.motion(start + share * joint.range)
             poses[part] = pose
         return poses

@@ -69,8 +69,8 @@ def solid_giou(
     """Return each pair's, seen from the predicted part and from the true one."""
     ours = [box_of(part) for part in predicted.parts(predicted.points)]
     theirs = [box_of(part) for part in true.parts(true.points)]
-    moved = predicted.poses(share, from_rest=True, one_motion=True)[predicted.present]
-    truly = true.poses(share, from_rest=True, one_motion=True)[true.present]
+    moved = predicted.poses(share, as_released=True)[predicted.present]
+    truly = true.poses(share, as_released=True)[true.present]
     there = matching.each(lambda i, j: _overlap(ours[i], theirs[j], moved[i], truly[j], rng))
     back = matching.each(lambda i, j: _overlap(theirs[j], ours[i], moved[i], truly[j], rng))
     return there, back

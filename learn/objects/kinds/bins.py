@@ -6,7 +6,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import FloatArray
 
-from ..kit.assembly import DOWN, LEFT, RIGHT, UP, Assembly, named
+from ..kit.assembly import DOWN, LEFT, RIGHT, UP, Assembly
 from ..kit.boards import tray
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL, WHITE
 from ..kit.outlines import arc, oval, rounded
@@ -233,6 +233,3 @@ def trash_can(a: Assembly) -> None:
         pedal = a.hinge("pedal", RIGHT, (0, pivot, 0.028), np.radians(8.0), look=BLACK)
         pedal.add(box(about(0.012), (y[0] - 0.02, pivot), (0.028, 0.036)))
         pedal.add(box(about(0.045), span(y[0] - 0.02, -0.035), (0.027, 0.037)))
-
-
-MAKERS = named(swing_bin, step_bin, wheelie_bin, push_bin, bucket, trash_can)

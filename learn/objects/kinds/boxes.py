@@ -6,7 +6,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import FloatArray, Material
 
-from ..kit.assembly import LEFT, RIGHT, UP, Assembly, named
+from ..kit.assembly import LEFT, RIGHT, UP, Assembly
 from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import arc, rounded
 from ..kit.shapes import Form, block, both, box, cylinder, pipe, ribbon, stack
@@ -216,6 +216,3 @@ def _arch(half: float, rise: float, tall: float, inset: float, low: float) -> Fl
     outline = np.vstack([foot[:1], curve, foot[1:]])
     outline[:, 1] += tall + low
     return outline
-
-
-MAKERS = named(flap_box, case, trolley_case, mailbox)

@@ -6,7 +6,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import LEFT, RIGHT, Assembly, named
+from ..kit.assembly import LEFT, RIGHT, Assembly
 from ..kit.boards import corners
 from ..kit.looks import BLACK, BLUE, GREEN, OAK, RED, STEEL, WHITE
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, stack
@@ -171,6 +171,3 @@ def skateboard(a: Assembly) -> None:
         for name, side in SIDES:
             place = (side * (reach + wide / 2 + 0.0008 + PLAY), at, radius)
             wheel(a, f"{row}_{name}_wheel", place, radius, wide, metal, WHITE)
-
-
-MAKERS = named(cart, wheelbarrow, hand_truck, skateboard)

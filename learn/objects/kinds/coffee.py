@@ -6,7 +6,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import DOWN, FRONT, LEFT, UP, Assembly, Place, facing_front, facing_side, named
+from ..kit.assembly import DOWN, FRONT, LEFT, UP, Assembly, Place, facing_front, facing_side
 from ..kit.boards import corners, tray
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, RED, STEEL, WHITE
@@ -173,6 +173,3 @@ def _panel(
         z = max(foot + radius + 0.005, floor - radius - 0.003)
         at = ((i - (count - 1) / 2) * 1.8 * room / count, z)
         _control(a, i, at, radius, dark, place, 0.5 if i else 1.0)
-
-
-MAKERS = named(coffee_machine, toaster)

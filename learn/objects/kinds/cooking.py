@@ -9,7 +9,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import FRONT, UP, Assembly, facing_front, facing_up, named
+from ..kit.assembly import FRONT, UP, Assembly, facing_front, facing_up
 from ..kit.boards import rack
 from ..kit.casework import Casework, furniture
 from ..kit.controls import button, cells, key, keypad, knob, knob_row
@@ -284,8 +284,3 @@ def dishwasher(a: Assembly) -> None:
     for share in (0.16, 0.6):
         level = case.z[0] + share * sizes[2]
         a.root.add(*rack(cell.inner[0], within(case.y, 0.03, 0.02), level, 7), look=STEEL)
-
-
-MAKERS = named(
-    stove, built_in_oven, microwave_oven, hob, hood, dish_washer, oven, microwave, dishwasher
-)

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from ..kit.assembly import BACK, FRONT, Assembly, named
+from ..kit.assembly import BACK, FRONT, Assembly
 from ..kit.boards import tray
 from ..kit.casework import Casework, Leaf, furniture, swung
 from ..kit.layouts import Cell, Node, column, row
@@ -162,7 +162,7 @@ def fridge(a: Assembly) -> None:
         _bins(a, door)
 
 
-MAKERS = named(fridge) | {
+PLANNED = {
     "refrigerator": partial(cold_box, "tall"),
     "mini_fridge": partial(cold_box, "mini"),
     "wine_cooler": partial(cold_box, "wine"),

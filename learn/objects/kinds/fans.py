@@ -6,7 +6,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, DOWN, FRONT, LEFT, UP, Assembly, PartDraft, facing_up, named
+from ..kit.assembly import BACK, DOWN, FRONT, LEFT, UP, Assembly, PartDraft, facing_up
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BLUE, BRASS, OAK, STEEL, WALNUT, WHITE
 from ..kit.outlines import arc, oval
@@ -160,6 +160,3 @@ def globe(a: Assembly) -> None:
     axis = (float(np.sin(tilt)), 0.0, float(np.cos(tilt)))
     sphere = a.spin("ball", axis, center, on=frame, look=skin)
     sphere.add(ball(center, radius, a.pick(16, 24, 32)).turned(BACK, tilt, center))
-
-
-MAKERS = named(fan, ceiling_fan, globe)

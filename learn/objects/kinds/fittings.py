@@ -6,7 +6,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import FloatArray, Material
 
-from ..kit.assembly import BACK, LEFT, RIGHT, UP, Assembly, PartDraft, facing_front, named
+from ..kit.assembly import BACK, LEFT, RIGHT, UP, Assembly, PartDraft, facing_front
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BRASS, RED, STEEL, WHITE
 from ..kit.outlines import arc
@@ -278,5 +278,3 @@ def _pressed(a: Assembly, name: str, at: Flat, wide: float, tall: float, look: M
 CONTROLS = {
     "rocker": _rocker, "toggle": _toggle, "knob": _turned, "slider": _slid, "button": _pressed,
 }  # fmt: skip
-
-MAKERS = named(faucet, valve, switch_panel)

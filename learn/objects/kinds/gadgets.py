@@ -6,7 +6,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, UP, Assembly, facing_up, named
+from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, UP, Assembly, facing_up
 from ..kit.controls import button, cells, key
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import oval, rounded
@@ -280,6 +280,3 @@ def _shield(a: Assembly, half: float, high: float, level: float, tint: Material)
     near, far = (np.stack([x, back + off], axis=1) for off in (-0.001, 0.003))
     a.root.add(lens, ribbon(near, far, (level + 0.8 * high, level + high + 0.003)), look=tint)
     return bend + 0.001
-
-
-MAKERS = named(usb_stick, phone, remote, calculator, lighter, camera, clock, eyeglasses)

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, DOWN, FRONT, LEFT, UP, Assembly, PartDraft, named
+from ..kit.assembly import BACK, DOWN, FRONT, LEFT, UP, Assembly, PartDraft
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL
 from ..kit.outlines import oval
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, pipe, ribbon
@@ -218,6 +218,3 @@ def _clip(part: PartDraft, radius: float, start: float, long: float, look: Mater
     foot = span(start, 0.004 if long > 0.0 else -0.004)
     bar = box(about(0.0015), span(start, long), span(radius + 0.001, 0.001))
     part.add(bar, box(about(0.0014), foot, (0.7 * radius, radius + 0.001)), look=look)
-
-
-MAKERS = named(scissors, pliers, stapler, pocket_knife, cutter, pen)

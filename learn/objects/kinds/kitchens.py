@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..kit.assembly import Assembly, facing_front, named
+from ..kit.assembly import Assembly, facing_front
 from ..kit.boards import rack, slab, worktop
-from ..kit.casework import Casework, casework
+from ..kit.casework import Casework
 from ..kit.controls import knob_row
 from ..kit.layouts import Node, column, drawers, filling
 from ..kit.looks import BLACK, RED, STEEL
@@ -69,14 +69,14 @@ def kitchen(a: Assembly) -> None:
         x = span(left, a.draw(*UNITS[unit][1]))
         left = x[1]
         mine = _oven_style(style) if unit == "oven" else style
-        case = casework(a, mine, x, y, z, _node(a, unit), f"unit_{i}_")
+        case = Casework(a, mine, x, y, z, f"unit_{i}_").build(_node(a, unit))
         if unit == "oven":
             hob = x
             _dials(a, case, 0.16 * height, case.prefix)
             shelf = rack(within(x, mine.board), within(y, 0.05, 0.03), z[0] + 0.6 * height, 8)
             a.root.add(*shelf, look=STEEL)
     if not a.parts:
-        casework(a, style, span(left, 0.5), y, z, "door", "last_")
+        Casework(a, style, span(left, 0.5), y, z, "last_").build("door")
         left += 0.5
     a.root.add(box((0.01, left - 0.01), (0.05, depth), (0.0, base)), look=BLACK)
     _worktop(a, style, (0.0, left), y, z[1], hob)
@@ -104,7 +104,7 @@ def _wall_units(a: Assembly, style: Style, width: float, depth: float, z: float)
     a.root.add(box((0.0, width), span(depth, 0.02), (0.0, high[1])), look=any_color(a))
     mix = {"door": 2.0, "double": 2.0, "lift": 0.5, "open": 0.5}
     for i, x in enumerate(shares((0.0, width), max(1, round(width / a.draw(0.45, 0.8))))):
-        casework(a, upper, x, y, high, filling(a, size(x), size(high), mix), f"wall_{i}_")
+        Casework(a, upper, x, y, high, f"wall_{i}_").build(filling(a, size(x), size(high), mix))
 
 
 def oven_tower(a: Assembly) -> None:
@@ -120,11 +120,8 @@ def oven_tower(a: Assembly) -> None:
     below = drawers(a, a.count(1, 3)) if a.happens(0.6) else door
     above = column((1.0, "flap"), (1.2, door)) if a.happens(0.3) else door
     a.root.add(box(within(x, 0.01), (0.04, depth), (0.0, base)), look=BLACK)
-    casework(a, style, x, y, low, below, "low_")
+    Casework(a, style, x, y, low, "low_").build(below)
     oven = column((0.82, "flap"), (0.18, "fixed"))
-    case = casework(a, _oven_style(style), x, y, middle, oven, "oven_")
-    casework(a, style, x, y, (middle[1], base + height), above, "high_")
+    case = Casework(a, _oven_style(style), x, y, middle, "oven_").build(oven)
+    Casework(a, style, x, y, (middle[1], base + height), "high_").build(above)
     _dials(a, case, 0.18 * size(middle))
-
-
-MAKERS = named(kitchen, oven_tower)

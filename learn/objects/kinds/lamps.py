@@ -6,7 +6,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import DOWN, RIGHT, UP, Assembly, PartDraft, facing_up, named
+from ..kit.assembly import DOWN, RIGHT, UP, Assembly, PartDraft, facing_up
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BRASS, RED, STEEL, WHITE
 from ..kit.shapes import ball, block, cylinder, lathe, pipe
@@ -157,6 +157,3 @@ def _drum(
     spoke = pipe([(0, 0, tall), (reach, 0, tall)], 0.0015, 6)
     part.add(*(spoke.turned(UP, 2 * np.pi * i / 3) for i in range(3)), look=BLACK)
     return low, wide
-
-
-MAKERS = named(desk_lamp, standing_lamp)

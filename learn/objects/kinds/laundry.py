@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..kit.assembly import BACK, FRONT, LEFT, Assembly, PartDraft, facing_front, named
+from ..kit.assembly import BACK, FRONT, LEFT, Assembly, PartDraft, facing_front
 from ..kit.boards import carcass, ring_of_boards, stand, tray
 from ..kit.casework import swung
 from ..kit.controls import button, knob
@@ -126,6 +126,3 @@ def top_loader(a: Assembly) -> None:
     for i, at in enumerate(between((0.15 * width, 0.85 * width), a.count(1, 4))):
         spot = (at, height + 0.65 * tall)
         knob(a, f"knob_{i}", spot, 0.025, STEEL, facing_front(depth - console), mark=RED)
-
-
-MAKERS = named(front_loader, top_loader)

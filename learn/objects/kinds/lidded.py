@@ -8,7 +8,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, FRONT, LEFT, Assembly, PartDraft, facing_front, named
+from ..kit.assembly import BACK, FRONT, LEFT, Assembly, PartDraft, facing_front
 from ..kit.boards import stand, tray
 from ..kit.casework import Leaf, furniture
 from ..kit.controls import keypad, knob
@@ -174,6 +174,3 @@ def _locks(a: Assembly, leaf: Leaf, face: float, metal: Material) -> None:
         inward = -1.0 if left else 1.0
         arm = span(at - inward * 0.012, inward * (0.012 + 1.6 * r))
         handle.add(box(arm, (face - 0.043, face - 0.033), about(0.009, center[1])))
-
-
-MAKERS = named(coffer, chest, glass_freezer, safe)

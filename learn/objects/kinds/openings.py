@@ -8,9 +8,9 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, FRONT, LEFT, UP, Assembly, PartDraft, named
+from ..kit.assembly import BACK, FRONT, LEFT, UP, Assembly, PartDraft
 from ..kit.boards import frame
-from ..kit.casework import Leaf, casework
+from ..kit.casework import Casework, Leaf
 from ..kit.hinges import stop
 from ..kit.layouts import Cell, row
 from ..kit.looks import BLACK, GLASS
@@ -83,7 +83,7 @@ def door(a: Assembly) -> None:
     x = (-bar, width + bar)
     opening = (0.0, width)
     y = (0.0, max(wall, thick + 0.01))
-    case = casework(a, style, x, y, (0.0, height + bar), "double" if double else "door")
+    case = Casework(a, style, x, y, (0.0, height + bar)).build("double" if double else "door")
     top = height + bar
     if a.happens(0.25):
         light = span(top, a.draw(0.25, 0.5))
@@ -194,7 +194,7 @@ def window(a: Assembly) -> None:
     if columns == 3 and a.happens(0.6):
         cells[1] = "fixed"
     node = row(*((1.0, cell) for cell in cells))
-    case = casework(a, style, (0.0, width), (0.0, deep), (0.0, height), node)
+    case = Casework(a, style, (0.0, width), (0.0, deep), (0.0, height)).build(node)
     if a.happens(0.3):
         body.add(box((-0.05, width + 0.05), (-0.06, deep), (-0.03, 0.0)))
     for leaf in case.doors:
@@ -229,6 +229,3 @@ def _pivoted(a: Assembly, style: Style, cell: Cell) -> None:
     at = (mid(x), style.front / 2, mid(z))
     sash = a.hinge(cell.name, UP if upright else LEFT, at, a.degrees(45, 90), look=style.face)
     panel(sash, style.panel, x, (0.0, style.front), z, style.rail)
-
-
-MAKERS = named(door, sliding_door, window)

@@ -8,7 +8,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import FloatArray, Material
 
-from ..kit.assembly import FRONT, LEFT, RIGHT, UP, Assembly, PartDraft, facing_front, named
+from ..kit.assembly import FRONT, LEFT, RIGHT, UP, Assembly, PartDraft, facing_front
 from ..kit.boards import corners, tray
 from ..kit.controls import button, cells
 from ..kit.looks import BLACK, BLUE, GLASS, RED, STEEL, WHITE
@@ -236,6 +236,3 @@ def _paper_drawer(a: Assembly, x: Span, y: Span, shelf: float, r: float, dark: M
     drawer.add(*tray(inner, (y[0] + 0.008, 0.7 * y[1]), (0.007, 0.6 * shelf), 0.003, False))
     face = block(inner, span(y[0], 0.008), (0.007, shelf - 0.002), 0.003, axis=Y)
     drawer.add(face, look=a.pick(a.root.look, dark))
-
-
-MAKERS = named(laptop, notebook, monitor, mouse, printer)

@@ -6,7 +6,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import FloatArray, Material
 
-from ..kit.assembly import BACK, LEFT, RIGHT, UP, Assembly, PartDraft, facing_up, named
+from ..kit.assembly import BACK, LEFT, RIGHT, UP, Assembly, PartDraft, facing_up
 from ..kit.controls import button
 from ..kit.looks import BLACK, BLUE, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
@@ -233,6 +233,3 @@ def _cistern(a: Assembly, wall: float, rim: float, metal: Material) -> None:
         lever = a.hinge("lever", (-side, 0.0, 0.0), pivot, a.degrees(25, 50), look=metal)
         tip = start - (0.0, length, 0.01)
     lever.add(stem, pipe(np.linspace(start, tip, 3), [0.006, 0.006, 0.008], 8))
-
-
-MAKERS = named(office_chair, folding_chair, toilet)

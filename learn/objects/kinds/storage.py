@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-from ..kit.assembly import Assembly, named
+from ..kit.assembly import Assembly
 from ..kit.boards import cornice, slab, stand, worktop
-from ..kit.casework import casework, furniture
+from ..kit.casework import Casework, furniture
 from ..kit.layouts import (
     Cell,
     Node,
@@ -17,7 +17,6 @@ from ..kit.layouts import (
     drawers,
     filling,
     grid,
-    leaves,
     random_node,
     row,
 )
@@ -84,7 +83,7 @@ def stored(plan: CaseworkPlan, a: Assembly) -> None:
     node = plan.node(a, width, height)
     cells, _ = divided(node, (0.0, width), span(base, height), style.board, False)
     style = _spaced(a, style, cells)
-    case = casework(a, style, (0.0, width), (0.0, depth), span(base, height), node)
+    case = Casework(a, style, (0.0, width), (0.0, depth), span(base, height)).build(node)
     if not a.parts:
         case.build("double")
     stand(a, support, case.x, case.y, base, style.body if a.happens(0.7) else BLACK)
@@ -241,7 +240,7 @@ def _shelves(a: Assembly, w: float, h: float) -> Node:
 
 def _any(a: Assembly, w: float, h: float) -> Node:
     node = random_node(a, w, h, USUAL)
-    while leaves(node) > MOST_CELLS:
+    while len(divided(node, (0.0, w), (0.0, h), 0.0, False)[0]) > MOST_CELLS:
         node = random_node(a, w, h, USUAL)
     return "double" if node == "open" else node
 
@@ -325,7 +324,7 @@ def hutch(a: Assembly) -> None:
     below = row(*((1.0, filling(a, each, low, MIX)) for _ in range(columns)))
     if a.happens(0.5):
         below = column((0.75, below), (0.25, grid(a, columns, 1)))
-    case = casework(a, style, x, y, span(base, low), below, "low_")
+    case = Casework(a, style, x, y, span(base, low), "low_").build(below)
     stand(a, a.weighted(LEGS), x, y, base, style.body)
     body.add(slab(x, (min(0.0, case.face), depth), base + low, 0.025, 0.01), look=any_color(a))
     start = base + low + 0.025
@@ -342,7 +341,7 @@ def hutch(a: Assembly) -> None:
     # The lower top stands out before the upper fronts: they keep a gap to it.
     body.add(box(within(x, 0.01), (depth - 0.2, depth), span(start, 0.003)), look=style.body)
     deep = (depth - a.draw(0.25, 0.33), depth)
-    casework(a, upper, x, deep, span(start + 0.003, high), above, "high_")
+    Casework(a, upper, x, deep, span(start + 0.003, high), "high_").build(above)
     if a.happens(0.5):
         body.add(*cornice(x, (depth - 0.36, depth), start + 0.003 + high), look=style.body)
 
@@ -375,6 +374,4 @@ def storage_bed(a: Assembly) -> None:
     a.root.add(mattress, box(pillow, within(case.y, 0.1), span(top[1], 0.09)), look=WHITE)
 
 
-MAKERS = named(cabinet, hutch, secretaire, storage_bed) | {
-    name: partial(stored, plan) for name, plan in PLANS.items()
-}
+PLANNED = {name: partial(stored, plan) for name, plan in PLANS.items()}

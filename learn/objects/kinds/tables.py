@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, Assembly, named
+from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, Assembly
 from ..kit.boards import stand
-from ..kit.casework import casework, furniture
+from ..kit.casework import Casework, furniture
 from ..kit.layouts import column, drawers, grid, row
 from ..kit.shapes import block, box
 from ..kit.spans import Span, about, ends, mid, size, span, upto, within
@@ -53,7 +53,7 @@ def desk(a: Assembly) -> None:
     for i, side in enumerate(taken):
         closed = a.pick("door", column((0.65, "door"), (0.35, "drawer")))
         node = closed if a.happens(0.3) else drawers(a, a.count(2, 4))
-        casework(a, style, side, y, (base, under), node, f"side_{i}_")
+        Casework(a, style, side, y, (base, under), f"side_{i}_").build(node)
         stand(a, a.weighted(UNDER | {"plinth": 1.0}), side, y, base, style.body)
     knees = (sides[0][1], sides[1][0])
     if len(taken) == 1:
@@ -65,7 +65,7 @@ def desk(a: Assembly) -> None:
     if a.happens(0.5):
         node = grid(a, min(3, max(1, round(size(knees) / 0.5))), 1)
         high = (under - a.draw(0.08, 0.13), under)
-        casework(a, replace(style, board=0.012), knees, y, high, node, "knee_")
+        Casework(a, replace(style, board=0.012), knees, y, high, "knee_").build(node)
     if a.happens(0.5):
         modesty = box(knees, span(depth - 0.03, 0.018), (0.35 * under, under - 0.15))
         a.root.add(modesty, look=style.body)
@@ -109,6 +109,3 @@ def vanity(a: Assembly) -> None:
     at = (width / 2, mid(y), mid(z))
     mirror = a.hinge("mirror", a.pick(LEFT, RIGHT), at, a.degrees(15, 30), look=any_color(a))
     mirror.add(box(x, y, z))
-
-
-MAKERS = named(table, desk, folding_table, vanity)

@@ -6,7 +6,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import DOWN, LEFT, RIGHT, UP, Assembly, PartDraft, named
+from ..kit.assembly import DOWN, LEFT, RIGHT, UP, Assembly, PartDraft
 from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import arc
 from ..kit.shapes import ball, block, both, box, cylinder, lathe, pipe
@@ -252,6 +252,3 @@ def pepper_mill(a: Assembly) -> None:
     head.add(pipe([(0, -0.004, level), (0, -reach, level + 0.008)], 0.004, 4, flat=0.6), look=metal)
     grip = [(0.005, level + 0.007), (0.008, level + 0.019), (0.006, level + 0.027)]
     head.add(lathe(grip, (0, 0.006 - reach, 0), sides=12))
-
-
-MAKERS = named(pot, kettle, bottle, dispenser, pepper_mill)

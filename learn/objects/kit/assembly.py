@@ -224,11 +224,6 @@ class Assembly(Chance):
 Maker = Callable[[Assembly], None]
 
 
-def named(*makers: Maker) -> dict[str, Maker]:
-    """Return the kinds of object by the names of what describes them."""
-    return {getattr(maker, "__name__", ""): maker for maker in makers}
-
-
 def _after(second: FloatArray | None, first: FloatArray | None) -> FloatArray | None:
     """Return one motion after another, where ``None`` is no motion."""
     if first is None or second is None:

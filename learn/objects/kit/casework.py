@@ -50,6 +50,7 @@ class Casework:
     """A case under construction, its outer spans [m] without fronts that lie on it.
 
     Its front is divided into ``cells``; ``doors`` are what turns, ``count`` is of all that moves.
+    The names of its parts start with ``prefix``.
     """
 
     a: Assembly
@@ -76,8 +77,8 @@ class Casework:
         self.count += 1
         return self.prefix + (cell.name or f"{kind}_{self.count - 1}")
 
-    def build(self, node: Node) -> None:
-        """Add the boards of the case and all that moves in it."""
+    def build(self, node: Node) -> Casework:
+        """Return the case with its boards and all that moves; ``node`` divides its front."""
         style = self.style
         body = self.a.root
         self.cells, dividers = divided(node, self.x, self.z, style.board, style.bare)
@@ -98,6 +99,7 @@ class Casework:
             if not (solid or style.hollow or cell.kind == "open"):
                 body.add(box(cell.inner[0], deep, cell.inner[1]), look=style.body)
             self._fill(cell)
+        return self
 
     def _divide(self, dividers: list[Divider]) -> None:
         half = self.style.board / 2
@@ -273,19 +275,6 @@ class Casework:
                 add_pull(part, style.pull, at[0] + 0.04, mid(z), face, True, 0.5 * size(z))
 
 
-def casework(
-    a: Assembly, style: Style, x: Span, y: Span, z: Span, node: Node, prefix: str = ""
-) -> Casework:
-    """Return a case with all that moves in it.
-
-    Its outer spans count without fronts that lie on it [m]; ``node`` says how its front is divided;
-    the names of its parts start with ``prefix``.
-    """
-    case = Casework(a, style, x, y, z, prefix)
-    case.build(node)
-    return case
-
-
 def furniture(
     a: Assembly,
     style: Style,
@@ -297,7 +286,7 @@ def furniture(
 ) -> Casework:
     """Build a case of a width, depth and height [m] on a support; its left edge is x = y = 0."""
     width, depth, height = sizes
-    case = casework(a, style, (0.0, width), (0.0, depth), span(base, height), node)
+    case = Casework(a, style, (0.0, width), (0.0, depth), span(base, height)).build(node)
     stand(a, support, case.x, case.y, base, look or style.body)
     return case
 

@@ -151,11 +151,6 @@ def filling(chance: Chance, width: float, height: float, mix: Mapping[str, float
     return drawers(chance, chance.count(2 if height < 0.7 else 3, most))
 
 
-def leaves(node: Node) -> int:
-    """Return how many cells a front is divided into."""
-    return 1 if isinstance(node, str) else sum(leaves(child) for _, child in node[1])
-
-
 def random_node(
     chance: Chance, width: float, height: float, mix: Mapping[str, float], depth: int = 3
 ) -> Node:

@@ -11,7 +11,7 @@ from asset_factory.factory.mesh import Material
 from .assembly import PartDraft
 from .boards import frame
 from .looks import GLASS
-from .shapes import Form, box, prism, stack
+from .shapes import Form, box, frustum, prism
 from .spans import Span, X, Y, about, between, mid, shares, size, within
 
 #: Narrower than this, a front has no room for a frame [m].
@@ -20,22 +20,13 @@ FRAMED_FROM = 0.16
 PanelMaker = Callable[[Span, Span, Span, float], list[Form]]
 
 
-def _rectangle(x: Span, z: Span) -> list[tuple[float, float]]:
-    return [(x[0], z[0]), (x[1], z[0]), (x[1], z[1]), (x[0], z[1])]
-
-
-def _pyramid(tip: tuple[Span, Span], foot: tuple[Span, Span], y: Span) -> Form:
-    """Build a plate whose edges slope from its foot at the back to its tip, over x and z."""
-    return stack([(_rectangle(*tip), y[0]), (_rectangle(*foot), y[1])], Y)
-
-
 def _slab(x: Span, y: Span, z: Span, width: float) -> list[Form]:
     return [box(x, y, z)]
 
 
 def _bevel(x: Span, y: Span, z: Span, width: float) -> list[Form]:
     edge = min(0.006, 0.4 * size(y))
-    slope = _pyramid((within(x, edge), within(z, edge)), (x, z), (y[0], y[0] + edge))
+    slope = frustum((within(x, edge), within(z, edge)), (x, z), (y[0], y[0] + edge), Y)
     return [box(x, within(y, edge, 0.0), z), slope]
 
 
@@ -50,7 +41,7 @@ def _raised(x: Span, y: Span, z: Span, width: float) -> list[Form]:
     tip = (within(foot[0], 0.02), within(foot[1], 0.02))
     forms = [*frame(x, y, z, width), box(within(x, width), (deep, y[1]), within(z, width))]
     if min(size(tip[0]), size(tip[1])) > 0.01:
-        forms.append(_pyramid(tip, foot, (y[0] + 0.001, deep)))
+        forms.append(frustum(tip, foot, (y[0] + 0.001, deep), Y))
     return forms
 
 

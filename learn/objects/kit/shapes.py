@@ -113,10 +113,10 @@ def prism(outline: npt.ArrayLike, along: Span, axis: int = Z) -> Form:
     return stack([(outline, along[0]), (outline, along[1])], axis)
 
 
-def frustum(lower: tuple[Span, Span], upper: tuple[Span, Span], along: Span) -> Form:
-    """Return an upright form whose two ends are rectangles, each given by its spans."""
-    ends = [[(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])] for x, y in (lower, upper)]
-    return stack([(ends[0], along[0]), (ends[1], along[1])])
+def frustum(lower: tuple[Span, Span], upper: tuple[Span, Span], along: Span, axis: int = Z) -> Form:
+    """Return a form along an axis whose two ends are rectangles, each given by its spans."""
+    ends = [[(u[0], v[0]), (u[1], v[0]), (u[1], v[1]), (u[0], v[1])] for u, v in (lower, upper)]
+    return stack([(ends[0], along[0]), (ends[1], along[1])], axis)
 
 
 def lathe(

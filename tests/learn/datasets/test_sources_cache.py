@@ -40,9 +40,13 @@ def cabinet(folder, kind="revolute", depth=0.6):
     return path
 
 
-def bring(tmp_path, **changes):
-    asked = {"settings": SETTINGS, "workers": 1, **changes}
-    return prepare("description", tmp_path / "data", tmp_path / "cache", **asked)
+def bring(tmp_path, kind="description", **changes):
+    asked = {"settings": SETTINGS, "workers": 1, "cache": tmp_path / "cache", **changes}
+    return prepare(kind, tmp_path / "data", **asked)
+
+
+def files_of(report):
+    return list(report.read.values())
 
 
 @pytest.fixture
@@ -57,60 +61,57 @@ def dataset(tmp_path):
 
 def test_good_objects_are_read_and_bad_ones_counted(dataset):
     prepared = bring(dataset)
-    assert prepared.report.read == ("cabinet_1", "cabinet_2")
-    assert prepared.report.counts == {"no_movable_joint": 1, "unreadable": 1}
-    assert prepared.report.made == 2
-    sampled = read_sampled(prepared.sampled_objects[0])
+    assert list(prepared.read) == ["cabinet_1", "cabinet_2"]
+    assert prepared.counts == {"no_movable_joint": 1, "unreadable": 1}
+    assert prepared.made == 2
+    sampled = read_sampled(files_of(prepared)[0])
     wanted = ("cabinet_1", "cabinet", "description")
     assert (sampled.name, sampled.category, sampled.source) == wanted
     assert sampled.points.shape == (64, 3)
-    said = json.loads((prepared.sampled_objects[0].parent / "data.json").read_text())
+    said = json.loads((files_of(prepared)[0].parent / "data.json").read_text())
     assert said["read"] == ["cabinet_1", "cabinet_2"]
     assert list(said["skipped"]["unreadable"]) == ["torn_1"]
-    assert "still_1" in "\n".join(prepared.report.lines())
+    assert "still_1" in "\n".join(prepared.lines())
 
 
 def test_again_does_nothing_and_notices_what_changed(dataset):
     first = bring(dataset)
-    stamps = [path.stat().st_mtime_ns for path in first.sampled_objects]
+    stamps = [path.stat().st_mtime_ns for path in files_of(first)]
     again = bring(dataset)
-    assert again.sampled_objects == first.sampled_objects
-    assert again.report.made == 0
-    assert [path.stat().st_mtime_ns for path in again.sampled_objects] == stamps
+    assert files_of(again) == files_of(first)
+    assert again.made == 0
+    assert [path.stat().st_mtime_ns for path in files_of(again)] == stamps
     cabinet(dataset / "data" / "cabinet_1", depth=0.4)
     altered = bring(dataset)
-    assert altered.report.made == 1
-    assert altered.sampled_objects[0] != first.sampled_objects[0]
-    assert altered.sampled_objects[1] == first.sampled_objects[1]
+    assert altered.made == 1
+    assert files_of(altered)[0] != files_of(first)[0]
+    assert files_of(altered)[1] == files_of(first)[1]
     (dataset / "data" / "cabinet_2" / "cabinet.urdf").unlink()
     fewer = bring(dataset)
-    assert fewer.report.read == ("cabinet_1",)
-    assert fewer.report.gone == ("cabinet_2",)
-    first.sampled_objects[1].unlink()
+    assert list(fewer.read) == ["cabinet_1"]
+    assert fewer.gone == ("cabinet_2",)
+    files_of(first)[1].unlink()
     cabinet(dataset / "data" / "cabinet_2")
-    assert bring(dataset).report.made == 1
+    assert bring(dataset).made == 1
 
 
 def test_same_object_same_bytes_anywhere(dataset, tmp_path):
-    one = bring(dataset).sampled_objects
-    other = prepare(
-        "description", dataset / "data", tmp_path / "elsewhere", settings=SETTINGS, workers=2
-    ).sampled_objects
+    one = files_of(bring(dataset))
+    other = files_of(bring(dataset, cache=tmp_path / "elsewhere", workers=2))
     assert [path.name for path in one] == [path.name for path in other]
     assert [path.read_bytes() for path in one] == [path.read_bytes() for path in other]
 
 
 def test_object_that_takes_too_long_is_passed_over_and_tried_again(dataset):
-    hasty = replace(SETTINGS, wall_s=0.001)
-    slow = prepare("description", dataset / "data", dataset / "cache", settings=hasty, workers=1)
-    assert slow.report.counts == {"timeout": 4}
-    assert bring(dataset).report.read == ("cabinet_1", "cabinet_2")
+    slow = bring(dataset, settings=replace(SETTINGS, wall_s=0.001))
+    assert slow.counts == {"timeout": 4}
+    assert list(bring(dataset).read) == ["cabinet_1", "cabinet_2"]
 
 
 def test_split_chooses_by_name(dataset):
     split = dataset / "train.txt"
     split.write_text("# for training\ncabinet_2   # a good one\n\nnot_there\n")
-    assert bring(dataset, split=split).report.read == ("cabinet_2",)
+    assert list(bring(dataset, split=split).read) == ["cabinet_2"]
     split.write_text("# nothing\n")
     with pytest.raises(ConfigError, match="names no object"):
         bring(dataset, split=split)
@@ -145,9 +146,8 @@ def test_front_turns_to_minus_y(dataset, front, origin):
 
 @pytest.mark.parametrize("front", ["-y", "x", "y", "-x"])
 def test_wrong_front_is_noticed_and_the_right_one_named(dataset, front):
-    asked = {"settings": replace(SETTINGS, front=front), "workers": 1}
-    prepared = prepare("description", dataset / "data", dataset / "cache", **asked)
-    advice = front_advice(prepared.sampled_objects, front)
+    prepared = bring(dataset, settings=replace(SETTINGS, front=front))
+    advice = front_advice(files_of(prepared), front)
     assert advice.endswith("as they should" if front == "-y" else "want -y: try --front -y")
 
 
@@ -155,9 +155,9 @@ def test_usd_is_read_in_a_process_of_its_own(tmp_path):
     pytest.importorskip("pxr")
     write(tmp_path / "data" / "cabinet_1", stage(CABINET))
     write(tmp_path / "data" / "cabinet_2", "PXR-USDC" + "\1" * 500, "asset.usdc")
-    prepared = prepare("usd", tmp_path / "data", tmp_path / "cache", settings=SETTINGS, workers=1)
-    assert prepared.report.read == ("cabinet_1",)
-    assert sum(prepared.report.counts.values()) == 1
+    prepared = bring(tmp_path, "usd")
+    assert list(prepared.read) == ["cabinet_1"]
+    assert sum(prepared.counts.values()) == 1
 
 
 def test_usd_without_its_library_says_what_to_install(dataset, monkeypatch):
@@ -176,10 +176,9 @@ def test_registered_assets_are_objects(tmp_path):
                 registry.add(entry, REPORT, staging / name)
         else:
             registry.add(entry, BAD_REPORT)
-    folders = (tmp_path / "data", tmp_path / "cache")
-    prepared = prepare("registry", *folders, settings=SETTINGS, workers=1)
-    assert prepared.report.read == ("cabinet-1",)
-    assert read_sampled(prepared.sampled_objects[0]).category == "cabinet"
+    prepared = bring(tmp_path, "registry")
+    assert list(prepared.read) == ["cabinet-1"]
+    assert read_sampled(files_of(prepared)[0]).category == "cabinet"
 
 
 def test_command_prints_the_report_and_writes_splits(dataset, capsys):

@@ -1,13 +1,12 @@
 """What the detector learns from: sides with their truth, and looks that keep it true."""
 
-import json
-
 import numpy as np
 import pytest
 
 from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS, WAYS, PanelWay, Sort
 from asset_factory.learn.detector.drawn import drawn_one_piece, drawn_sides
 from asset_factory.learn.detector.kinds import kind_number
+from asset_factory.learn.detector.labelled import LabelledObject, LabelledPart
 from asset_factory.learn.detector.sides import WholeTruth, labelled_sides
 from asset_factory.learn.detector.still import STILL, make_still
 from asset_factory.learn.objects import make_object
@@ -137,7 +136,7 @@ def test_the_network_learns_one_object_by_heart(shown):
     assert costs[-1] < 0.9 * costs[0]
 
 
-def test_a_pack_keeps_objects_and_labels(tmp_path):
+def test_a_pack_keeps_objects_and_labels(tmp_path, monkeypatch):
     import trimesh
     from PIL import Image
 
@@ -146,10 +145,10 @@ def test_a_pack_keeps_objects_and_labels(tmp_path):
     made = make_object("fridge", 2)
     y_up = made.mesh.vertices[:, [0, 2, 1]] * [1, 1, -1]
     trimesh.Trimesh(y_up, made.mesh.faces, process=False).export(real / "cold.glb")
-    (real / "INVENTORY.csv").write_text("file,kind,opens\ncold.glb,fridge,yes\n")
-    door = {"type": "revolute", "axis": [0, 0, 1], "plane": "xz", "box": [0, 0.5, 1, 1]}
-    (real / "openings.json").write_text(json.dumps({"cold": [door | {"hinge": [{"x": 0.0}]}]}))
-    (real / "fronts.json").write_text(json.dumps({"front": {}, "open_as_given": []}))
+    (real / "INVENTORY.csv").write_text("file\ncold.glb\n")
+    door = LabelledPart(Side.FRONT, Sort.DOOR, (0.0, 0.5, 1.0, 1.0), "left")
+    label = {"cold": LabelledObject("fridge", True, parts=(door,))}
+    monkeypatch.setattr("asset_factory.learn.detector.real.labelled_objects", lambda: label)
     textures = tmp_path / "textures"
     textures.mkdir()
     Image.new("RGB", (8, 8), (10, 200, 30)).save(textures / "green.jpg")

@@ -9,7 +9,7 @@ import pytest
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.intake.load import load
-from asset_factory.factory.models.detector.canvas import KINDS, SIDES, WAYS, PanelWay, Sort
+from asset_factory.factory.models.detector.canvas import KINDS, WAYS, PanelWay, Sort
 from asset_factory.factory.views.raster import Side
 from asset_factory.learn.detector import labelled, sweethome3d
 from asset_factory.learn.detector.labelled import EITHER, LabelledPart, labelled_objects
@@ -85,7 +85,7 @@ def test_labelled_models_are_written_upright_with_their_authors(furniture):
     mesh = load(furniture / "scopia__red_box.glb", IntakeConfig()).mesh
     assert mesh.extents / mesh.extents[0] == pytest.approx([1.0, 2.0, 4.0])
     (found,) = real_objects(furniture)
-    assert (found.kind, found.opens, SIDES[found.front]) == ("cabinet", True, Side.FRONT)
+    assert found.label == labelled.LabelledObject("cabinet", True, Side.FRONT, found.label.parts)
     (row,) = found.sides.instances.table()
     assert WAYS[int(row[7])] is PanelWay.RIGHT
     front = found.sides.canvases.color[0].reshape(-1, 3)

@@ -7,14 +7,13 @@ import pytest
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.geometry.components import connected_components
-from asset_factory.learn.objects import MixtureSettings, make_object, sample_object, training_object
+from asset_factory.learn.objects import MixtureSettings, make_object, sample_object
 from asset_factory.learn.objects.mixture import in_character
 
 
 @pytest.mark.parametrize("seed", range(12))
 def test_any_seed_gives_a_closed_object_with_a_joint_and_the_same_one_again(seed):
-    one = training_object(seed)
-    again = training_object(seed)
+    one, again = (sample_object(np.random.default_rng(seed))[1] for _ in range(2))
     assert one.movable_joints
     assert len(one.movable_joints) < 16
     assert all(joint.lower <= 0.0 for joint in one.joints)
@@ -60,6 +59,6 @@ def test_settings_from_a_file_are_checked():
     with pytest.raises(ConfigError, match="most_parts"):
         MixtureSettings(most_parts=1)
     with pytest.raises(ConfigError, match="too few for oven"):
-        training_object(0, MixtureSettings(categories=("oven",), most_parts=2))
+        sample_object(np.random.default_rng(0), MixtureSettings(categories=("oven",), most_parts=2))
     with pytest.raises(ValueError, match="want plain, artist, generated or skin"):
         in_character(make_object("chest", 0), "shiny", 0)

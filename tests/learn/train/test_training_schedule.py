@@ -1,5 +1,6 @@
 """Rates, running means, the start: closed forms."""
 
+import copy
 import math
 
 import pytest
@@ -7,9 +8,9 @@ import torch  # noqa: TID253
 
 from asset_factory.factory.models.network.shape import NetworkShape
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
+from asset_factory.learn.train.averaging import follow
 from asset_factory.learn.train.curves import Curve, draw_curves, read_curve
-from asset_factory.learn.train.descent import RunningMean
-from asset_factory.learn.train.settings import ScheduleSettings
+from asset_factory.learn.train.settings import OptimiserSettings, ScheduleSettings
 from asset_factory.learn.train.trainer import quieten
 from asset_factory.learn.train.validation import part_ious
 
@@ -28,15 +29,15 @@ def test_the_rate_climbs_a_line_and_falls_half_a_cosine():
 
 def test_the_running_mean_forgets_the_start_and_then_is_slow():
     layer = torch.nn.Linear(1, 1, bias=False)
-    mean = RunningMean(layer, 0.99)
+    mean = copy.deepcopy(layer)
     expected = layer.weight.item()
     for step in range(2000):
         with torch.no_grad():
             layer.weight.fill_(math.sin(step))
-        mean.update(layer, step)
+        follow(mean, layer, OptimiserSettings(ema=0.99).decay_at(step))
         decay = min(0.99, (1 + step) / (10 + step))
         expected = decay * expected + (1 - decay) * math.sin(step)
-    assert mean.weights["weight"].item() == pytest.approx(expected, abs=1e-5)
+    assert mean.weight.item() == pytest.approx(expected, abs=1e-5)
 
 
 def test_a_quiet_start_leaves_slow_sinusoids_and_coordinates_alone():
