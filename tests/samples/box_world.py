@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from fault_corpus.things import renewed
+from fault_corpus.things import renewed, words
 
 from asset_factory.sim_checks.description import (
     DescribedShape,
@@ -116,9 +116,9 @@ def with_link(description: Description, name: str, **changes: object) -> Descrip
 def write_urdf(folder: Path, boxes: Mapping[str, Box], joints: str) -> Path:
     """A URDF whose links are single primitive boxes in their own frames."""
     links = "".join(
-        f'<link name="{name}"><inertial><origin xyz="{_words(center)}"/><mass value="1"/>'
+        f'<link name="{name}"><inertial><origin xyz="{words(center)}"/><mass value="1"/>'
         '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f'<collision><origin xyz="{_words(center)}"/><geometry><box size="{_words(size)}"/>'
+        f'<collision><origin xyz="{words(center)}"/><geometry><box size="{words(size)}"/>'
         "</geometry></collision>"
         "</link>"
         for name, (center, size) in boxes.items()
@@ -126,7 +126,3 @@ def write_urdf(folder: Path, boxes: Mapping[str, Box], joints: str) -> Path:
     path = folder / "boxes.urdf"
     path.write_text(f'<robot name="boxes">{links}{joints}</robot>')
     return path
-
-
-def _words(values: Sequence[float]) -> str:
-    return " ".join(repr(float(value)) for value in values)
