@@ -1,7 +1,5 @@
 """One-piece skins with labelled patches: a box whose front or top opens."""
 
-from pathlib import Path
-
 import numpy as np
 import trimesh
 
@@ -66,40 +64,3 @@ def bin_with_lid():
     """A box whose upper eighth is a lid, hinged at the back."""
     hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [-1, 0, 0], [0, 0.25, 0.7], 0.0, 1.5)
     return labelled(*box_skin(), [lambda at: at[:, 2] > 0.7], [hinge])
-
-
-def write_skin(articulation, folder: Path) -> Path:
-    """A GLB (y up) and its ``pred.npz`` beside it; returns the GLB."""
-    mesh = articulation.mesh
-    up = mesh.vertices[:, [0, 2, 1]] * [1.0, 1.0, -1.0]
-    path = folder / "skin.glb"
-    trimesh.Trimesh(up, mesh.faces, process=False).export(path)
-    count = len(articulation.parts)
-    label = np.zeros(len(mesh.faces), dtype=np.int64)
-    for index, part in enumerate(articulation.parts):
-        label[part.faces] = index
-    fields = {
-        "face_part_ids": label,
-        "motion_hierarchy": np.array([[each.parent, each.child] for each in articulation.joints]),
-        "is_part_revolute": np.zeros(count, dtype=bool),
-        "is_part_prismatic": np.zeros(count, dtype=bool),
-        "revolute_plucker": np.zeros((count, 6)),
-        "revolute_range": np.zeros((count, 2)),
-        "prismatic_axis": np.zeros((count, 3)),
-        "prismatic_range": np.zeros((count, 2)),
-    }
-    for joint in articulation.joints:
-        axis = joint.axis[[0, 2, 1]] * [1.0, 1.0, -1.0]
-        origin = joint.origin[[0, 2, 1]] * [1.0, 1.0, -1.0]
-        limits = (joint.lower, joint.upper)
-        if joint.turns:
-            fields["is_part_revolute"][joint.child] = True
-            fields["revolute_plucker"][joint.child] = [*axis, *np.cross(axis, origin)]
-            fields["revolute_range"][joint.child] = limits
-        else:
-            fields["is_part_prismatic"][joint.child] = True
-            fields["prismatic_axis"][joint.child] = axis
-            fields["prismatic_range"][joint.child] = limits
-    np.savez(folder / "pred.npz", **fields)
-    (folder / "skin.toml").write_text('annotation = "pred.npz"\n')
-    return path

@@ -9,13 +9,13 @@ from boxy_urdf import write_cabinets
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.learn.evaluate import trial as trials
 from asset_factory.learn.evaluate.cases import make_case, procedural_requests, real_requests
 from asset_factory.learn.evaluate.listing import read_list
 from asset_factory.learn.evaluate.methods import Method
 from asset_factory.learn.evaluate.score import Score
 from asset_factory.learn.evaluate.summary import summarised
+from asset_factory.learn.objects.export import write_annotation
 from asset_factory.sim_checks.processes.isolation import Limits
 
 
@@ -70,39 +70,13 @@ def first_of(cabinets):
     return request.name, make_case(request)
 
 
-def write_truth(truth, path):
-    """The truth as the published model would write it."""
-    count = len(truth.parts)
-    fields = {
-        "face_part_ids": face_parts(truth),
-        "motion_hierarchy": np.array([[joint.parent, joint.child] for joint in truth.joints]),
-        "is_part_revolute": np.zeros(count, bool),
-        "is_part_prismatic": np.zeros(count, bool),
-        "revolute_plucker": np.zeros((count, 6)),
-        "revolute_range": np.zeros((count, 2)),
-        "prismatic_axis": np.zeros((count, 3)),
-        "prismatic_range": np.zeros((count, 2)),
-    }
-    for joint in truth.joints:
-        if joint.turns:
-            fields["is_part_revolute"][joint.child] = True
-            moment = np.cross(joint.axis, joint.origin)
-            fields["revolute_plucker"][joint.child] = [*joint.axis, *moment]
-            fields["revolute_range"][joint.child] = joint.lower, joint.upper
-        else:
-            fields["is_part_prismatic"][joint.child] = True
-            fields["prismatic_axis"][joint.child] = joint.axis
-            fields["prismatic_range"][joint.child] = joint.lower, joint.upper
-    np.savez(path, **fields)
-
-
 def test_predictions_are_read_from_files_and_missing_ones_are_scored_as_naive(
     cabinets, tmp_path, capsys
 ):
     name, truth = first_of(cabinets)
     given = tmp_path / "given"
     given.mkdir()
-    write_truth(truth, given / f"{name}.npz")
+    write_annotation(truth, np.eye(4), given / f"{name}.npz")
     flags = ("--method", "naive", "predictions", "--predictions", str(given))
     assert evaluate(cabinets, tmp_path / "out", *flags) == 0
     lines = {(line["method"], line["case"]): line for line in load(tmp_path / "out")["cases"]}

@@ -3,10 +3,11 @@
 import json
 
 import pytest
-from labelled_skins import cupboard, write_skin
+from labelled_skins import cupboard
 
 from asset_factory.factory.build import make_asset
 from asset_factory.factory.config import BuildConfig
+from asset_factory.learn.objects import write_sample
 from asset_factory.sim_checks.judge import Judge
 
 CONFIG = BuildConfig(simulators=("mujoco",))
@@ -15,7 +16,8 @@ CONFIG = BuildConfig(simulators=("mujoco",))
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("skin")
-    source = write_skin(cupboard(), folder)
+    write_sample(cupboard(), folder)
+    source = folder / "object.glb"
     with Judge(CONFIG.checks) as judge:
         staging = tmp_path_factory.mktemp("staging")
         cache = tmp_path_factory.mktemp("cache")
