@@ -60,18 +60,6 @@ def test_a_part_wholly_inside_another_is_caught():
     assert (found.code, found.value) == ("rest_penetration", pytest.approx(500.0))
 
 
-def test_two_parts_that_only_meet_when_both_are_half_open_are_reported():
-    left = body("left", [((-1.0, 0.0, 0.0), (0.8, 0.8, 0.2))])
-    front = body("front", [((0.0, -1.0, 0.0), (0.8, 0.8, 0.2))])
-    joints = [
-        joint("a", "prismatic", "base", "left", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 2.0)),
-        joint("b", "prismatic", "base", "front", (0, 0, 0), (0.0, 1.0, 0.0), (0.0, 2.0)),
-    ]
-    (finding,) = check(described([BASE, left, front], joints)).findings
-    assert finding.code == "joints_collide"
-    assert set(finding.parts) == {"left", "front"}
-
-
 def test_two_joints_are_looked_at_with_both_open():
     ranges = {"a": (0.0, 1.0), "b": (-1.0, 2.0)}
     assert combination_values(ranges, 0) == [{"a": 1.0, "b": 2.0}]

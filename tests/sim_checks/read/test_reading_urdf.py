@@ -63,14 +63,6 @@ def test_every_mesh_format_gives_the_same_triangles(tmp_path, suffix):
     assert np.ptp(shape.vertices, axis=0) == pytest.approx([1, 2, 3])
 
 
-def test_package_paths_are_found_by_their_tail(tmp_path):
-    (tmp_path / "meshes").mkdir()
-    trimesh.creation.box().export(tmp_path / "meshes" / "part.stl")
-    text = MESH.format("package://some_robot/meshes/part.stl")
-    description = read_description(urdf(tmp_path, text))
-    assert description.links[0].collisions[0].file == "meshes/part.stl"
-
-
 @pytest.mark.parametrize("scale", ["1e200 1 1", "nan 1 1", "1e7 1 1"])
 def test_a_mesh_scaled_beyond_all_measure_is_refused(tmp_path, scale):
     trimesh.creation.box().export(tmp_path / "part.obj")
