@@ -1,10 +1,10 @@
-"""A thousand random steps of every task on every asset: finite, repeatable, also in processes."""
+"""A thousand random steps of every task on every asset: finite and repeatable."""
 
 import numpy as np
 import pytest
-from making import HEADLESS, UNWARNED, make
+from making import UNWARNED, make
 
-from asset_factory.envs import TASKS, make_processes
+from asset_factory.envs import TASKS
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 pytestmark = [pytest.mark.full, *UNWARNED]
@@ -44,24 +44,3 @@ def test_a_thousand_steps_are_finite_the_same_again_and_can_be_gone_back_in(hous
         again, *_ = long_run(env, asset)
         assert np.array_equal(rows, again), asset
     env.close()
-
-
-@pytest.mark.parametrize("task", IDS)
-def test_processes_do_for_a_hundred_steps_what_each_would_do_alone(household, task):
-    several = make_processes(task, 3, registry=household, **HEADLESS)
-    together, _ = several.reset(seed=11)
-    rng = np.random.default_rng(0)
-    actions = rng.uniform(-1.0, 1.0, size=(100, *several.action_space.shape)).astype(np.float32)
-    steps = [several.step(action)[:2] for action in actions]
-    several.close()
-    for index in range(3):
-        single = make(household, task)
-        observation, _ = single.reset(seed=11 + index)
-        assert np.array_equal(observation[0].numpy(), together[index])
-        for action, (observations, rewards) in zip(actions, steps, strict=True):
-            observation, reward, terminated, *_ = single.step(action[index])
-            assert np.allclose(observation[0].numpy(), observations[index], atol=1e-6)
-            assert float(reward) == pytest.approx(float(rewards[index]), abs=1e-6)
-            if bool(terminated):
-                break
-        single.close()
