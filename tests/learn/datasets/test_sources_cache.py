@@ -32,17 +32,16 @@ HINGE = (
 
 def cabinet(folder, kind="revolute", depth=0.6):
     folder.mkdir(parents=True, exist_ok=True)
-    body = BOX.format("base", "0 0 0", f"1 {depth} 0.8") + BOX.format(
-        "door", "0.5 0 0", "1 0.02 0.8"
-    )
+    body = BOX.format("base", "0 0 0", f"1 {depth} 0.8")
+    body += BOX.format("door", "0.5 0 0", "1 0.02 0.8")
     path = folder / "cabinet.urdf"
     path.write_text(f'<robot name="cabinet">{body}{HINGE.format(kind)}</robot>', encoding="utf-8")
     return path
 
 
-def bring(tmp_path, **changes):
+def bring(folder, kind="description", data="data", **changes):
     asked = {"settings": SETTINGS, "workers": 1, **changes}
-    return prepare("description", tmp_path / "data", tmp_path / "cache", **asked)
+    return prepare(kind, folder / data, folder / "cache", **asked)
 
 
 @pytest.fixture
@@ -101,8 +100,7 @@ def test_same_object_same_bytes_anywhere(dataset, tmp_path):
 
 
 def test_object_that_takes_too_long_is_passed_over_and_tried_again(dataset):
-    hasty = replace(SETTINGS, wall_s=0.001)
-    slow = prepare("description", dataset / "data", dataset / "cache", settings=hasty, workers=1)
+    slow = bring(dataset, settings=replace(SETTINGS, wall_s=0.001))
     assert slow.report.counts == {"timeout": 4}
     assert bring(dataset).report.read == ("cabinet_1", "cabinet_2")
 
@@ -121,13 +119,13 @@ def test_split_chooses_by_name(dataset):
 
 def test_what_cannot_be_asked_is_said(dataset):
     with pytest.raises(ConfigError, match="there are description"):
-        prepare("nonsense", dataset / "data", dataset / "cache")
+        bring(dataset, "nonsense")
     with pytest.raises(ConfigError, match="is no folder"):
-        prepare("description", dataset / "nowhere", dataset / "cache")
+        bring(dataset, data="nowhere")
     with pytest.raises(ConfigError, match="holds no object"):
-        prepare("partnet", dataset / "data", dataset / "cache")
+        bring(dataset, "partnet")
     with pytest.raises(ConfigError, match="factory build"):
-        prepare("registry", dataset / "data", dataset / "cache")
+        bring(dataset, "registry")
 
 
 @pytest.mark.parametrize(
@@ -145,8 +143,7 @@ def test_front_turns_to_minus_y(dataset, front, origin):
 
 @pytest.mark.parametrize("front", ["-y", "x", "y", "-x"])
 def test_wrong_front_is_noticed_and_the_right_one_named(dataset, front):
-    asked = {"settings": replace(SETTINGS, front=front), "workers": 1}
-    prepared = prepare("description", dataset / "data", dataset / "cache", **asked)
+    prepared = bring(dataset, settings=replace(SETTINGS, front=front))
     advice = front_advice(prepared.sampled_objects, front)
     assert advice.endswith("as they should" if front == "-y" else "want -y: try --front -y")
 
@@ -155,7 +152,7 @@ def test_usd_is_read_in_a_process_of_its_own(tmp_path):
     pytest.importorskip("pxr")
     write(tmp_path / "data" / "cabinet_1", stage(CABINET))
     write(tmp_path / "data" / "cabinet_2", "PXR-USDC" + "\1" * 500, "asset.usdc")
-    prepared = prepare("usd", tmp_path / "data", tmp_path / "cache", settings=SETTINGS, workers=1)
+    prepared = bring(tmp_path, "usd")
     assert prepared.report.read == ("cabinet_1",)
     assert sum(prepared.report.counts.values()) == 1
 
@@ -163,7 +160,7 @@ def test_usd_is_read_in_a_process_of_its_own(tmp_path):
 def test_usd_without_its_library_says_what_to_install(dataset, monkeypatch):
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     with pytest.raises(ConfigError, match=r"asset-factory\[train\]"):
-        prepare("usd", dataset / "data", dataset / "cache")
+        bring(dataset, "usd")
 
 
 def test_registered_assets_are_objects(tmp_path):
@@ -176,8 +173,7 @@ def test_registered_assets_are_objects(tmp_path):
                 registry.publish(entry, staging / name, REPORT)
         else:
             registry.reject(entry, BAD_REPORT)
-    folders = (tmp_path / "data", tmp_path / "cache")
-    prepared = prepare("registry", *folders, settings=SETTINGS, workers=1)
+    prepared = bring(tmp_path, "registry")
     assert prepared.report.read == ("cabinet-1",)
     assert read_sampled(prepared.sampled_objects[0]).category == "cabinet"
 

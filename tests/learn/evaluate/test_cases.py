@@ -170,11 +170,6 @@ def test_procedural_objects_are_cases_too():
     assert case.movable_joints
 
 
-def test_unknown_poses_and_yaws_are_named(tmp_path):
-    with pytest.raises(ConfigError, match="no pose 'ajar'; there are closed, open"):
-        in_settings(procedural_requests(("cabinet",), (7,)), ("ajar",), ("front",))
-
-
 def test_a_folder_of_objects_with_joints(tmp_path):
     write_cabinets(tmp_path / "things")
     requests = folder_requests(tmp_path / "things")

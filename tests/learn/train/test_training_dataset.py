@@ -220,12 +220,6 @@ def test_a_generator_makes_each_object_once_and_uses_it_as_often_as_asked(config
     assert lanes == {0, 1, 2, 3}
 
 
-def test_held_out_examples_are_always_the_same(config, pools):
-    first, again = (held_out_samples(config, pools) for _ in range(2))
-    for one, other in zip(first, again, strict=True):
-        assert_equal(one, other)
-
-
 def test_a_split_names_the_files_and_the_digest_tells_them(config, tmp_path):
     (tmp_path / "split.txt").write_text("box-1\nbox-3.npz\n")
     source = replace(config.data[0], split=str(tmp_path / "split.txt"))
