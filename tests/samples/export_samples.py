@@ -6,8 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 import trimesh
 from PIL import Image
+from plain_solids import assembled
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.intake.intake import Provenance
 from asset_factory.factory.mesh import Material, Mesh, Texture, concatenate
@@ -45,17 +46,13 @@ def boxes_asset(
     meshes: list[Mesh], joints: tuple[Joint, ...], handles: dict[int, Handle] | None = None
 ) -> Asset:
     """One part ``part_<i>`` per mesh; a mesh without faces makes a carrier."""
-    starts = np.cumsum([0] + [len(m.faces) for m in meshes])
-    spans = [np.arange(starts[i], starts[i + 1]) for i in range(len(meshes))]
-    parts = tuple(Part(f"part_{i}", span) for i, span in enumerate(spans))
-    articulation = Articulation(concatenate(meshes), parts, joints, "test")
     bodies = tuple(
         PartBody((hull_of(m),), inertial_of(m), (handles or {}).get(i), "exact")
         if len(m.faces)
         else PartBody((), Inertial(0.01, np.zeros(3), np.eye(3) * 1e-5))
         for i, m in enumerate(meshes)
     )
-    return Asset("boxes", articulation, bodies)
+    return Asset("boxes", assembled(meshes, joints), bodies)
 
 
 def cabinet(looks: Sequence[Material] = (Material("red", (0.8, 0.1, 0.1, 1.0)),) * 3) -> Asset:

@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 import trimesh
+from plain_solids import assembled
 
-from asset_factory.factory.articulation import Articulation, Joint, Part
+from asset_factory.factory.articulation import Articulation, Joint
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.convex import hull_of
@@ -37,9 +38,7 @@ def hulls_of(solids: Sequence[Solid]) -> tuple[Hull, ...]:
 
 def held(body: Sequence[Solid], mover: Sequence[Solid], joint: Joint) -> Articulation:
     """The two as parts of one object."""
-    ends = np.cumsum([0, *(sum(len(each.faces) for each in solids) for solids in (body, mover))])
-    parts = (Part("body", np.arange(ends[1])), Part("mover", np.arange(ends[1], ends[2])))
-    return Articulation(mesh_of([*body, *mover]), parts, (joint,), "test")
+    return assembled([mesh_of(body), mesh_of(mover)], (joint,), PAIR)
 
 
 def cut(

@@ -1,12 +1,14 @@
 """Boxes and cylinders as meshes of one material."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import trimesh
 
-from asset_factory.factory.mesh import Material, Mesh
+from asset_factory.factory.articulation import Articulation, Joint, Part
+from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.learn.objects.kit import shapes
 
 Span = tuple[float, float]
@@ -37,6 +39,17 @@ def box_between(
     """A box of eight vertices and twelve faces between two corners [m]."""
     made = trimesh.creation.box(bounds=[low, high])
     return Mesh.from_triangles(made.vertices, made.faces, material)
+
+
+def assembled(
+    meshes: Sequence[Mesh], joints: Sequence[Joint], names: Sequence[str] = ()
+) -> Articulation:
+    """One part per mesh, ``part_<i>`` unless it is named; a mesh without faces makes a carrier."""
+    ends = np.cumsum([0, *(len(mesh.faces) for mesh in meshes)])
+    names = names or [f"part_{i}" for i in range(len(meshes))]
+    spans = zip(names, pairwise(ends), strict=True)
+    parts = tuple(Part(name, np.arange(*span)) for name, span in spans)
+    return Articulation(concatenate([*meshes]), parts, tuple(joints), "test")
 
 
 def signed_volume(mesh: Any) -> float:

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 
 import numpy as np
-from plain_solids import box, cylinder
+from plain_solids import assembled, box, cylinder
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody, Target
 from asset_factory.factory.manufacture.targets.find import find_targets
 from asset_factory.factory.manufacture.targets.handles import find_handle
@@ -37,12 +37,7 @@ def world(
     moving: Sequence[Mesh], joint: Joint = HINGE, still: Sequence[Mesh] = (BODY,)
 ) -> Articulation:
     """A body and one part that moves."""
-    mesh = concatenate([*still, *moving])
-    count = sum(len(m.faces) for m in still)
-    faces = np.arange(len(mesh.faces))
-    return Articulation(
-        mesh, (Part("body", faces[:count]), Part("front", faces[count:])), (joint,), "test"
-    )
+    return assembled([concatenate(still), concatenate(moving)], (joint,), ("body", "front"))
 
 
 def targets_of(articulation: Articulation) -> tuple[Target, ...]:
