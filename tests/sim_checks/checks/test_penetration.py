@@ -30,13 +30,6 @@ def sweep_of(result, name):
     return next(item for item in result.measurements["joints"] if item["joint"] == name)
 
 
-def test_a_sound_cabinet_passes_and_its_clearances_are_measured():
-    result = check(cabinet())
-    assert result.findings == ()
-    assert sweep_of(result, "slide")["clearance_mm"] == pytest.approx(2.0, abs=0.05)
-    assert sweep_of(result, "slide")["excess_mm"] == 0.0
-
-
 @pytest.mark.parametrize(
     ("defect", "code", "name", "parts", "depth"),
     [
