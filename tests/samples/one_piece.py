@@ -14,11 +14,11 @@ GROOVE = 0.006
 EDGE = 0.05
 
 
-def _engraved(solid, *lines, front=0.0):
-    """Grooves in the plane y = ``front``; lines run from (x, z) to (x, z) along an axis."""
+def _engraved(solid, *lines):
+    """Grooves in the plane y = 0; lines run from (x, z) to (x, z) along an axis."""
     half = GROOVE / 2.0
     for (x0, z0), (x1, z1) in lines:
-        groove = block((x0 - half, front - 1.0, z0 - half), (x1 + half, front + GROOVE, z1 + half))
+        groove = block((x0 - half, -1.0, z0 - half), (x1 + half, GROOVE, z1 + half))
         solid -= groove
     return solid
 
