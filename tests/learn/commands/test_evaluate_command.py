@@ -8,7 +8,6 @@ from boxy_urdf import write_cabinets
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import ParticulateConfig
-from asset_factory.factory.errors import InputRejected
 from asset_factory.learn.evaluate import trial as trials
 from asset_factory.learn.evaluate.cases import make_case, procedural_requests, real_requests
 from asset_factory.learn.evaluate.listing import read_list
@@ -147,17 +146,6 @@ def test_a_method_that_hangs_is_cut_off_and_not_scored(monkeypatch):
     row = next(trials.run_trials([one_trial()], 1, Limits(wall_s=8.0)))
     assert row.failure == "timeout: no answer within 8 s"
     assert row.score is None
-
-
-def refuses(trial):
-    raise InputRejected("no_movable_joint", "nothing on it moves")
-
-
-def test_a_method_without_an_answer_is_scored_as_if_nothing_moved(monkeypatch):
-    monkeypatch.setattr(trials, "score_trial", refuses)
-    row = next(trials.run_trials([one_trial()], 1, Limits(wall_s=120.0)))
-    assert row.failure.startswith("no_movable_joint")
-    assert row.score.values["articulated_iou"] == 0.0
 
 
 def test_repetitions_are_told_apart_and_their_spread_is_told():

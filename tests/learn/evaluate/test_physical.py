@@ -96,7 +96,6 @@ def test_a_part_found_and_left_where_it_is_scores_nothing_for_moving():
     assert score.pooled["recall"] == (0.0,)
     assert score.pooled["precision"] == ()
     assert score.pooled["left_fixed"] == (1.0,)
-    assert score.pooled["joint_right"] == (0.0,)
     assert score.pooled["type_accuracy"] == (0.0,)
 
 

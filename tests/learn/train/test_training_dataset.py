@@ -53,14 +53,6 @@ def assert_equal(one, other):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name), err_msg=name)
 
 
-def test_the_order_of_asking_changes_no_sample(config, pools):
-    one = Dataset(config, pools)
-    other = Dataset(config, pools)
-    for step in range(3):
-        one.sample(step, 1)
-    assert_equal(one.sample(3, 2), other.sample(3, 2))
-
-
 def test_other_steps_numbers_and_seeds_give_other_samples(config, pools):
     dataset = Dataset(config, pools)
     reseeded = Dataset(replace(config, seed=1), pools)
