@@ -15,7 +15,7 @@ from asset_factory.sim_checks.description import LinkInertia, Mimic
 from asset_factory.sim_checks.geometry.kinematics import build_tree, sound_mimics, unit_axis
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import UNJUDGED_CODES, Report, Severity
-from asset_factory.sim_checks.simulators.catalog import SIMULATORS, install_line, simulator
+from asset_factory.sim_checks.simulators.catalog import simulator
 from asset_factory.sim_checks.simulators.simulator import (
     LoadedJoint,
     LoadedLink,
@@ -294,20 +294,6 @@ def test_an_engine_that_does_not_answer_in_time_is_a_finding(description):
     (finding,) = in_simulator.judge_in_simulator(description, "mujoco", config).findings
     assert (finding.code, finding.severity) == ("simulator_timeout", Severity.ERROR)
     assert finding.code in UNJUDGED_CODES
-
-
-def test_an_unknown_engine_is_answered_with_the_ones_there_are():
-    with pytest.raises(
-        ValueError, match=r"sapien, mujoco, pybullet, newton; did you mean 'mujoco'\?"
-    ):
-        simulator("mujcoo")
-
-
-def test_every_engine_has_an_install_line():
-    assert [install_line(name) for name in SIMULATORS] == [
-        f"pip install 'asset-factory[{name}]'"
-        for name in ("sapien", "mujoco", "pybullet", "newton")
-    ]
 
 
 def loaded(description, name):
