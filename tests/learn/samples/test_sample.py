@@ -140,8 +140,7 @@ def test_half_of_the_points_lie_on_sharp_edges_and_the_same_seed_draws_the_same(
 )
 def test_files_that_training_would_stumble_over_are_refused(tmp_path, changes, says):
     box = next(found for found in map(box_sampled, range(20)) if len(found.parents) == 3)
-    arrays = {each.name: getattr(box, each.name) for each in fields(box)}
-    np.savez(tmp_path / "a.npz", **{**arrays, **changes})
+    np.savez(tmp_path / "a.npz", **{**vars(box), **changes})
     with pytest.raises(InputRejected, match=says) as refused:
         read_sampled(tmp_path / "a.npz")
     assert refused.value.code == "bad_sample"
@@ -149,9 +148,7 @@ def test_files_that_training_would_stumble_over_are_refused(tmp_path, changes, s
 
 def test_files_that_say_they_are_huge_are_refused_unread(tmp_path, monkeypatch):
     monkeypatch.setattr(sampled_objects, "MOST_BYTES", 1_000_000)
-    box = box_sampled(0)
-    arrays = {each.name: getattr(box, each.name) for each in fields(box)}
-    arrays |= {"points": np.zeros((200_000, 3))}
+    arrays = {**vars(box_sampled(0)), "points": np.zeros((200_000, 3))}
     np.savez_compressed(tmp_path / "bomb.npz", **arrays)
     with pytest.raises(InputRejected) as refused:
         read_sampled(tmp_path / "bomb.npz")
