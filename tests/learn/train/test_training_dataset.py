@@ -9,6 +9,7 @@ from queue import Queue
 import numpy as np
 import pytest
 from box_sampled_objects import write_boxes
+from boxy_urdf import URDF
 from tiny_recipe import recipe
 
 from asset_factory.factory.errors import ConfigError, InputRejected
@@ -27,15 +28,6 @@ from asset_factory.learn.train.dataset import (
 )
 from asset_factory.learn.train.recipes import parse_train_config
 from asset_factory.learn.train.settings import DataSource
-
-CABINET = """<robot name="cabinet">
-  <link name="base"><visual><geometry><box size="1 0.6 0.8"/></geometry></visual></link>
-  <link name="door"><visual><origin xyz="0.5 0 0"/>
-    <geometry><box size="1 0.02 0.8"/></geometry></visual></link>
-  <joint name="hinge" type="revolute"><parent link="base"/><child link="door"/>
-    <origin xyz="-0.5 -0.31 0"/><axis xyz="0 0 -1"/><limit lower="0" upper="1.5"/></joint>
-</robot>
-"""
 
 
 @pytest.fixture
@@ -179,7 +171,7 @@ def test_what_was_passed_over_is_told_and_counted(tmp_path):
     with pytest.raises(ConfigError, match=said):
         find_pools([source], tmp_path / "cache")
     (tmp_path / "data" / "two").mkdir()
-    (tmp_path / "data" / "two" / "a.urdf").write_text(CABINET)
+    (tmp_path / "data" / "two" / "a.urdf").write_text(URDF.format(name="two", height=0.6))
     pools = find_pools([source], tmp_path / "cache")
     read = len(pools[0].paths)
     assert read > 0

@@ -79,7 +79,7 @@ def test_a_run_leaves_weights_that_load_and_figures(output):
     assert curve["step"] == list(range(1, 13))
     assert np.mean(curve["total"][-3:]) < curve["total"][0]
     assert read_curve(output / "validation.csv")["step"] == [5, 10, 12]
-    assert (output / "curves.png").is_file()
+    assert (output / "curves.png").read_bytes().startswith(b"\x89PNG")
     assert read_state(output / "last.pt").step == 12
     assert read_state(output / "best.pt").step in (5, 10, 12)
 
