@@ -32,12 +32,13 @@ def test_observations_fit_their_space_over_every_asset(env):
         assert env.action_space.shape == env.action_space.sample().shape
 
 
-def test_a_seed_is_an_episode(env):
-    first = rollout(env, 7)
-    again = rollout(env, 7)
+def test_a_seed_is_an_episode_without_a_nan(env):
+    first = rollout(env, 7, 40)
+    again = rollout(env, 7, 40)
     other = rollout(env, 8)
+    assert np.isfinite(first).all()
     assert np.array_equal(first, again)
-    assert not np.array_equal(first, other)
+    assert not np.array_equal(first[: len(other)], other)
 
 
 def test_a_state_can_be_gone_back_to(env):
@@ -72,15 +73,6 @@ def test_rewards_are_dense_between_nothing_and_one_and_highest_at_success(env):
     away = put(env, joint.name, joint.lower if goal > 0.5 else joint.upper)
     assert not bool(away["success"])
     assert 0.0 <= float(task.compute_normalized_dense_reward(None, None, away)) < 0.9
-
-
-def test_random_steps_bring_no_nan(env):
-    env.reset(seed=4)
-    env.action_space.seed(0)
-    for step in range(40):
-        observation, reward, *_ = env.step(env.action_space.sample())
-        assert bool(np.isfinite(observation.numpy()).all()), step
-        assert bool(np.isfinite(reward.numpy()).all()), step
 
 
 @pytest.mark.parametrize("robot", ["panda", "fetch"])
