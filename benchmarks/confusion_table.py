@@ -18,8 +18,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "samples"))
 
-from fault_corpus.blind_spots import blind_spots  # noqa: E402 - it lives with the tests
-from fault_corpus.collection import ALL, broken, good  # noqa: E402
+from fault_corpus.collection import (  # noqa: E402 - it lives with the tests
+    ALL,
+    blind_spots,
+    broken,
+    good,
+)
 from fault_corpus.exhibits import DETECTORS, ENGINES, Exhibit  # noqa: E402
 
 from asset_factory.sim_checks import Finding, Report, Severity  # noqa: E402
@@ -59,13 +63,8 @@ class Row:
 
 
 def exhibits() -> list[Exhibit]:
-    """Everything: broken, blind spots, sound."""
-    spots = list(blind_spots())
-    unseen = [
-        Exhibit(spot.name, spot.build, spot.fault, "error", ()) for spot in spots if spot.fault
-    ]
-    alarms = [Exhibit(spot.name, spot.build, None, "error", ()) for spot in spots if not spot.fault]
-    return [*broken(), *unseen, *good(ALL), *alarms]
+    """Everything: broken, sound, blind spots."""
+    return [*broken(), *good(ALL), *blind_spots()]
 
 
 def shown(exhibit: Exhibit, judge: Judge) -> Row:

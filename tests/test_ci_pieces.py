@@ -10,28 +10,21 @@ from pathlib import Path
 
 import pytest
 import yaml
+from box_world import write_urdf
+from ros_packages import SLIDE
 
 ROOT = Path(__file__).resolve().parents[1]
-BODY = (
-    '<inertial><origin xyz="{0}"/><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" '
-    'ixy="0" ixz="0" iyz="0"/></inertial><collision><origin xyz="{0}"/>'
-    '<geometry><box size="0.4 0.2 0.2"/></geometry></collision>'
-)
-URDF = f"""<robot name="r">
-<link name="shell">{BODY.format("0 0 0")}</link>
-<link name="drawer">{BODY.format("0 0.204 0")}</link>
-<joint name="slide" type="prismatic"><parent link="shell"/><child link="drawer"/>
-<axis xyz="LENGTH 0 0"/><limit lower="0" upper="0.3" effort="10" velocity="1"/></joint></robot>
-"""
+BOXES = {"shell": ((0, 0, 0), (0.4, 0.2, 0.2)), "drawer": ((0, 0.204, 0), (0.4, 0.2, 0.2))}
 
 
 @pytest.fixture
 def repository(tmp_path):
     """A folder of assets, one sound and one not, where ``factory`` is this checkout's."""
     for name, length in (("sound", "1"), ("broken", "2")):
-        path = tmp_path / "assets" / f"{name}.urdf"
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(URDF.replace("LENGTH", length))
+        slide = SLIDE.replace("1 0 0", f"{length} 0 0")
+        path = write_urdf(tmp_path, BOXES, f"\n\n\n{slide}")
+        (tmp_path / "assets").mkdir(exist_ok=True)
+        path.rename(tmp_path / "assets" / f"{name}.urdf")
     program = tmp_path / "bin" / "factory"
     program.parent.mkdir()
     program.write_text(f'#!/bin/sh\nexec {sys.executable} -m asset_factory.factory.cli "$@"\n')

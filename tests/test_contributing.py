@@ -46,7 +46,7 @@ EXAMPLES = {
 
 
 def example(heading, monkeypatch, **names):
-    """The example of a section as the module that it says it is, with ``LINE``."""
+    """The line of a section's example, which becomes the module that it says it is."""
     found = EXAMPLES[heading]
     assert found is not None, f"no example under {heading!r}"
     path = found[1].splitlines()[0].removeprefix("# ").removesuffix(".py")
@@ -54,12 +54,20 @@ def example(heading, monkeypatch, **names):
     vars(module).update(names)
     monkeypatch.setitem(sys.modules, module.__name__, module)
     exec(compile(found[1], str(PAGE), "exec"), vars(module))  # noqa: S102 - our own page
-    return module
+    return module.LINE
+
+
+def listed(heading, monkeypatch, module, table, **names):
+    """The example's line, in its place at the end of a module's table."""
+    line = example(heading, monkeypatch, **names)
+    lines = getattr(module, table)
+    more = (*lines, line) if isinstance(lines, tuple) else {**lines, line.name: line}
+    monkeypatch.setattr(module, table, more)
+    return line
 
 
 def test_a_mesh_format(tmp_path, monkeypatch):
-    line = example("A mesh format", monkeypatch, MeshFormat=formats.MeshFormat).LINE
-    monkeypatch.setattr(formats, "FORMATS", (*formats.FORMATS, line))
+    listed("A mesh format", monkeypatch, formats, "FORMATS", MeshFormat=formats.MeshFormat)
     corners = trimesh.creation.box((0.6, 0.4, 0.8)).triangles
     (tmp_path / "in").mkdir()
     path = tmp_path / "in" / "box.tri"
@@ -71,46 +79,37 @@ def test_a_mesh_format(tmp_path, monkeypatch):
         load_mesh(path, IntakeConfig())
 
 
-def box():
+def articulated(heading, name, monkeypatch):
+    """The one joint that the example's articulator finds on a box called like it."""
+    entry = articulators.ArticulatorEntry
+    line = listed(heading, monkeypatch, articulators, "ARTICULATORS", ArticulatorEntry=entry)
     shape = trimesh.creation.box((0.6, 0.4, 0.8)).subdivide().subdivide().subdivide()
-    return Mesh.from_triangles(shape.vertices, shape.faces)
+    mesh = Mesh.from_triangles(shape.vertices, shape.faces)
+    intake = Intake(name, mesh, np.arange(len(mesh.faces)), np.eye(4), Provenance(name, "0"))
+    chosen = articulators.choose(intake, BuildConfig(articulator=line.name))
+    (joint,) = chosen.articulate(mesh).movable_joints
+    return joint
 
 
 def test_an_articulator(monkeypatch):
-    entry = articulators.ArticulatorEntry
-    line = example("An articulator", monkeypatch, ArticulatorEntry=entry).LINE
-    table = {**articulators.ARTICULATORS, line.name: line}
-    monkeypatch.setattr(articulators, "ARTICULATORS", table)
-    mesh = box()
-    intake = Intake("it", mesh, np.arange(len(mesh.faces)), np.eye(4), Provenance("it.obj", "0"))
-    chosen = articulators.choose(intake, BuildConfig(articulator="lid_only"))
-    assert [joint.name for joint in chosen.articulate(mesh).movable_joints] == ["lid_hinge"]
+    assert articulated("An articulator", "it", monkeypatch).name == "lid_hinge"
 
 
 def test_a_proposer(monkeypatch):
-    entry = articulators.ArticulatorEntry
-    line = example("A proposer", monkeypatch, ArticulatorEntry=entry).LINE
-    table = {**articulators.ARTICULATORS, line.name: line}
-    monkeypatch.setattr(articulators, "ARTICULATORS", table)
-    mesh = box()
-    faces = np.arange(len(mesh.faces))
-    intake = Intake("my_chest", mesh, faces, np.eye(4), Provenance("my_chest.obj", "0"))
-    chosen = articulators.choose(intake, BuildConfig(articulator="by_name"))
-    (joint,) = chosen.articulate(mesh).movable_joints
+    joint = articulated("A proposer", "my_chest", monkeypatch)
     assert joint.name == "lid_0_hinge"
     assert joint.origin[1:] == pytest.approx([0.2, 0.24], abs=0.01)
 
 
 def test_a_decomposition(monkeypatch):
-    line = example("A decomposition", monkeypatch).LINE
+    line = example("A decomposition", monkeypatch)
     monkeypatch.setattr(methods, "METHODS", (line, *methods.METHODS))
     split = methods.split_solid(Manifold.sphere(0.5), 0.005, DecomposeConfig())
     assert len(split.hulls) == 2
 
 
 def test_a_repair(monkeypatch):
-    line = example("A repair", monkeypatch).LINE
-    monkeypatch.setattr(repair, "REPAIRS", (*repair.REPAIRS, line))
+    listed("A repair", monkeypatch, repair, "REPAIRS")
     jammed = Finding("jammed", Severity.ERROR, "it jams", joint="button")
     verdict = Verdict(Report("asset.urdf", findings=(jammed,)))
     spare = Spare(frozenset({"button"}))
@@ -122,8 +121,7 @@ def test_a_repair(monkeypatch):
 
 def test_an_export_format(monkeypatch, tmp_path):
     tools = {"Format": export_formats.Format, "as_text": export_formats.as_text}
-    line = example("An export format", monkeypatch, **tools).LINE
-    monkeypatch.setattr(export_formats, "FORMATS", (*export_formats.FORMATS, line))
+    listed("An export format", monkeypatch, export_formats, "FORMATS", **tools)
     asset = small_asset()
     export_bundle(asset, PROVENANCE, tmp_path, formats=("joints",))
     rows = (tmp_path / "joints.csv").read_text().splitlines()
@@ -131,8 +129,7 @@ def test_an_export_format(monkeypatch, tmp_path):
 
 
 def test_a_check(monkeypatch, tmp_path):
-    line = example("A check", monkeypatch, StaticCheck=checks.StaticCheck).LINE
-    monkeypatch.setattr(checks, "CHECKS", (*checks.CHECKS, line))
+    listed("A check", monkeypatch, checks, "CHECKS", StaticCheck=checks.StaticCheck)
     examined = examine_here(write_urdf(tmp_path), CheckConfig())
     assert examined.measurements["few_links"] == {"links": 3}
     assert "many_links" in {finding.code for finding in examined.findings}
@@ -140,9 +137,7 @@ def test_a_check(monkeypatch, tmp_path):
 
 def test_a_simulator(monkeypatch, tmp_path):
     pytest.importorskip("mujoco")
-    line = example("A simulator", monkeypatch).LINE
-    table = {**simulators.SIMULATORS, line.name: line}
-    monkeypatch.setattr(simulators, "SIMULATORS", table)
+    listed("A simulator", monkeypatch, simulators, "SIMULATORS")
     assert simulators.installed("stricter")
     world = simulators.simulator("stricter").open(write_urdf(tmp_path), CheckConfig().motion)
     try:
@@ -157,7 +152,7 @@ def test_a_task(monkeypatch, tmp_path):
 
     line = tasks.Task("HalfOpen-v1", "half_open", "HalfOpenEnv")
     monkeypatch.setattr(tasks, "TASKS", (*tasks.TASKS, line))
-    assert line == example("A task", monkeypatch, Task=tasks.Task).LINE
+    assert line == example("A task", monkeypatch, Task=tasks.Task)
     tasks.register_tasks()
     modes = {"obs_mode": "state", "sim_backend": "physx_cpu", "render_backend": "none"}
     registry = write_registry(tmp_path, cabinet())
@@ -171,8 +166,7 @@ def test_a_task(monkeypatch, tmp_path):
 
 
 def test_a_command(monkeypatch, tmp_path, capsys):
-    line = example("A command", monkeypatch, Command=cli.Command).LINE
-    monkeypatch.setattr(cli, "COMMANDS", (*cli.COMMANDS, line))
+    listed("A command", monkeypatch, cli, "COMMANDS", Command=cli.Command)
     Registry(tmp_path / "new", create=True)
     assert cli.run(["count", "--output", str(tmp_path / "new")]) == 0
     assert capsys.readouterr().out == "0\n"

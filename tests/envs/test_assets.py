@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from openable_samples import assemble, box, cabinet, oven, valve, write_registry
+from openable_samples import cabinet, oven, valve, write_registry
 
 from asset_factory.envs.assets import read_registry
 from asset_factory.factory.errors import RegistryError
@@ -25,11 +25,6 @@ def test_every_asset_is_read_in_order_of_id(tmp_path):
     assert list(read) == ["cabinet", "oven", "valve"]
     assert [joint.name for joint in read["cabinet"].openable] == ["hinge", "slide"]
     assert read["cabinet"].urdf.is_file()
-
-
-def test_an_asset_without_joints_has_nothing_to_open(tmp_path):
-    registry = write_registry(tmp_path, assemble("stone", [box([0, 0, 0], [1, 1, 1])], (), {}))
-    assert read_registry(registry)["stone"].openable == ()
 
 
 def test_a_joint_without_end_gets_a_quarter_turn(tmp_path):

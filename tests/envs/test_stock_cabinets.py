@@ -1,6 +1,7 @@
 """ManiSkill's own cabinet tasks run on a registry's assets."""
 
 import sys
+from functools import partial
 from xml.etree import ElementTree
 
 import numpy as np
@@ -16,26 +17,18 @@ pytestmark = UNWARNED
 BLIND = {"render_backend": "none", "sim_backend": "physx_cpu", "obs_mode": "state"}
 
 
-def drawers(household, **options):
-    from mani_skill.envs.tasks.mobile_manipulation.open_cabinet_drawer import OpenCabinetDrawerEnv
+def stock(task, household, **options):
+    """A cabinet task of ManiSkill's own over a registry."""
+    from mani_skill.envs.tasks.mobile_manipulation import open_cabinet_drawer
 
     from asset_factory.envs.stock import RegistryCabinets
 
-    class OpenMyDrawers(RegistryCabinets, OpenCabinetDrawerEnv):
-        pass
-
-    return OpenMyDrawers(registry=household, **BLIND, **options)
+    own = type(f"My{task}", (RegistryCabinets, getattr(open_cabinet_drawer, task)), {})
+    return own(registry=household, **BLIND, **options)
 
 
-def doors(household, **options):
-    from mani_skill.envs.tasks.mobile_manipulation.open_cabinet_drawer import OpenCabinetDoorEnv
-
-    from asset_factory.envs.stock import RegistryCabinets
-
-    class OpenMyDoors(RegistryCabinets, OpenCabinetDoorEnv):
-        pass
-
-    return OpenMyDoors(registry=household, **BLIND, **options)
+drawers = partial(stock, "OpenCabinetDrawerEnv")
+doors = partial(stock, "OpenCabinetDoorEnv")
 
 
 @pytest.mark.parametrize(("make", "kinds"), [(drawers, {"cabinet"}), (doors, set(HOUSEHOLD))])

@@ -1,10 +1,8 @@
 """Objects of boxes as points: a body with doors and drawers in front, without a mesh."""
 
-from dataclasses import fields
-
 import numpy as np
 
-from asset_factory.learn.samples.sampled_object import SampledObject
+from asset_factory.learn.samples.sampled_object import SampledObject, write_sampled
 
 
 def box_sampled(seed, points=600):
@@ -47,8 +45,7 @@ def write_boxes(folder, count, first=0):
     folder.mkdir(parents=True, exist_ok=True)
     for seed in range(first, first + count):
         sampled = box_sampled(seed)
-        arrays = {each.name: getattr(sampled, each.name) for each in fields(SampledObject)}
-        np.savez(folder / f"{sampled.name}.npz", **arrays)
+        write_sampled(folder / f"{sampled.name}.npz", sampled)
     return folder
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from fault_corpus.things import renewed
+from fault_corpus.things import renewed, words
 
 from asset_factory.sim_checks.description import (
     DescribedShape,
@@ -105,6 +105,30 @@ def cabinet(defect: str = "none") -> Description:
     return described(links, joints)
 
 
+def chain(links: int) -> Description:
+    """Boxes in a row, each on a hinge at the end of the one before, 2 mm apart."""
+    pitch = 0.102
+    bodies = [
+        body(f"l{i}", [((pitch * i + 0.05, 0.0, 0.0), (0.1, 0.05, 0.05))], (pitch * i, 0.0, 0.0))
+        for i in range(links)
+    ]
+    turn = ((pitch, 0, 0), (0.0, 0.0, 1.0), (0.0, 0.02))
+    hinges = [joint(f"j{i}", "revolute", f"l{i - 1}", f"l{i}", *turn) for i in range(1, links)]
+    return described(bodies, hinges)
+
+
+def keyboard(keys: int) -> Description:
+    """Keys in a row, 2 mm apart, that go down into nothing."""
+    bodies = [body("base", [((0.0, 0.0, -1.0), (1.0, 1.0, 0.1))])]
+    slides = []
+    for i in range(keys):
+        at = (0.02 * i, 0.0, 0.0)
+        bodies.append(body(f"k{i}", [(at, (0.018, 0.018, 0.01))], at))
+        way = (at, (0.0, 0.0, -1.0), (0.0, 0.004))
+        slides.append(joint(f"j{i}", "prismatic", "base", f"k{i}", *way))
+    return described(bodies, slides)
+
+
 def with_joint(description: Description, name: str, **changes: object) -> Description:
     return replace(description, joints=renewed(description.joints, name, **changes))
 
@@ -116,9 +140,9 @@ def with_link(description: Description, name: str, **changes: object) -> Descrip
 def write_urdf(folder: Path, boxes: Mapping[str, Box], joints: str) -> Path:
     """A URDF whose links are single primitive boxes in their own frames."""
     links = "".join(
-        f'<link name="{name}"><inertial><origin xyz="{_words(center)}"/><mass value="1"/>'
+        f'<link name="{name}"><inertial><origin xyz="{words(center)}"/><mass value="1"/>'
         '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f'<collision><origin xyz="{_words(center)}"/><geometry><box size="{_words(size)}"/>'
+        f'<collision><origin xyz="{words(center)}"/><geometry><box size="{words(size)}"/>'
         "</geometry></collision>"
         "</link>"
         for name, (center, size) in boxes.items()
@@ -126,7 +150,3 @@ def write_urdf(folder: Path, boxes: Mapping[str, Box], joints: str) -> Path:
     path = folder / "boxes.urdf"
     path.write_text(f'<robot name="boxes">{links}{joints}</robot>')
     return path
-
-
-def _words(values: Sequence[float]) -> str:
-    return " ".join(repr(float(value)) for value in values)

@@ -3,8 +3,9 @@
 from dataclasses import replace
 
 import numpy as np
+from plain_solids import parted
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Joint, JointKind, Part
 from asset_factory.factory.mesh import Mesh
 
 DIVISIONS = 40
@@ -21,15 +22,10 @@ def sheet(y):
     return vertices, np.concatenate([np.stack(half, axis=1) for half in halves])
 
 
-def cupboard(joint, name="true"):
+def cupboard(joint):
     """The wall is 1 m behind the front; ``joint`` holds the front."""
-    (wall, faces) = sheet(1.0)
-    (front, _) = sheet(0.0)
-    both = np.concatenate([faces, faces + len(wall)])
-    mesh = Mesh.from_triangles(np.concatenate([wall, front]), both)
-    count = len(faces)
-    parts = (Part("wall", np.arange(count)), Part("front", np.arange(count, 2 * count)))
-    return Articulation(mesh, parts, (joint,), name)
+    sheets = {"wall": sheet(1.0), "front": sheet(0.0)}
+    return parted({name: [Mesh.from_triangles(*each)] for name, each in sheets.items()}, joint)
 
 
 def hinge(x=0.0, upper=1.5, sign=-1.0, lower=0.0, kind=JointKind.REVOLUTE):

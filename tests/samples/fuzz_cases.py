@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 import usda
-from mesh_cube import WRITERS, cube, gltf_parts, pack_glb, png, write_obj, write_stl
+from mesh_cube import WRITERS, gltf_parts, pack_glb, write_obj, write_stl
 
 #: Stands in a file for the folder outside, which nobody may look into.
 OUTSIDE = b"@OUTSIDE@"
@@ -268,6 +268,3 @@ def seeds() -> dict[str, Case]:
     add("safetensors", "weights", "w.safetensors", {"w.safetensors": safetensors()})
     add("pt", "weights", "w.pt", {"w.pt": torch_file()})
     return found
-
-
-__all__ = ["OUTSIDE", "Case", "cube", "png", "seeds"]

@@ -15,7 +15,8 @@ from multiprocessing import forkserver
 from pathlib import Path
 from typing import Any
 
-from fuzz_cases import OUTSIDE, Case, png
+from fuzz_cases import OUTSIDE, Case
+from mesh_cube import png
 
 from asset_factory.sim_checks.processes.isolation import preload
 

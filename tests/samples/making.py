@@ -31,10 +31,10 @@ def put(env: Any, joint: str, value: float) -> dict[str, Any]:
     return task.evaluate()
 
 
-def rollout(env: Any, seed: int, steps: int = 3) -> Any:
-    """Observations and rewards of a short episode with fixed actions, one row per step."""
+def rollout(env: Any, seed: int, steps: int = 3, **options: Any) -> Any:
+    """Observations and rewards of an episode with fixed actions, one row per step."""
     rng = np.random.default_rng(0)
-    observation, _ = env.reset(seed=seed)
+    observation, _ = env.reset(seed=seed, options=options)
     rows = [np.append(np.ravel(observation), 0.0)]
     for _ in range(steps):
         action = rng.uniform(-1.0, 1.0, size=env.action_space.shape).astype(np.float32)

@@ -4,6 +4,7 @@ import io
 import json
 import struct
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -159,14 +160,6 @@ def write_ply(folder: Path, name: str = "cube.ply", *, form: str = "binary_littl
     return folder / name
 
 
-def write_ply_ascii(folder: Path) -> Path:
-    return write_ply(folder, form="ascii")
-
-
-def write_ply_big(folder: Path) -> Path:
-    return write_ply(folder, form="binary_big_endian")
-
-
 def write_stl(folder: Path, name: str = "cube.stl") -> Path:
     shape = cube()
     records = np.zeros(12, dtype=[("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")])
@@ -202,8 +195,8 @@ WRITERS: dict[str, Callable[[Path], Path]] = {
     "gltf": write_gltf,
     "obj": write_obj,
     "ply": write_ply,
-    "ply_ascii": write_ply_ascii,
-    "ply_big": write_ply_big,
+    "ply_ascii": partial(write_ply, form="ascii"),
+    "ply_big": partial(write_ply, form="binary_big_endian"),
     "stl": write_stl,
     "stl_ascii": write_stl_ascii,
     "off": write_off,

@@ -10,6 +10,7 @@ from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Asset
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Provenance
+from asset_factory.factory.manufacture.targets.find import find_targets
 from asset_factory.factory.mesh import Material, Mesh
 from asset_factory.factory.part import Handle
 
@@ -78,6 +79,29 @@ def train() -> Asset:
         meshes,
         joints,
         {i: Handle([0.0, y, 0.3], FRONT, FRONT) for i, y in ((1, -0.25), (2, -0.4))},
+    )
+
+
+def fin(name: str, height: float = 0.6, friction: float = 20.0) -> Asset:
+    """A block out of whose front a narrow fin is pulled; ``friction`` [N]."""
+    meshes = [
+        box([0.0, 0.0, 0.5 * height], [0.4, 0.4, height]),
+        box([0.0, -0.26, height - 0.1], [0.02, 0.1, 0.12]),
+    ]
+    slide = Joint(
+        "slide",
+        JointKind.PRISMATIC,
+        0,
+        1,
+        FRONT,
+        [0.0, -0.26, height - 0.1],
+        0.0,
+        0.15,
+        friction=friction,
+    )
+    asset = assemble(name, meshes, (slide,), {1: Handle([0.0, -0.31, height - 0.1], FRONT, FRONT)})
+    return replace(
+        asset, targets=find_targets(asset.articulation, [body.hulls for body in asset.bodies])
     )
 
 

@@ -16,13 +16,13 @@ MESHES = {
 }
 
 
-def write_meshes(folder: Path, suffix: str = ".obj") -> None:
+def write_meshes(folder: Path) -> None:
     """Write a box for each link."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, (size, center) in MESHES.items():
         box = trimesh.creation.box(size)
         box.apply_translation(center)
-        box.export(folder / f"{name}{suffix}")
+        box.export(folder / f"{name}.obj")
 
 
 def link(name: str, reference: str) -> str:
@@ -38,10 +38,10 @@ def link(name: str, reference: str) -> str:
     )
 
 
-def urdf_text(before: str, inside: str = SLIDE, suffix: str = ".obj") -> str:
+def urdf_text(before: str) -> str:
     """Return a cabinet whose meshes' names begin so."""
-    links = "".join(link(name, f"{before}{name}{suffix}") for name in MESHES)
-    return f'<?xml version="1.0"?><robot name="cabinet">{links}{inside}</robot>'
+    links = "".join(link(name, f"{before}{name}.obj") for name in MESHES)
+    return f'<?xml version="1.0"?><robot name="cabinet">{links}{SLIDE}</robot>'
 
 
 def write_package(folder: Path, name: str, before: str, urdf: str = "urdf/cabinet.urdf") -> Path:

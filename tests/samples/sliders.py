@@ -69,9 +69,6 @@ class Sliders:
     def contacts(self) -> dict[tuple[str, str], Touch]:
         return {("block0", "post"): Touch(self._pressed, 0.0)}
 
-    def close(self) -> None:
-        """Nothing is open."""
-
     def step(self, forces: FloatArray) -> None:
         self.steps += 1
         self._pressed = 0.0
@@ -89,9 +86,3 @@ class Sliders:
             self._q[0] = wall
             self._v[0] = 0.0
             self._pressed = float(net[0])
-
-    def link_poses(self) -> dict[str, FloatArray]:
-        return {}
-
-    def warnings(self) -> tuple[str, ...]:
-        return ()

@@ -36,10 +36,9 @@ objects = 4
 points = 64
 
 [run]
-workers = {workers}
+workers = 0
 threads = 1
 device = "cpu"
-micro_batch = {micro_batch}
 log_every = 4
 checkpoint_every = 3
 validate_every = 5
@@ -54,8 +53,6 @@ path = "{data}"
 """
 
 
-def recipe(data, *, steps=12, dropout=0.1, workers=0, micro_batch=0):
+def recipe(data, *, steps=12, dropout=0.1):
     """The TOML, with sampled objects from a folder."""
-    return TEXT.format(
-        data=data, steps=steps, dropout=dropout, workers=workers, micro_batch=micro_batch
-    )
+    return TEXT.format(data=data, steps=steps, dropout=dropout)

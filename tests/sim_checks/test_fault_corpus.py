@@ -4,8 +4,7 @@ import re
 import warnings
 
 import pytest
-from fault_corpus.blind_spots import blind_spots
-from fault_corpus.collection import broken, good
+from fault_corpus.collection import blind_spots, broken, good
 from fault_corpus.exhibits import ENGINES
 
 from asset_factory.sim_checks import Report
@@ -65,11 +64,11 @@ def test_what_is_sound_passes_on_paper_and_in_every_engine(exhibit, tmp_path, ju
     assert report.errors == ()
 
 
-@pytest.mark.parametrize("spot", list(blind_spots()), ids=lambda spot: spot.name)
-def test_a_known_blind_spot_is_still_one(spot, tmp_path, judge):
+@named(blind_spots())
+def test_a_known_blind_spot_is_still_one(exhibit, tmp_path, judge):
     """When the judge learns to see one, it moves to the other exhibits."""
-    passed = judge.check(spot.build(tmp_path), ENGINES).passed
-    assert passed == (spot.fault is not None), spot.reason
+    passed = judge.check(exhibit.build(tmp_path), ENGINES).passed
+    assert passed == (exhibit.code is not None)
 
 
 @pytest.mark.parametrize("name", ["fronts_overlap.urdf", "knuckle.mjcf"])
@@ -86,6 +85,6 @@ def test_a_report_depends_on_neither_place_nor_what_was_judged_before(name, tmp_
 
 
 def test_names_are_unique_and_codes_are_codes():
-    names = [exhibit.name for exhibit in (*GOOD, *BROKEN)] + [spot.name for spot in blind_spots()]
+    names = [exhibit.name for exhibit in (*GOOD, *BROKEN, *blind_spots())]
     assert len(set(names)) == len(names)
     assert all(re.fullmatch(r"[a-z_]+", exhibit.code or "") for exhibit in BROKEN)

@@ -40,8 +40,9 @@ def test_an_unreadable_file_is_one_finding_and_no_simulator_is_asked(tmp_path):
 
 
 def test_an_unknown_simulator_is_wrong_usage(tmp_path):
-    with pytest.raises(ValueError, match="there are sapien"):
-        run_checks(drawer(tmp_path, 0.003), ("sapient",))
+    told = r"there are sapien, mujoco, pybullet, newton; did you mean 'mujoco'\?"
+    with pytest.raises(ValueError, match=told):
+        run_checks(drawer(tmp_path, 0.003), ("mujcoo",))
 
 
 def die(*_):

@@ -6,8 +6,7 @@ import shutil
 import numpy as np
 import pytest
 from making import UNWARNED
-from openable_samples import write_registry
-from solvable_samples import fin
+from openable_samples import fin, write_registry
 
 from asset_factory.envs.demos import Episode, Settings, Shard, Taken
 from asset_factory.envs.demos.files import write_shard

@@ -7,8 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from making import UNWARNED
-from openable_samples import write_registry
-from solvable_samples import fin
+from openable_samples import fin, write_registry
 
 from asset_factory.envs.solving import REASONS, driving, film, make_episodes, replay, solve_joint
 from asset_factory.envs.solving.solve import SolveTask, attempted

@@ -1,10 +1,10 @@
-"""A thousand random steps of every task on every asset: finite, repeatable, also in processes."""
+"""A thousand random steps of every task on every asset: finite and repeatable."""
 
 import numpy as np
 import pytest
-from making import HEADLESS, UNWARNED, make
+from making import UNWARNED, make, rollout
 
-from asset_factory.envs import TASKS, make_processes
+from asset_factory.envs import TASKS
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 pytestmark = [pytest.mark.full, *UNWARNED]
@@ -13,55 +13,23 @@ STEPS = 1000
 IDS = [task.id for task in TASKS]
 
 
-def long_run(env, asset):
-    """Observation and reward of every step, the state half way, and what was seen there."""
-    env.reset(seed=5, options={"asset": asset, "reconfigure": True})
-    env.action_space.seed(5)
-    rows = []
-    for step in range(STEPS):
-        observation, reward, *_ = env.step(env.action_space.sample())
-        rows.append(np.append(observation.numpy().ravel(), float(reward)))
-        if step == STEPS // 2:
-            middle = env.unwrapped.get_state().clone()
-            seen = env.unwrapped.get_obs().numpy().copy()
-    return np.array(rows), middle, seen
-
-
 @pytest.mark.parametrize(
     ("task", "robot"), [*((task, "panda") for task in IDS), ("OpenJoint-v1", "fetch")]
 )
 def test_a_thousand_steps_are_finite_the_same_again_and_can_be_gone_back_in(household, task, robot):
     env = make(household, task, robot_uids=robot)
     for asset in env.unwrapped._assets:
-        rows, middle, seen = long_run(env, asset)
+        rows = rollout(env, 5, STEPS, asset=asset, reconfigure=True)
         assert np.isfinite(rows).all(), asset
         assert np.abs(rows).max() < 1e3, asset
         assert rows[:, -1].min() >= 0.0
         assert rows[:, -1].max() <= 1.0
-        env.unwrapped.set_state(middle)
-        assert np.allclose(env.unwrapped.get_state().numpy(), middle.numpy(), atol=1e-5), asset
+        state = env.unwrapped.get_state().clone()
+        seen = env.unwrapped.get_obs().numpy().copy()
+        env.reset(seed=6, options={"asset": asset})
+        env.unwrapped.set_state(state)
+        assert np.allclose(env.unwrapped.get_state().numpy(), state.numpy(), atol=1e-5), asset
         assert np.allclose(env.unwrapped.get_obs().numpy(), seen, atol=1e-4), asset
-        again, *_ = long_run(env, asset)
+        again = rollout(env, 5, STEPS, asset=asset, reconfigure=True)
         assert np.array_equal(rows, again), asset
     env.close()
-
-
-@pytest.mark.parametrize("task", IDS)
-def test_processes_do_for_a_hundred_steps_what_each_would_do_alone(household, task):
-    several = make_processes(task, 3, registry=household, **HEADLESS)
-    together, _ = several.reset(seed=11)
-    rng = np.random.default_rng(0)
-    actions = rng.uniform(-1.0, 1.0, size=(100, *several.action_space.shape)).astype(np.float32)
-    steps = [several.step(action)[:2] for action in actions]
-    several.close()
-    for index in range(3):
-        single = make(household, task)
-        observation, _ = single.reset(seed=11 + index)
-        assert np.array_equal(observation[0].numpy(), together[index])
-        for action, (observations, rewards) in zip(actions, steps, strict=True):
-            observation, reward, terminated, *_ = single.step(action[index])
-            assert np.allclose(observation[0].numpy(), observations[index], atol=1e-6)
-            assert float(reward) == pytest.approx(float(rewards[index]), abs=1e-6)
-            if bool(terminated):
-                break
-        single.close()

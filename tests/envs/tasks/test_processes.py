@@ -4,27 +4,32 @@ import numpy as np
 import pytest
 from making import HEADLESS, UNWARNED, make
 
-from asset_factory.envs import make_processes
+from asset_factory.envs import TASKS, make_processes
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 pytestmark = UNWARNED
+LONG = [pytest.param(task.id, 3, 100, marks=pytest.mark.full) for task in TASKS]
 
 
-def test_each_process_behaves_as_a_single_environment_with_its_seed(household):
+@pytest.mark.parametrize(("task", "count", "steps"), [("SetJoint-v1", 2, 3), *LONG])
+def test_each_process_behaves_as_a_single_environment_with_its_seed(household, task, count, steps):
     import gymnasium
 
-    several = make_processes("SetJoint-v1", 2, registry=household, **HEADLESS)
+    several = make_processes(task, count, registry=household, **HEADLESS)
     assert isinstance(several, gymnasium.vector.VectorEnv)
     together, _ = several.reset(seed=5)
-    action = np.full(several.action_space.shape, 0.3, dtype=np.float32)
-    steps = [several.step(action)[:2] for _ in range(3)]
+    rng = np.random.default_rng(0)
+    actions = rng.uniform(-1.0, 1.0, (steps, *several.action_space.shape)).astype(np.float32)
+    seen = [several.step(action)[:2] for action in actions]
     several.close()
-    single = make(household, "SetJoint-v1")
-    for index in range(2):
+    for index in range(count):
+        single = make(household, task)
         observation, _ = single.reset(seed=5 + index)
         assert np.array_equal(observation[0].numpy(), together[index])
-        for observations, rewards in steps:
-            observation, reward, *_ = single.step(action[index])
+        for action, (observations, rewards) in zip(actions, seen, strict=True):
+            observation, reward, terminated, *_ = single.step(action[index])
             assert np.allclose(observation[0].numpy(), observations[index], atol=1e-6)
             assert float(reward) == pytest.approx(float(rewards[index]), abs=1e-6)
-    single.close()
+            if bool(terminated):
+                break
+        single.close()

@@ -1,5 +1,7 @@
 """Every task: its spaces, its episodes, its state, and what it makes of random steps."""
 
+from copy import deepcopy
+
 import numpy as np
 import pytest
 from making import UNWARNED, make, put, rollout
@@ -30,21 +32,21 @@ def test_observations_fit_their_space_over_every_asset(env):
         assert env.action_space.shape == env.action_space.sample().shape
 
 
-def test_a_seed_is_an_episode(env):
-    first = rollout(env, 7)
-    again = rollout(env, 7)
+def test_a_seed_is_an_episode_without_a_nan(env):
+    first = rollout(env, 7, 40)
+    again = rollout(env, 7, 40)
     other = rollout(env, 8)
+    assert np.isfinite(first).all()
     assert np.array_equal(first, again)
-    assert not np.array_equal(first, other)
+    assert not np.array_equal(first[: len(other)], other)
 
 
 def test_a_state_can_be_gone_back_to(env):
     task = env.unwrapped
     env.reset(seed=2)
     env.step(np.full(env.action_space.shape, 0.2, dtype=np.float32))
-    saved = task.get_state_dict()
+    saved = deepcopy(task.get_state_dict())
     goal = float(task._goal_start[0, 0])
-    saved = {key: _copied(value) for key, value in saved.items()}
     before = task.get_obs().numpy()
     for _ in range(5):
         env.step(np.full(env.action_space.shape, -0.5, dtype=np.float32))
@@ -73,15 +75,6 @@ def test_rewards_are_dense_between_nothing_and_one_and_highest_at_success(env):
     assert 0.0 <= float(task.compute_normalized_dense_reward(None, None, away)) < 0.9
 
 
-def test_random_steps_bring_no_nan(env):
-    env.reset(seed=4)
-    env.action_space.seed(0)
-    for step in range(40):
-        observation, reward, *_ = env.step(env.action_space.sample())
-        assert bool(np.isfinite(observation.numpy()).all()), step
-        assert bool(np.isfinite(reward.numpy()).all()), step
-
-
 @pytest.mark.parametrize("robot", ["panda", "fetch"])
 def test_nothing_moves_by_itself_and_no_robot_starts_in_the_way(household, robot):
     env = make(household, robot_uids=robot)
@@ -93,11 +86,3 @@ def test_nothing_moves_by_itself_and_no_robot_starts_in_the_way(household, robot
             _, _, _, _, info = env.step(still)
         assert abs(float(info["open_fraction"])) < 0.02
     env.close()
-
-
-def _copied(value):
-    return (
-        {key: _copied(each) for key, each in value.items()}
-        if isinstance(value, dict)
-        else value.clone()
-    )

@@ -8,14 +8,13 @@ from boxy_urdf import write_cabinets
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import ParticulateConfig
-from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.learn.evaluate import trial as trials
 from asset_factory.learn.evaluate.cases import make_case, procedural_requests, real_requests
 from asset_factory.learn.evaluate.listing import read_list
 from asset_factory.learn.evaluate.methods import Method
 from asset_factory.learn.evaluate.score import Score
 from asset_factory.learn.evaluate.summary import summarised
+from asset_factory.learn.objects.export import write_annotation
 from asset_factory.sim_checks.processes.isolation import Limits
 
 
@@ -70,39 +69,13 @@ def first_of(cabinets):
     return request.name, make_case(request)
 
 
-def write_truth(truth, path):
-    """The truth as the published model would write it."""
-    count = len(truth.parts)
-    fields = {
-        "face_part_ids": face_parts(truth),
-        "motion_hierarchy": np.array([[joint.parent, joint.child] for joint in truth.joints]),
-        "is_part_revolute": np.zeros(count, bool),
-        "is_part_prismatic": np.zeros(count, bool),
-        "revolute_plucker": np.zeros((count, 6)),
-        "revolute_range": np.zeros((count, 2)),
-        "prismatic_axis": np.zeros((count, 3)),
-        "prismatic_range": np.zeros((count, 2)),
-    }
-    for joint in truth.joints:
-        if joint.turns:
-            fields["is_part_revolute"][joint.child] = True
-            moment = np.cross(joint.axis, joint.origin)
-            fields["revolute_plucker"][joint.child] = [*joint.axis, *moment]
-            fields["revolute_range"][joint.child] = joint.lower, joint.upper
-        else:
-            fields["is_part_prismatic"][joint.child] = True
-            fields["prismatic_axis"][joint.child] = joint.axis
-            fields["prismatic_range"][joint.child] = joint.lower, joint.upper
-    np.savez(path, **fields)
-
-
 def test_predictions_are_read_from_files_and_missing_ones_are_scored_as_naive(
     cabinets, tmp_path, capsys
 ):
     name, truth = first_of(cabinets)
     given = tmp_path / "given"
     given.mkdir()
-    write_truth(truth, given / f"{name}.npz")
+    write_annotation(truth, np.eye(4), given / f"{name}.npz")
     flags = ("--method", "naive", "predictions", "--predictions", str(given))
     assert evaluate(cabinets, tmp_path / "out", *flags) == 0
     lines = {(line["method"], line["case"]): line for line in load(tmp_path / "out")["cases"]}
@@ -148,7 +121,7 @@ def test_the_published_conventions_and_procedural_objects(tmp_path):
             ("--method", "particulate", "--checkpoint", "nowhere.safetensors"),
             "nowhere.safetensors: no such file",
         ),
-        (("--pose", "ajar"), "no pose 'ajar'"),
+        (("--pose", "ajar"), "no pose 'ajar'; there are closed, open"),
         (("--category", "spaceship"), "none of these objects is a 'spaceship'"),
         (("--timeout", "0"), "--timeout must be"),
         (("--repeats", "0"), "--repeats must be at least 1, not 0"),
@@ -173,19 +146,6 @@ def test_a_method_that_hangs_is_cut_off_and_not_scored(monkeypatch):
     row = next(trials.run_trials([one_trial()], 1, Limits(wall_s=8.0)))
     assert row.failure == "timeout: no answer within 8 s"
     assert row.score is None
-
-
-def refuses(trial, score=trials.score_trial):
-    if trial.method.name == "naive":
-        return score(trial)
-    raise InputRejected("no_movable_joint", "nothing on it moves")
-
-
-def test_a_method_without_an_answer_is_scored_as_if_nothing_moved(monkeypatch):
-    monkeypatch.setattr(trials, "score_trial", refuses)
-    row = next(trials.run_trials([one_trial(method="auto")], 1, Limits(wall_s=120.0)))
-    assert row.failure.startswith("no_movable_joint")
-    assert row.score.values["articulated_iou"] == 0.0
 
 
 def test_repetitions_are_told_apart_and_their_spread_is_told():

@@ -32,9 +32,8 @@ HINGE = (
 
 def cabinet(folder, kind="revolute", depth=0.6):
     folder.mkdir(parents=True, exist_ok=True)
-    body = BOX.format("base", "0 0 0", f"1 {depth} 0.8") + BOX.format(
-        "door", "0.5 0 0", "1 0.02 0.8"
-    )
+    body = BOX.format("base", "0 0 0", f"1 {depth} 0.8")
+    body += BOX.format("door", "0.5 0 0", "1 0.02 0.8")
     path = folder / "cabinet.urdf"
     path.write_text(f'<robot name="cabinet">{body}{HINGE.format(kind)}</robot>', encoding="utf-8")
     return path
@@ -122,13 +121,13 @@ def test_split_chooses_by_name(dataset):
 
 def test_what_cannot_be_asked_is_said(dataset):
     with pytest.raises(ConfigError, match="there are description"):
-        prepare("nonsense", dataset / "data", dataset / "cache")
+        bring(dataset, "nonsense")
     with pytest.raises(ConfigError, match="is no folder"):
-        prepare("description", dataset / "nowhere", dataset / "cache")
+        bring(dataset / "nowhere")
     with pytest.raises(ConfigError, match="holds no object"):
-        prepare("partnet", dataset / "data", dataset / "cache")
+        bring(dataset, "partnet")
     with pytest.raises(ConfigError, match="factory build"):
-        prepare("registry", dataset / "data", dataset / "cache")
+        bring(dataset, "registry")
 
 
 @pytest.mark.parametrize(
@@ -163,7 +162,7 @@ def test_usd_is_read_in_a_process_of_its_own(tmp_path):
 def test_usd_without_its_library_says_what_to_install(dataset, monkeypatch):
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     with pytest.raises(ConfigError, match=r"asset-factory\[train\]"):
-        prepare("usd", dataset / "data", dataset / "cache")
+        bring(dataset, "usd")
 
 
 def test_registered_assets_are_objects(tmp_path):

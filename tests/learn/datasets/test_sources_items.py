@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from plain_solids import parted
 
-from asset_factory.factory.articulation import Articulation, Joint, Part
+from asset_factory.factory.articulation import Joint
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers import primitives
-from asset_factory.factory.mesh import Material, concatenate
+from asset_factory.factory.mesh import Material
 from asset_factory.learn.datasets.categories import categories_of, prefix_of
 from asset_factory.learn.datasets.description import find_descriptions
 from asset_factory.learn.datasets.partnet import find_partnet, words
@@ -93,10 +94,8 @@ def chest():
     lid = np.eye(4)
     lid[:3, 3] = 0.0, 0.0, 0.55
     top = primitives.box([1, 1, 0.1], material).transformed(lid)
-    mesh = concatenate([primitives.box([1, 1, 1], material), top])
     hinge = Joint("lid", "revolute", 0, 1, [-1.0, 0, 0], [0, 0.5, 0.5], 0.0, 1.5)
-    parts = (Part("base", np.arange(12)), Part("lid", np.arange(12, 24)))
-    return Articulation(mesh, parts, (hinge,), "made")
+    return parted({"base": [primitives.box([1, 1, 1], material)], "lid": [top]}, hinge)
 
 
 @pytest.mark.parametrize("named", ["sidecar", "stem", "alone"])

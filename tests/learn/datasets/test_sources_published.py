@@ -43,26 +43,25 @@ def corners(articulation, part):
     return np.unique(mesh.vertices[mesh.faces].reshape(-1, 3).round(5), axis=0)
 
 
+def shown(articulation):
+    """The parts that have faces; carriers of joints have none."""
+    return [part for part in range(len(articulation.parts)) if len(articulation.parts[part].faces)]
+
+
 def off_line(point, joint):
     across = point - joint.origin
     return float(np.linalg.norm(across - joint.axis * (across @ joint.axis)))
 
 
 def matched(ours, theirs, centre, side):
-    """Part by part, those with the same corners; carriers of joints have none."""
+    """Part by part, those with the same corners."""
     found = {}
-    for part in range(len(ours.parts)):
-        if len(ours.parts[part].faces):
-            mine = (corners(ours, part) - centre) / side
-            for other in range(len(theirs.parts)):
-                yours = (
-                    corners(theirs, other) if len(theirs.parts[other].faces) else np.zeros((0, 3))
-                )
-                if (
-                    mine.shape == yours.shape
-                    and np.abs(np.sort(mine, axis=0) - np.sort(yours, axis=0)).max() < 1e-4
-                ):
-                    found[part] = other
+    for part in shown(ours):
+        mine = np.sort((corners(ours, part) - centre) / side, axis=0)
+        for other in shown(theirs):
+            yours = np.sort(corners(theirs, other), axis=0)
+            if mine.shape == yours.shape and np.abs(mine - yours).max() < 1e-4:
+                found[part] = other
     return found
 
 
@@ -70,22 +69,16 @@ def matched(ours, theirs, centre, side):
 def test_parts_axes_and_ranges_agree(fixtures, name):
     ours, centre, side = normalised(original(fixtures, name))
     theirs = published(fixtures, name)
-    seen = [part for part in range(len(ours.parts)) if len(ours.parts[part].faces)]
     pairs = matched(ours, theirs, centre, side)
-    assert sorted(pairs) == seen
-    filled = [number for number, part in enumerate(theirs.parts) if len(part.faces)]
-    assert sorted(pairs.values()) == filled
+    assert sorted(pairs) == shown(ours)
+    assert sorted(pairs.values()) == shown(theirs)
     for mine in ours.joints:
-        child = (
-            mine.child
-            if mine.child in pairs
-            else next(j.child for j in ours.joints if j.parent == mine.child)
-        )
-        held = theirs.parent_joint(pairs[child])
-        chain = [
-            held,
-            *([theirs.parent_joint(held.parent)] if held.parent not in pairs.values() else []),
-        ]
+        child = mine.child
+        if child not in pairs:
+            child = next(j.child for j in ours.joints if j.parent == child)
+        chain = [theirs.parent_joint(pairs[child])]
+        if chain[0].parent not in pairs.values():
+            chain.append(theirs.parent_joint(chain[0].parent))
         yours = next(joint for joint in chain if joint is not None and joint.kind == mine.kind)
         np.testing.assert_allclose(mine.axis, yours.axis, atol=1e-4)
         scale = 1.0 if mine.turns else side

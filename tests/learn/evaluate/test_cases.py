@@ -162,19 +162,6 @@ def test_another_file_than_the_listed_one_is_refused(tmp_path):
         cases(tmp_path)
 
 
-def test_procedural_objects_are_cases_too():
-    (request,) = procedural_requests(("cabinet",), (7,))
-    case, again = (make_case(request) for _ in range(2))
-    assert (request.name, request.source) == ("cabinet_7--closed-front", "procedural")
-    assert same(case, again)
-    assert case.movable_joints
-
-
-def test_unknown_poses_and_yaws_are_named(tmp_path):
-    with pytest.raises(ConfigError, match="no pose 'ajar'; there are closed, open"):
-        in_settings(procedural_requests(("cabinet",), (7,)), ("ajar",), ("front",))
-
-
 def test_a_folder_of_objects_with_joints(tmp_path):
     write_cabinets(tmp_path / "things")
     requests = folder_requests(tmp_path / "things")

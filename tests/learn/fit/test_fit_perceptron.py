@@ -1,10 +1,8 @@
-"""Small networks learn what can be learned, and are written without a loss."""
+"""Small networks learn what can be learned."""
 
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.auto.trust import NAME, SIGNS, load_trust
-from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.learn.fit.perceptron import (
     Examples,
     FitSettings,
@@ -12,7 +10,6 @@ from asset_factory.learn.fit.perceptron import (
     fit_examples,
     fit_perceptron,
 )
-from asset_factory.learn.fit.writing import networks_stored
 
 
 def _examples():
@@ -63,11 +60,3 @@ def test_weights_past_the_hidden_layer_are_fitted_too():
     weights = {name: Weighing(0.3, 0.0) for name in ("inner", "offset", "outer", "direct")}
     both = fit_perceptron(rows, loss, FitSettings(3, 1, weights, 400))
     assert both.scores(rows) == pytest.approx(truth, abs=5e-2)
-
-
-def test_networks_come_back_from_their_file():
-    shipped = load_trust().network
-    again = Perceptron.read(networks_stored({NAME: shipped}, {NAME: SIGNS}), NAME, SIGNS)
-    assert np.array_equal(again.direct, shipped.direct)
-    rows = np.random.default_rng(0).normal(size=(5, len(SIGNS)))
-    assert np.array_equal(again.scores(rows), shipped.scores(rows))

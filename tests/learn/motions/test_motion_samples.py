@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.articulate.evidence.numbers import GUESS, NAMES
-from asset_factory.factory.errors import ConfigError
-from asset_factory.learn.datasets.objects import described, generated
+from asset_factory.learn.datasets.objects import generated
 from asset_factory.learn.motions.motion_sample import motion_samples
 from asset_factory.learn.motions.spoiling import spoilt
 from asset_factory.learn.motions.truth import made_up_guess, truth_of
@@ -56,8 +55,3 @@ def test_generated_objects_are_named_and_the_same_again():
     first, again = (list(generated([1], ["laptop"])) for _ in range(2))
     assert first[0][0] == "generated/laptop_1"
     assert (first[0][1].mesh.vertices == again[0][1].mesh.vertices).all()
-
-
-def test_a_folder_without_objects_is_refused(tmp_path):
-    with pytest.raises(ConfigError, match="holds no URDF"):
-        list(described(tmp_path))

@@ -13,9 +13,8 @@ from asset_factory.learn.objects.kit.assembly import (
     facing_side,
     facing_up,
 )
-from asset_factory.learn.objects.kit.casework import swung
-from asset_factory.learn.objects.kit.looks import BLACK, STEEL, WHITE, wood
-from asset_factory.learn.objects.kit.shapes import box, cylinder
+from asset_factory.learn.objects.kit.looks import BLACK, STEEL, wood
+from asset_factory.learn.objects.kit.shapes import box
 
 SPAN_X = (3.0, 4.0)
 SPAN_Y = (0.0, 1.0)
@@ -119,25 +118,6 @@ def test_with_a_hairline_no_two_forms_share_a_corner():
         a.root.add(box(SPAN_X, SPAN_Y, (6.0, 7.0)))
         vertices = a.articulation().mesh.vertices
         assert (len(np.unique(np.round(vertices, 6), axis=0)) < len(vertices)) is shared
-
-
-def test_every_form_stays_in_its_part_and_a_door_opens_to_the_front():
-    a = Assembly(np.random.default_rng(0))
-    a.body(WHITE).add(box((1.0, 2.0), (0.1, 1.0), (3.0, 4.0)))
-    door = swung(a, "door", "left", (1.0, 2.0), (3.0, 4.0), -0.1, 1.5)
-    door.add(box((1.0, 2.0), (-0.1, 0.0), (3.0, 4.0)))
-    door.add(cylinder(1, (1.9, 3.5), 0.01, (-0.2, -0.1), 12), look=STEEL)
-    latch = a.slider("latch", RIGHT, (0, 0, 0), 0.1, on=door)
-    latch.add(box((1.9, 1.95), (-0.3, -0.2), (3.1, 3.2)))
-    made = a.articulation()
-    assert [len(part.faces) for part in made.parts] == [12, 12 + 4 * 12 - 4, 12]
-    np.testing.assert_allclose(made.mesh.bounds[0], [-0.5, -0.65, 0.0], atol=1e-12)
-    assert [joint.parent for joint in made.joints] == [0, 1]
-    np.testing.assert_allclose(made.joints[0].origin, [-0.5, -0.1 - 0.35, 0.5], atol=1e-12)
-    assert {material.name for material in made.mesh.materials} == {"white", "steel"}
-    motion = made.joints[0].motion(1.5)
-    opened = made.part_mesh(1).vertices @ motion[:3, :3].T + motion[:3, 3]
-    assert opened[:, 1].min() < made.part_mesh(1).bounds[0, 1] - 0.5
 
 
 def test_only_textured_faces_have_texture_coordinates_and_those_are_to_scale():

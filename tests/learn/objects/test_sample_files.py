@@ -6,15 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plain_solids import box
+from plain_solids import box, parted
 
 from asset_factory.factory.articulate.catalog import choose
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Joint, JointKind, Part
 from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.intake.load import load
-from asset_factory.factory.mesh import Material, concatenate
+from asset_factory.factory.mesh import Material
 from asset_factory.factory.runtime.store import folder_digests
 from asset_factory.learn.objects import artist_like, fused_like, make_object, write_sample
 
@@ -86,12 +86,12 @@ def test_a_sample_of_any_character_keeps_its_parts_face_by_face(change, tmp_path
 def turning_slider():
     grey = Material("grey")
     body = box((0, 1), (0, 1), (0, 1), grey)
-    mesh = concatenate([body, box((0.2, 0.8), (-0.1, 0), (0.2, 0.8), grey)])
-    parts = (Part("body", np.arange(12)), Part("carrier", []), Part("knob", np.arange(12, 24)))
+    knob = box((0.2, 0.8), (-0.1, 0), (0.2, 0.8), grey)
     axis = np.array([0.0, -1.0, 0.0])
     turn = Joint("turn", JointKind.REVOLUTE, 0, 1, axis, np.array([0.5, 0.0, 0.5]), 0.0, 2.0)
     slide = Joint("slide", JointKind.PRISMATIC, 1, 2, axis, np.array([0.5, 0.0, 0.5]), 0.0, 0.05)
-    return Articulation(mesh, parts, (turn, slide), "procedural")
+    parts = {"body": [body], "carrier": [body.submesh([])], "knob": [knob]}
+    return parted(parts, turn, slide)
 
 
 def test_a_part_that_turns_and_slides_is_one_row_of_the_annotation(tmp_path):

@@ -9,10 +9,11 @@ import trimesh
 from box_sampled_objects import box_sampled
 from hypothesis import given
 from hypothesis import strategies as st
+from plain_solids import parted
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
+from asset_factory.factory.articulation import Joint, JointKind, Part, rotation_about
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.particulate.prediction import MotionClass
 from asset_factory.learn.objects import make_object
 from asset_factory.learn.samples import sampled_object as sampled_objects
@@ -38,21 +39,15 @@ def lid_on_a_post():
     """A root, a turning carrier, a lid sliding on it (one part, both motions), a fixed foot."""
     cube = trimesh.creation.box((1.0, 1.0, 1.0))
     rows = [cube.vertices + np.array([0, 0, 2 * number]) for number in range(3)]
-    mesh = concatenate([Mesh.from_triangles(row, cube.faces) for row in rows])
+    base, foot, lid = (Mesh.from_triangles(row, cube.faces) for row in rows)
     up = np.array([0.0, 0.0, 1.0])
-    none = np.zeros(0, dtype=np.int64)
-    parts = (
-        Part("base", np.arange(12)),
-        Part("foot", np.arange(12, 24)),
-        Part("carrier", none),
-        Part("lid", np.arange(24, 36)),
-    )
     joints = (
         Joint("glued", JointKind.FIXED, 0, 1, up, np.zeros(3)),
         Joint("turn", JointKind.CONTINUOUS, 1, 2, up, np.array([0.0, 0.0, 0.0]), -np.pi, np.pi),
         Joint("slide", JointKind.PRISMATIC, 2, 3, up, np.array([0.0, 0.0, 0.0]), 0.0, 0.3),
     )
-    return Articulation(mesh, parts, joints, "test")
+    parts = {"base": base, "foot": foot, "carrier": base.submesh([]), "lid": lid}
+    return parted({name: [mesh] for name, mesh in parts.items()}, *joints)
 
 
 def test_a_part_behind_a_carrier_turns_and_slides_and_what_is_fixed_is_one_with_its_parent():
@@ -145,8 +140,7 @@ def test_half_of_the_points_lie_on_sharp_edges_and_the_same_seed_draws_the_same(
 )
 def test_files_that_training_would_stumble_over_are_refused(tmp_path, changes, says):
     box = next(found for found in map(box_sampled, range(20)) if len(found.parents) == 3)
-    arrays = {each.name: getattr(box, each.name) for each in fields(box)}
-    np.savez(tmp_path / "a.npz", **{**arrays, **changes})
+    np.savez(tmp_path / "a.npz", **{**vars(box), **changes})
     with pytest.raises(InputRejected, match=says) as refused:
         read_sampled(tmp_path / "a.npz")
     assert refused.value.code == "bad_sample"
@@ -154,9 +148,7 @@ def test_files_that_training_would_stumble_over_are_refused(tmp_path, changes, s
 
 def test_files_that_say_they_are_huge_are_refused_unread(tmp_path, monkeypatch):
     monkeypatch.setattr(sampled_objects, "MOST_BYTES", 1_000_000)
-    box = box_sampled(0)
-    arrays = {each.name: getattr(box, each.name) for each in fields(box)}
-    arrays |= {"points": np.zeros((200_000, 3))}
+    arrays = {**vars(box_sampled(0)), "points": np.zeros((200_000, 3))}
     np.savez_compressed(tmp_path / "bomb.npz", **arrays)
     with pytest.raises(InputRejected) as refused:
         read_sampled(tmp_path / "bomb.npz")

@@ -9,7 +9,7 @@ import torch  # noqa: TID253
 from asset_factory.factory.models.network.shape import NetworkShape
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 from asset_factory.learn.train.averaging import follow
-from asset_factory.learn.train.curves import Curve, draw_curves, read_curve
+from asset_factory.learn.train.curves import Curve, read_curve
 from asset_factory.learn.train.settings import OptimiserSettings, ScheduleSettings
 from asset_factory.learn.train.trainer import quieten
 from asset_factory.learn.train.validation import part_ious
@@ -60,13 +60,6 @@ def test_rows_after_the_last_checkpoint_and_half_rows_are_dropped(tmp_path):
     assert read_curve(path) == {"step": [1.0, 2.0], "loss": [0.5, 0.25]}
     curve.add([(3, [0.125])])
     assert path.read_bytes() == whole.removesuffix(b"4,0.0")
-
-
-def test_curves_become_a_picture(tmp_path):
-    Curve(tmp_path / "a.csv", ["total", "rate"], 0).add([(1, [2.0, 1.0]), (2, [1.0, 1.0])])
-    Curve(tmp_path / "b.csv", ["part_iou"], 0).add([(2, [0.5])])
-    draw_curves(tmp_path / "a.csv", tmp_path / "b.csv", tmp_path / "curves.png")
-    assert (tmp_path / "curves.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_overlaps_are_of_the_best_assignment():

@@ -1,8 +1,8 @@
 """Everything there is to see, in a fixed order."""
 
 from . import broken_engines, broken_files, broken_lint, broken_motion
-from .exhibits import Exhibit, both
-from .good_things import GOOD
+from .exhibits import Exhibit, both, urdf
+from .good_things import GOOD, laptop
 from .realistic import made
 
 #: Kinds of the factory's generator that take part in every test; the others take too long for that.
@@ -38,3 +38,9 @@ def broken() -> tuple[Exhibit, ...]:
         *broken_engines.creeping(),
         *broken_engines.unsteady(),
     )
+
+
+def blind_spots() -> tuple[Exhibit, ...]:
+    """Those on which the judge errs: a fault that it does not see, or a sound one it rejects."""
+    # PyBullet keeps 1 mm around every hull: what is less than 2 mm apart jams there.
+    return (Exhibit("tight_laptop.urdf", urdf(laptop(0.0018)), None, "error", ()),)

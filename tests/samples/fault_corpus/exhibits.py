@@ -105,8 +105,8 @@ def refiled(build: Builder, file: str, content: str | bytes | None) -> Builder:
     return write
 
 
-def restated(build: Builder, find: str, **attributes: str | None) -> Builder:
-    """Writes, then sets attributes of an XPath's first element; ``None`` removes one."""
+def restated(build: Builder, find: str, **attributes: str) -> Builder:
+    """Writes, then sets attributes of an XPath's first element."""
 
     def write(folder: Path) -> Path:
         path = build(folder)
@@ -115,10 +115,7 @@ def restated(build: Builder, find: str, **attributes: str | None) -> Builder:
         if element is None:
             raise ValueError(f"no element to change: {find}")
         for key, value in attributes.items():
-            if value is None:
-                del element.attrib[key]
-            else:
-                element.set(key, value)
+            element.set(key, value)
         document.write(path)
         return path
 

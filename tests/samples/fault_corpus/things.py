@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 import trimesh
+from scipy.spatial.transform import Rotation
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -167,11 +168,12 @@ def _urdf_joint(thing: Thing, move: Move) -> str:
     parent = _body(thing, move.parent).frame
     child = _body(thing, move.child).frame
     origin = np.linalg.inv(parent) @ child
+    turn = Rotation.from_matrix(origin[:3, :3])
     axis = child[:3, :3].T @ np.array(move.axis)
     return (
         f'<joint name="{move.name}" type="{move.kind}"><parent link="{move.parent}"/>'
         f'<child link="{move.child}"/>'
-        f'<origin xyz="{words(origin[:3, 3])}" rpy="{words(_rpy(origin[:3, :3]))}"/>'
+        f'<origin xyz="{words(origin[:3, 3])}" rpy="{words(turn.as_euler("xyz"))}"/>'
         f'<axis xyz="{words(axis)}"/>'
         f'<limit lower="{move.lower!r}" upper="{move.upper!r}" effort="50" velocity="2"/></joint>\n'
     )
@@ -183,11 +185,12 @@ def _mjcf_body(
     move = next((item for item in thing.moves if item.child == body.name), None)
     above = np.eye(4) if move is None else _body(thing, move.parent).frame
     origin = np.linalg.inv(above) @ body.frame
+    x, y, z, w = Rotation.from_matrix(origin[:3, :3]).as_quat(canonical=True)
     center, tensor = _inertia(body)
     full = (tensor[0, 0], tensor[1, 1], tensor[2, 2], tensor[0, 1], tensor[0, 2], tensor[1, 2])
     text = [
         f'<body name="{body.name}" pos="{words(origin[:3, 3])}" '
-        f'quat="{words(_quaternion(origin[:3, :3]))}">'
+        f'quat="{words((w, x, y, z))}">'
         f'<inertial pos="{words(center)}" mass="{body.mass!r}" fullinertia="{words(full)}"/>'
     ]
     if move is not None:
@@ -224,22 +227,12 @@ def _write(body: Body, folder: Path, *, looks: bool = False) -> list[str]:
 
 def _inertia(body: Body) -> tuple[FloatArray, FloatArray]:
     """Centre [m] and tensor about it [kg m2] of the pieces at one density, in the link's frame."""
-    hulls = [
-        trimesh.convex.convex_hull(_local(body, corners))
-        for corners in body.pieces or (box((0, 0, 0), [0.1] * 3),)
-    ]
-    density = body.mass / sum(hull.volume for hull in hulls)
-    masses = [density * hull.volume for hull in hulls]
-    center = (
-        sum(mass * hull.center_mass for mass, hull in zip(masses, hulls, strict=True)) / body.mass
+    pieces = body.pieces or (box((0, 0, 0), [0.1] * 3),)
+    solid = trimesh.util.concatenate(
+        [trimesh.convex.convex_hull(_local(body, corners)) for corners in pieces]
     )
-    tensor = np.zeros((3, 3))
-    for mass, hull in zip(masses, hulls, strict=True):
-        arm = hull.center_mass - center
-        tensor += density * hull.moment_inertia + mass * (
-            arm @ arm * np.eye(3) - np.outer(arm, arm)
-        )
-    return center, 0.5 * (tensor + tensor.T)
+    solid.density = body.mass / solid.volume
+    return solid.center_mass, solid.moment_inertia
 
 
 def _local(body: Body, corners: FloatArray) -> FloatArray:
@@ -249,32 +242,6 @@ def _local(body: Body, corners: FloatArray) -> FloatArray:
 
 def _body(thing: Thing, name: str) -> Body:
     return next(body for body in thing.bodies if body.name == name)
-
-
-def _rpy(rotation: FloatArray) -> tuple[float, float, float]:
-    """Fixed-axis roll, pitch, yaw [rad]."""
-    pitch = float(np.arctan2(-rotation[2, 0], np.hypot(rotation[0, 0], rotation[1, 0])))
-    if np.hypot(rotation[0, 0], rotation[1, 0]) < 1e-9:
-        return float(np.arctan2(-rotation[1, 2], rotation[1, 1])), pitch, 0.0
-    roll = np.arctan2(rotation[2, 1], rotation[2, 2])
-    yaw = np.arctan2(rotation[1, 0], rotation[0, 0])
-    return float(roll), pitch, float(yaw)
-
-
-def _quaternion(rotation: FloatArray) -> FloatArray:
-    """(w, x, y, z): the eigenvector of Bar-Itzhack's matrix, sound at every angle."""
-    r = rotation
-    matrix = np.array(
-        [
-            [r[0, 0] + r[1, 1] + r[2, 2], r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]],
-            [0.0, r[0, 0] - r[1, 1] - r[2, 2], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0]],
-            [0.0, 0.0, r[1, 1] - r[0, 0] - r[2, 2], r[1, 2] + r[2, 1]],
-            [0.0, 0.0, 0.0, r[2, 2] - r[0, 0] - r[1, 1]],
-        ]
-    )
-    _, vectors = np.linalg.eigh(np.triu(matrix) + np.triu(matrix, 1).T)
-    quaternion: FloatArray = vectors[:, -1] * (1.0 if vectors[0, -1] >= 0.0 else -1.0)
-    return quaternion
 
 
 def words(values: object) -> str:

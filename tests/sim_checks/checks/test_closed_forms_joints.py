@@ -23,11 +23,11 @@ from fault_corpus.things import (
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
+from small_cabinet import codes as hard
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.read.read import read_here
-from asset_factory.sim_checks.report import Severity
 
 CONFIG = PenetrationConfig()
 WIDE = PenetrationConfig(clearance_m=0.05)
@@ -46,10 +46,6 @@ def joint(result, name):
 
 def codes(result):
     return [finding.code for finding in result.findings]
-
-
-def hard(result):
-    return [finding.code for finding in result.findings if finding.severity is Severity.ERROR]
 
 
 def doorway(still, door, axis):

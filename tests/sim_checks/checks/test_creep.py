@@ -70,13 +70,11 @@ def test_a_creeping_block_is_watched_to_the_end():
     assert [item.moved for item in holds] == pytest.approx([0.02] * 3)
 
 
-@pytest.mark.parametrize("weight", [19.62, -19.62])
-def test_what_weighs_more_than_its_friction_is_not_asked_to_hold(weight):
-    assert creeping(0.01, weight=weight, friction=20.0) == ()
-
-
-def test_a_world_without_friction_is_not_asked_to_hold():
-    assert creeping(0.01, weight=0.0, friction=0.0) == ()
+@pytest.mark.parametrize(
+    ("weight", "friction"), [(19.62, 20.0), (-19.62, 20.0), (0.0, 0.0)], ids=["down", "up", "none"]
+)
+def test_only_friction_that_outweighs_a_block_is_asked_to_hold_it(weight, friction):
+    assert creeping(0.01, weight=weight, friction=friction) == ()
 
 
 def test_a_joint_that_does_not_open_is_not_left_alone_on_its_way():

@@ -4,12 +4,12 @@ It says why only where the judge's own numbers bear it out.
 """
 
 import pytest
-import trimesh
+from fault_corpus.things import Body, Move, Thing, at, box, write_urdf
 
 from asset_factory.sim_checks import Finding, Report, Severity, run_checks
 from asset_factory.sim_checks.checks.disagreement import disagreements
 from asset_factory.sim_checks.checks.disagreement_reasons import UNKNOWN
-from asset_factory.sim_checks.simulators.catalog import SIMULATORS, installed
+from asset_factory.sim_checks.simulators.catalog import installed
 
 ALL = ("sapien", "mujoco", "pybullet")
 FINE = {"reached": 1.0, "returned": 0.0, "overshoot": 0.0, "others_moved": 0.0}
@@ -209,35 +209,20 @@ def test_who_cannot_read_the_format_gave_no_verdict_to_disagree_with():
 
 def slider(folder, shell, drawer, upper):
     """Two boxes as meshes, one sliding along x: centre and size [m] each."""
-    links = []
-    for name, (center, size) in {"shell": shell, "drawer": drawer}.items():
-        mesh = trimesh.creation.box(size)
-        mesh.apply_translation(center)
-        mesh.export(folder / f"{name}.obj")
-        x, y, z = center
-        links.append(
-            f'<link name="{name}"><inertial><origin xyz="{x} {y} {z}"/><mass value="2"/>'
-            '<inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial>'
-            f'<collision><geometry><mesh filename="{name}.obj"/></geometry></collision></link>'
-        )
-    path = folder / "slider.urdf"
-    path.write_text(
-        f'<robot name="slider">{"".join(links)}<joint name="slide" type="prismatic">'
-        '<parent link="shell"/><child link="drawer"/><axis xyz="1 0 0"/>'
-        f'<limit lower="0" upper="{upper}" effort="9" velocity="1"/></joint>'
-        "</robot>"
+    bodies = tuple(
+        Body(name, (box(*place),), at(0, 0, 0), 2.0)
+        for name, place in (("shell", shell), ("drawer", drawer))
     )
-    return path
+    slide = Move("slide", "prismatic", "shell", "drawer", (1.0, 0.0, 0.0), 0.0, upper)
+    return write_urdf(Thing("slider", bodies, (slide,)), folder)
 
 
-@pytest.fixture
-def every_engine():
-    missing = [name for name in SIMULATORS if not installed(name)]
-    if missing:
-        pytest.skip(f"needs {', '.join(missing)}")
+every_engine = pytest.mark.skipif(
+    not all(installed(name) for name in ALL), reason=f"needs {', '.join(ALL)}"
+)
 
 
-@pytest.mark.usefixtures("every_engine")
+@every_engine
 def test_a_drawer_stuck_in_its_own_carcass(tmp_path):
     path = slider(tmp_path, ((0, 0.3, 0), (0.4, 0.1, 0.4)), ((0, 0.16, 0), (0.4, 0.2, 0.4)), 0.3)
     report = run_checks(path, ALL)
@@ -249,7 +234,7 @@ def test_a_drawer_stuck_in_its_own_carcass(tmp_path):
     assert Report.from_dict(report.to_dict()).to_json() == report.to_json()
 
 
-@pytest.mark.usefixtures("every_engine")
+@every_engine
 def test_a_button_a_millimetre_before_its_panel(tmp_path):
     path = slider(tmp_path, ((0.1, 0, 0), (0.1, 0.2, 0.2)), ((0.171, 0, 0), (0.04, 0.2, 0.2)), 0.02)
     (found,) = run_checks(path, ALL).disagreements

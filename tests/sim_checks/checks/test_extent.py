@@ -3,8 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from box_world import cabinet, write_urdf
-from many_joints import chain, keyboard
+from box_world import cabinet, chain, keyboard, write_urdf
 from ros_packages import SLIDE
 
 from asset_factory.sim_checks import run_checks

@@ -1,7 +1,7 @@
 """What the static checks do grows with the pairs that can meet, not with all pairs."""
 
 import pytest
-from many_joints import chain, keyboard
+from box_world import chain, keyboard
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.checks.standing import check_standing

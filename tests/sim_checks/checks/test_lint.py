@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 from box_world import body, box_shape, cabinet, described, joint, with_joint, with_link
-from scipy.spatial import ConvexHull
 
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
@@ -48,17 +48,9 @@ def drawer_scaled(factor):
 
 
 def with_fine_ball(shapes):
-    return (*shapes, scaled(fine_ball(5000), 0.05))
-
-
-def fine_ball(corners):
-    """A ball of radius 1 around the origin, as many corners spread evenly."""
-    index = np.arange(corners) + 0.5
-    height = 1.0 - 2.0 * index / corners
-    turn = np.pi * (1.0 + np.sqrt(5.0)) * index
-    radius = np.sqrt(1.0 - height**2)
-    points = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
-    return DescribedShape("ball", "mesh", points, ConvexHull(points).simplices.astype(np.int64))
+    ball = trimesh.creation.icosphere(subdivisions=5, radius=0.05)
+    faces = ball.faces.astype(np.int64)
+    return (*shapes, DescribedShape("ball", "mesh", np.array(ball.vertices), faces))
 
 
 def test_a_sound_cabinet_has_no_findings():

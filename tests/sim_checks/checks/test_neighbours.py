@@ -158,10 +158,6 @@ def test_a_joint_and_what_it_carries_are_not_neighbours():
     assert {finding.joint for finding in result.findings} == {"wrist"}
 
 
-def test_sound_neighbours_do_not_meet():
-    assert check(cabinet()).measurements["neighbours"] == []
-
-
 def test_an_overlap_that_was_there_at_rest_is_no_news():
     """Drawer and door overlap by 8 mm when closed: opening one beside the other adds nothing."""
     result = check(cabinet("sib"))

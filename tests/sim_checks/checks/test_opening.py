@@ -66,37 +66,31 @@ def test_two_that_bar_each_other_never_open(tmp_path):
     assert 0.04 < joints["along_x"]["clear_until"] < 0.06
 
 
-def test_a_chain_of_three_opens_from_its_outer_end():
-    """The bar goes up, then the door aside, then the drawer comes out."""
-    bar = gate("bar", (0.45, -0.05, 0.0), (0.1, 0.04, 0.3), (0.0, 0.0, 1.0))
-    result, joints = checked(built(drawer(), DOOR, bar))
+#: Gone upwards before the door can go aside.
+BAR = gate("bar", (0.45, -0.05, 0.0), (0.1, 0.04, 0.3), (0.0, 0.0, 1.0))
+#: Opens to before the drawer, which with all others at upper would not come out.
+LID = gate("lid", (0.0, -0.2, 1.0), (0.3, 0.04, 0.2), (0.0, 0.0, -1.0))
+LEFT = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (-1.0, 0.0, 0.0))
+RIGHT = gate("right", (0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (1.0, 0.0, 0.0))
+OUTER = gate("outer", (0.0, -0.3, 0.0), (0.6, 0.04, 0.4), (-1.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("parts", "needs"),
+    [
+        ((drawer(), DOOR, BAR), {"door": ["bar_slide"], "drawer": ["bar_slide", "door_slide"]}),
+        ((DOOR, LID, drawer()), {"drawer": ["door_slide"]}),
+        ((drawer(), LEFT, RIGHT), {"drawer": ["left_slide", "right_slide"]}),
+        ((drawer(), DOOR, OUTER), {"drawer": ["door_slide", "outer_slide"]}),
+    ],
+    ids=["a chain opens from its outer end", "who would be in the way stays shut", "two doors",
+         "two doors one behind the other"],
+)  # fmt: skip
+def test_a_drawer_needs_open_what_must_make_way_and_no_more(parts, needs):
+    result, joints = checked(built(*parts))
     assert hard(result) == []
-    assert joints["bar_slide"]["needs_open"] == []
-    assert joints["door_slide"]["needs_open"] == ["bar_slide"]
-    assert joints["drawer_slide"]["needs_open"] == ["bar_slide", "door_slide"]
-
-
-def test_who_would_only_be_in_the_way_stays_shut():
-    """The lid opens to before the drawer, which with all others at upper would not come out."""
-    lid = gate("lid", (0.0, -0.2, 1.0), (0.3, 0.04, 0.2), (0.0, 0.0, -1.0))
-    result, joints = checked(built(DOOR, lid, drawer()))
-    assert hard(result) == []
-    assert joints["drawer_slide"]["needs_open"] == ["door_slide"]
-
-
-def test_a_drawer_behind_two_doors_needs_both():
-    left = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (-1.0, 0.0, 0.0))
-    right = gate("right", (0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (1.0, 0.0, 0.0))
-    result, joints = checked(built(drawer(), left, right))
-    assert hard(result) == []
-    assert joints["drawer_slide"]["needs_open"] == ["left_slide", "right_slide"]
-
-
-def test_a_drawer_behind_two_doors_one_behind_the_other_needs_both():
-    outer = gate("outer", (0.0, -0.3, 0.0), (0.6, 0.04, 0.4), (-1.0, 0.0, 0.0))
-    result, joints = checked(built(drawer(), DOOR, outer))
-    assert hard(result) == []
-    assert joints["drawer_slide"]["needs_open"] == ["door_slide", "outer_slide"]
+    found = {link.name: joints[line.name]["needs_open"] for link, line in parts}
+    assert found == {link.name: needs.get(link.name, []) for link, _ in parts}
 
 
 def test_what_waits_for_a_door_that_never_opens_is_stuck_too():

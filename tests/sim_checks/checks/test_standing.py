@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from box_world import body, described, joint
+from fault_corpus.things import words
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -195,18 +196,14 @@ def free_based(carcass_mass, door_mass, angle):
     def geom(box, at, mass):
         place = np.subtract(box[0], at)
         size = np.asarray(box[1]) / 2.0
-        return f'<geom type="box" mass="{mass}" pos="{_words(place)}" size="{_words(size)}"/>'
+        return f'<geom type="box" mass="{mass}" pos="{words(place)}" size="{words(size)}"/>'
 
     return f"""<mujoco><option timestep="0.002" impratio="10" cone="elliptic"/><worldbody>
       <geom type="plane" size="5 5 0.1"/><body name="carcass"><freejoint/>
       {geom(CARCASS, (0, 0, 0), carcass_mass)}
-      <body name="door" pos="{_words(HINGE)}" axisangle="0 0 -1 {math.degrees(angle)}">
+      <body name="door" pos="{words(HINGE)}" axisangle="0 0 -1 {math.degrees(angle)}">
         {geom(DOOR, HINGE, door_mass)}</body></body></worldbody>
       <contact><exclude body1="carcass" body2="door"/></contact></mujoco>"""
-
-
-def _words(values):
-    return " ".join(repr(float(value)) for value in np.asarray(values))
 
 
 @pytest.mark.parametrize("door_mass", [4.0, 6.0, 7.0, 10.0])
@@ -231,8 +228,8 @@ def test_mujoco_is_pulled_over_by_exactly_the_tipping_force(share, falls):
     drawer = ((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))
     (row,) = judged(with_drawer(3.0, 0.2, drawer)).measurements["joints"]
     geoms = "".join(
-        f'<geom type="box" mass="{mass}" pos="{_words(np.add(center, move))}" '
-        f'size="{_words(np.divide(size, 2.0))}"/>'
+        f'<geom type="box" mass="{mass}" pos="{words(np.add(center, move))}" '
+        f'size="{words(np.divide(size, 2.0))}"/>'
         for (center, size), mass, move in ((CARCASS, 10.0, (0, 0, 0)), (drawer, 3.0, (0, -0.2, 0)))
     )
     model = mujoco.MjModel.from_xml_string(

@@ -56,13 +56,6 @@ def test_what_stays_wider_apart_than_the_floor_is_not_measured():
     assert worst(SLIDE, SMALL, box_hull((0.5, 0.2, 0.0), (1.0, 0.1, 0.1))) is None
 
 
-def test_an_overlap_that_does_not_grow_is_no_excess():
-    rail = box_hull((0.5, 0.095, 0.0), (2.0, 0.1, 1.0))
-    found = swept(SLIDE, SMALL, rail, 64).worst([Candidate(0, 0, 0.005)], Tolerance())
-    assert found.excess == pytest.approx(0.0, abs=1e-12)
-    assert found.depth == pytest.approx(0.005)
-
-
 def test_a_moving_hull_that_disappears_inside_another_is_found():
     tiny = box_hull((0, 0, 0), (0.01, 0.01, 0.01))
     found = worst(SLIDE, tiny, box_hull((0.5, 0, 0), (0.4, 0.4, 0.4)))

@@ -47,14 +47,9 @@ def threads_of_children(folder, **given):
 
 
 # On one processor OpenBLAS has one thread whatever it is told.
-several = pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="takes two processors")
-
-
-@several
-def test_linear_algebra_in_children_and_theirs_has_one_thread(tmp_path):
-    assert threads_of_children(tmp_path) == [1, 1]
-
-
-@several
-def test_a_number_of_threads_that_the_user_set_stays(tmp_path):
-    assert threads_of_children(tmp_path, OPENBLAS_NUM_THREADS="2") == [2, 2]
+@pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="takes two processors")
+@pytest.mark.parametrize(("given", "threads"), [({}, 1), ({"OPENBLAS_NUM_THREADS": "2"}, 2)])
+def test_children_and_theirs_compute_with_one_thread_or_as_many_as_the_user_set(
+    tmp_path, given, threads
+):
+    assert threads_of_children(tmp_path, **given) == [threads, threads]

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from box_world import write_urdf as write_boxes
 from engines import skipped_if_missing
+from fault_corpus.things import Body, Move, Thing, at, box
+from fault_corpus.things import write_urdf as write_thing
 from small_cabinet import PARTS, codes, write_lid, write_urdf
 
 from asset_factory.sim_checks.checks.motion import check_motion
@@ -242,33 +244,28 @@ def observe_in_turn(engine, paths, samples):
     return tuple(flat(observe(engine, path, CONFIG, samples)) for path in paths)
 
 
-BUTTON_DOOR = """<robot name="button_door">
-  <link name="frame"><inertial><mass value="40"/>
-    <inertia ixx="9" iyy="9" izz="9" ixy="0" ixz="0" iyz="0"/></inertial>
-    <collision><origin xyz="0 0.5 1"/><geometry><box size="1 0.5 2"/></geometry></collision>
-    {stop}</link>
-  <link name="door"><inertial><origin xyz="0 0 1"/><mass value="15"/>
-    <inertia ixx="5" iyy="6" izz="1.3" ixy="0" ixz="0" iyz="0"/></inertial>
-    <collision><origin xyz="0 0 1"/><geometry><box size="1 0.04 2"/></geometry></collision></link>
-  <link name="button"><inertial><mass value="0.01"/>
-    <inertia ixx="1e-6" iyy="1e-6" izz="1e-6" ixy="0" ixz="0" iyz="0"/></inertial>
-    <collision><geometry><box size="0.04 0.02 0.04"/></geometry></collision></link>
-  <joint name="hinge" type="revolute"><parent link="frame"/><child link="door"/>
-    <origin xyz="0 0.2 0"/><axis xyz="1 0 0"/>
-    <limit lower="0" upper="1.5" effort="1" velocity="9"/></joint>
-  <joint name="press" type="prismatic"><parent link="door"/><child link="button"/>
-    <origin xyz="0 -0.06 1.9"/><axis xyz="0 1 0"/>
-    <limit lower="0" upper="0.02" effort="1" velocity="9"/></joint></robot>"""
 #: Where the button comes down to as the door swings open.
-STOP = """<collision><origin xyz="0 -1.75 -0.07"/><geometry><box size="0.1 0.4 0.3"/></geometry>
-    </collision>"""
+STOP = box((0.0, -1.75, -0.07), (0.1, 0.4, 0.3))
+
+
+def button_door(*more):
+    """A door that swings down about its lower edge, a button on it; the frame may have more."""
+    bodies = (
+        Body("frame", (box((0.0, 0.5, 1.0), (1.0, 0.5, 2.0)), *more), at(0, 0, 0), 40.0),
+        Body("door", (box((0.0, 0.2, 1.0), (1.0, 0.04, 2.0)),), at(0.0, 0.2, 0.0), 15.0),
+        Body("button", (box((0.0, 0.14, 1.9), (0.04, 0.02, 0.04)),), at(0.0, 0.14, 1.9), 0.01),
+    )
+    moves = (
+        Move("hinge", "revolute", "frame", "door", (1.0, 0.0, 0.0), 0.0, 1.5),
+        Move("press", "prismatic", "door", "button", (0.0, 1.0, 0.0), 0.0, 0.02),
+    )
+    return Thing("button_door", bodies, moves)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize(("stop", "seen"), [("", False), (STOP, True)], ids=["free", "pressed"])
+@pytest.mark.parametrize(("stop", "seen"), [((), False), ((STOP,), True)], ids=["free", "pressed"])
 def test_a_button_on_a_door_is_moved_by_what_presses_it_only(tmp_path, engine, stop, seen):
-    text = BUTTON_DOOR.replace("{stop}", stop)
-    hinge = moved(judged(written(tmp_path, text), engine), "hinge")
+    hinge = moved(judged(write_thing(button_door(*stop), tmp_path), engine), "hinge")
     # What is pressed on the way has to make way first: it is tried pressed in.
     assert hinge["needs_open"] == (["press"] if seen else [])
     assert (hinge["reached"] > 0.99, hinge["others_moved"] < 0.5) == (True, True)
@@ -276,22 +273,20 @@ def test_a_button_on_a_door_is_moved_by_what_presses_it_only(tmp_path, engine, s
 
 def chain(links):
     """Boxes of 0.1 m, each hinged to the one before, 1 cm apart."""
-    text = ""
-    for i in range(links):
-        text += f"""<link name="l{i}"><inertial><origin xyz="0.05 0 0"/><mass value="0.125"/>
-        <inertia ixx="5e-5" iyy="1.3e-4" izz="1.3e-4" ixy="0" ixz="0" iyz="0"/></inertial>
-        <collision><origin xyz="0.05 0 0"/><geometry><box size="0.1 0.05 0.05"/></geometry>
-        </collision></link>"""
-    for i in range(1, links):
-        text += f"""<joint name="j{i}" type="revolute"><parent link="l{i - 1}"/><child link="l{i}"/>
-        <origin xyz="0.11 0 0"/><axis xyz="0 0 1"/>
-        <limit lower="0" upper="0.1" effort="100" velocity="1"/></joint>"""
-    return f'<robot name="chain">{text}</robot>'
+    bodies = tuple(
+        Body(f"l{i}", (box((0.11 * i + 0.05, 0, 0), (0.1, 0.05, 0.05)),), at(0.11 * i, 0, 0), 0.125)
+        for i in range(links)
+    )
+    moves = tuple(
+        Move(f"j{i}", "revolute", f"l{i - 1}", f"l{i}", (0.0, 0.0, 1.0), 0.0, 0.1)
+        for i in range(1, links)
+    )
+    return Thing("chain", bodies, moves)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_joint_of_a_chain_is_driven_without_shaking_the_others(tmp_path, engine):
-    result = judged(written(tmp_path, chain(10)), engine)
+    result = judged(write_thing(chain(10), tmp_path), engine)
     assert [finding for finding in result.findings if finding.severity is Severity.ERROR] == []
     assert max(row["others_moved"] for row in result.measurements["joints"]) < 0.01
 

@@ -203,7 +203,7 @@ def test_a_ground_plate_is_no_part_of_the_front():
     mesh = sample("fridge")
     low, high = mesh.bounds
     corner = (low[0] - 0.3, low[1] - 0.3, low[2] - 0.02)
-    plate = one_piece.mesh_of(one_piece._box(corner, (*(high[:2] + 0.3), low[2])), 1.0)
+    plate = one_piece.mesh_of(one_piece.block(corner, (*(high[:2] + 0.3), low[2])), 1.0)
     found = articulated(concatenate([mesh, plate]))
     require_sound(found)
 
