@@ -29,6 +29,9 @@ from .prediction import Prediction
 from .sampling import Cloud
 
 _DRIVING_SEED = 0
+#: Part queries of the published weights, and the most that a file may ask for.
+PUBLISHED_PARTS = "16"
+MOST_PARTS = 256
 
 
 @dataclass(frozen=True)
@@ -192,18 +195,21 @@ def load_model(
     *,
     precision: Precision | str = Precision.FLOAT32,
     device: str = "cpu",
-    max_parts: int = 16,
 ) -> Model:
     """Return a Part Articulation Transformer from a checkpoint; its tensors tell sizes and variant.
 
     ``checkpoint`` is a safetensors, ``.pt`` or ``.ckpt`` file, or ``hf:owner/repository/file``. No
-    tensor tells how many part queries there are; the published weights have 16.
+    tensor tells how many part queries there are: ``max_parts`` in the metadata does; the published
+    weights have none there, and 16 queries.
 
     Raises:
         ConfigError: no such checkpoint, or not one of this network.
     """
     stored = open_checkpoint(fetch(checkpoint))
-    shape = stored.read(partial(read_shape, max_parts=max_parts))
+    queries = stored.metadata.get("max_parts", PUBLISHED_PARTS)
+    if not (queries.isdecimal() and 1 <= int(queries) <= MOST_PARTS):
+        raise ConfigError(f"{stored.file}: max_parts is {queries!r}, want 1 to {MOST_PARTS}")
+    shape = stored.read(partial(read_shape, max_parts=int(queries)))
     network = filled(PartArticulationTransformer, shape, load_tensors(stored), device)
     upright = stored.metadata.get("axes") == "upright"
     return Model(shape, product_dtype(precision), network, upright)

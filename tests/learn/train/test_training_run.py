@@ -66,8 +66,8 @@ def edited(path, target, *edits):
 
 
 def test_a_run_leaves_weights_that_load_and_figures(output):
-    model = load_model(str(output / "model.safetensors"), max_parts=6)
-    assert (model.shape.hidden, model.shape.features) == (16, 27)
+    model = load_model(str(output / "model.safetensors"))
+    assert (model.shape.hidden, model.shape.features, model.shape.max_parts) == (16, 27, 6)
     about = open_checkpoint(output / "model.safetensors").metadata
     wanted = ("components", "6", "for tests", "12")
     assert (about["features"], about["max_parts"], about["terms"], about["steps"]) == wanted

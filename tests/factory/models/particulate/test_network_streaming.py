@@ -219,3 +219,10 @@ def test_an_upright_axis_is_turned_round_where_its_limits_say_that_it_opens_back
     np.testing.assert_array_equal(told.revolute_range[behind], -raw.revolute_range[behind][:, ::-1])
     np.testing.assert_array_equal(told.revolute_range[~behind], raw.revolute_range[~behind])
     assert (told.revolute_range.max(axis=1) >= -told.revolute_range.min(axis=1)).all()
+
+
+@pytest.mark.parametrize("queries", ["0", "-3", "many", "100000"])
+def test_a_file_that_asks_for_no_number_of_parts_is_refused(tmp_path, queries):
+    file = write_checkpoint(tmp_path / "odd.safetensors", metadata={"max_parts": queries})
+    with pytest.raises(ConfigError, match="want 1 to 256"):
+        load_model(str(file))
