@@ -54,8 +54,11 @@ class StoredReport:
 
     @property
     def told(self) -> BuildReport:
-        """Return it as registered. Raises KeyError, TypeError or ValueError if it is none."""
-        return BuildReport(self.report, self.repairs)
+        """Return it as registered. Raises RegistryError if it is none."""
+        try:
+            return BuildReport(self.report, self.repairs)
+        except (KeyError, TypeError, ValueError) as error:
+            raise RegistryError(f"{REPORT}: is none of a build ({error!r})") from error
 
     @property
     def entry(self) -> object:

@@ -18,13 +18,13 @@ from ...display.described import scene_of_file
 from ...display.glb import glb_of, read_model, scene_from
 from ...display.pictures import Fault
 from ...display.scene import SceneGraph
-from ...errors import InputRejected, RegistryError
+from ...errors import InputRejected
 from ...export.manifest import Manifest
 from ...manufacture.repair import Repair
 from ...reasons import meaning_of
 from ...registry import Entry
 from ...registry.registry import read_manifest
-from ...registry.report_file import BuildReport, StoredReport, read_report
+from ...registry.report_file import read_report
 from ...runtime.layout import ASSETS, MODEL, REJECTED, URDF
 from ..loading import Snippet, loading_snippets
 from .places import Places
@@ -149,7 +149,7 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
     """
     place = ASSETS if entry.status is Status.PASSED else REJECTED
     folder = root / place / entry.id
-    told = _told(read_report(folder))
+    told = read_report(folder).told
     report = told.report
     page = AssetPage(
         entry,
@@ -220,13 +220,6 @@ def _plain(fault: Fault | None) -> dict[str, Any] | None:
     if fault is None:
         return None
     return {"values": dict(fault.values), "point": list(fault.point) if fault.point else None}
-
-
-def _told(stored: StoredReport) -> BuildReport:
-    try:
-        return stored.told
-    except (KeyError, TypeError, ValueError) as error:
-        raise RegistryError(f"report.json: is none ({error})") from error
 
 
 def _model(folder: Path) -> bytes:

@@ -119,6 +119,12 @@ def test_ids_are_whole_in_a_list_of_80_columns(capsys, monkeypatch, asset_id):
     assert [line.split()[0] for line in lines] == ["id", asset_id, asset_id]
 
 
+def test_a_report_that_is_none_is_told_in_a_line(root, capsys):
+    (root / "assets" / "fridge-1" / "report.json").write_text('{"passed": true}')
+    assert factory(["show", "fridge-1", "--output", str(root)]) == 2
+    assert "report.json: is none of a build" in capsys.readouterr().err
+
+
 def test_show_tells_size_joints_files_and_how_to_load_it(tmp_path, run):
     root = make_registry(tmp_path / "out").root
     log = root / "logs" / "builds.jsonl"

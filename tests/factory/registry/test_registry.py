@@ -37,7 +37,7 @@ def test_repairs_are_told_as_they_were_registered_and_of_older_reports_by_their_
     stored = json.loads(path.read_text())
     assert stored["repairs"] == [repair.sentence]
     path.write_text(json.dumps({**stored, "changes": None}))
-    with pytest.raises(TypeError):
+    with pytest.raises(RegistryError, match="is none of a build"):
         registry.told(REJECTED)
     del stored["changes"]
     path.write_text(json.dumps(stored))
