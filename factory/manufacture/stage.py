@@ -17,8 +17,9 @@ from ..intake.intake import Intake
 from ..runtime.keys import Stage
 from ..runtime.packing import contents
 from ..runtime.stages import Stages
-from .decompose.decompose import PartHulls, decompose
+from .decompose.decompose import decompose
 from .decompose.fewer import fewer
+from .decompose.pieces import SolidPieces
 from .decompose.room import Rooms
 from .inertia import carrier_inertial, part_inertial, weighing
 from .plan import Plan, as_planned
@@ -77,8 +78,8 @@ def _assumptions(usual: Category, intake: Intake, bulk: float | None) -> Iterato
 
 
 def _hulls(
-    planned: Articulation, known: Sequence[PartHulls | None], plan: Plan, stages: Stages
-) -> tuple[tuple[PartHulls, ...], list[Finding]]:
+    planned: Articulation, known: Sequence[SolidPieces | None], plan: Plan, stages: Stages
+) -> tuple[tuple[SolidPieces, ...], list[Finding]]:
     """Decompose every part, joined where the asset has many hulls; and say which were joined."""
     config = stages.config
     rooms = Rooms(planned)
@@ -140,7 +141,7 @@ def _targets(asset: Asset, stages: Stages) -> _Targets:
 
 def _finished(
     planned: Articulation,
-    pieces: tuple[PartHulls, ...],
+    pieces: tuple[SolidPieces, ...],
     plan: Plan,
     density: float,
     bulk: float | None,
@@ -209,7 +210,7 @@ def _measured(code: str, message: str, parts: Pair, depth_m: float) -> Finding:
 
 def _inertials(
     articulation: Articulation,
-    pieces: tuple[PartHulls, ...],
+    pieces: tuple[SolidPieces, ...],
     density: float,
     bulk: float | None,
     config: BuildConfig,

@@ -85,7 +85,7 @@ def _finished(
     exact = found.exact and len(hulls) == len(found.hulls)
     exact = exact and all(len(hull.vertices) <= config.max_vertices for hull in hulls)
     limited = [limit_vertices(each, config.max_vertices) for each in _not_inside_others(hulls)]
-    return SolidPieces(tuple(limited), found.method, exact, found.degraded)
+    return SolidPieces(tuple(limited), found.method, found.degraded, exact)
 
 
 def _single(

@@ -12,8 +12,8 @@ from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import limit_vertices
-from ..decompose.decompose import PartHulls
 from ..decompose.merge import merge
+from ..decompose.pieces import SolidPieces
 from ..hinges import is_crooked
 from ..repair import Pair
 from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
@@ -83,7 +83,7 @@ class Separation:
         trimmed: pair of part names -> the visible cut.
     """
 
-    pieces: tuple[PartHulls, ...]
+    pieces: tuple[SolidPieces, ...]
     refused: Mapping[Pair, SeparationRefusal] = field(default_factory=dict)
     hidden: Mapping[Pair, float] = field(default_factory=dict)
     trimmed: Mapping[Pair, tuple[CutBack, ...]] = field(default_factory=dict)
@@ -91,7 +91,7 @@ class Separation:
 
 def separate(
     articulation: Articulation,
-    pieces: tuple[PartHulls, ...],
+    pieces: tuple[SolidPieces, ...],
     pairs: Iterable[Pair],
     config: SeparateConfig,
     max_vertices: int,
@@ -117,7 +117,7 @@ def separate(
     return Separation(after, bench.refused, bench.hidden, bench.trimmed)
 
 
-def with_hulls(piece: PartHulls, hulls: list[Hull], max_vertices: int) -> PartHulls:
+def with_hulls(piece: SolidPieces, hulls: list[Hull], max_vertices: int) -> SolidPieces:
     """Return a part with what cuts left of its hulls, joined where they are convex together.
 
     A cut adds corners to a hull; of more than ``max_vertices`` those that matter least are left

@@ -18,7 +18,7 @@ from ...runtime.keys import Stage
 from ...runtime.packing import contents
 from ...runtime.stages import Stages
 from ...runtime.store import digest_bytes
-from ..decompose.decompose import PartHulls
+from ..decompose.pieces import SolidPieces
 from .body import add_shelves, hang_panels, make_body, make_rest, share_out
 from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
 from .clear import cleared
@@ -49,7 +49,7 @@ class SolidParts:
     """
 
     articulation: Articulation
-    pieces: tuple[PartHulls | None, ...]
+    pieces: tuple[SolidPieces | None, ...]
     surfaces: tuple[InnerSurface, ...]
 
 
@@ -125,7 +125,7 @@ def solids(
     return SolidParts(replace(made, notes=notes), pieces, tuple(work.records))
 
 
-def _notes(work: Workpiece, pieces: tuple[PartHulls | None, ...]) -> Iterator[str]:
+def _notes(work: Workpiece, pieces: tuple[SolidPieces | None, ...]) -> Iterator[str]:
     """Yield a sentence for each invention, and for each part not made as panels are."""
     kinds = Counter(record.kind for record in work.records)
     said = ", ".join(f"{count} x {kind}" for kind, count in sorted(kinds.items()))
@@ -205,9 +205,9 @@ def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:
     return articulation if np.array_equal(turn, np.eye(3)) else rotated(articulation, turn)
 
 
-def _piece(hulls: tuple[Hull, ...], faces: int) -> PartHulls | None:
+def _piece(hulls: tuple[Hull, ...], faces: int) -> SolidPieces | None:
     if not faces:
-        return PartHulls((), "none", (), True)
+        return SolidPieces((), "none", (), True)
     if not hulls:
         return None
-    return PartHulls(hulls, "built")
+    return SolidPieces(hulls, "built")
