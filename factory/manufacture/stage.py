@@ -114,8 +114,8 @@ def with_targets(asset: Asset, stages: Stages) -> Asset:
     shapes = contents((asset.articulation.mesh.vertices, asset.articulation.mesh.faces))
     moved = contents((asset.articulation.parts, asset.articulation.joints, asset.bodies))
     key = FINISH.key(stages.config, "targets", *shapes, *moved)
-    found = stages.recall("finish", _Targets, key, partial(_targets, asset, stages))
-    return replace(asset, targets=found.targets)
+    found = stages.recall("finish", tuple[Target, ...], key, partial(_targets, asset, stages))
+    return replace(asset, targets=found)
 
 
 @dataclass(frozen=True)
@@ -126,17 +126,9 @@ class _Finished:
     findings: tuple[Finding, ...]
 
 
-@dataclass(frozen=True)
-class _Targets:
-    """Grasp places."""
-
-    targets: tuple[Target, ...]
-
-
-def _targets(asset: Asset, stages: Stages) -> _Targets:
+def _targets(asset: Asset, stages: Stages) -> tuple[Target, ...]:
     with stages.clock.stage("targets"):
-        hulls = [body.hulls for body in asset.bodies]
-        return _Targets(find_targets(asset.articulation, hulls))
+        return find_targets(asset.articulation, [body.hulls for body in asset.bodies])
 
 
 def _finished(
