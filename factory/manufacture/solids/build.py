@@ -19,6 +19,7 @@ from ...runtime.packing import contents
 from ...runtime.stages import Stages
 from ...runtime.store import digest_bytes
 from ..decompose.pieces import SolidPieces
+from ..poses import held_by
 from .body import add_shelves, hang_panels, make_body, make_rest, share_out
 from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
 from .clear import cleared
@@ -28,7 +29,7 @@ from .lattice import Lattice, enclosed
 from .recognize import cut_bases, recognize, recognize_bumps
 from .skin import parts_to_build, skin_parts
 from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
-from .work import Workpiece, host_of
+from .work import Workpiece
 
 SOLIDS = Stage(
     "solids",
@@ -148,7 +149,7 @@ def _prepared(
     others = [part for part in range(1, len(articulation.parts)) if part not in seen.panels]
     others = [part for part in others if len(articulation.parts[part].faces)]
     bumps, rest = recognize_bumps(articulation, others)
-    hosts = {part: host_of(articulation, part) for part in bumps}
+    hosts = {part: held_by(articulation, part) or 0 for part in bumps}
     skin = cut_bases(seen.skin, bumps, hosts)
     joints = list(articulation.joints)
     of_panels = planes_of_panels(seen.panels, joints, config)
@@ -198,7 +199,7 @@ def _shown(work: Workpiece) -> None:
     for part in work.bumps:
         bump_surfaces(work, part)
     for part in work.rest:
-        hull_surfaces(work, part, work.hulls.get(part, ()))
+        hull_surfaces(work, part)
 
 
 def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:

@@ -84,8 +84,8 @@ class Workpiece:
         return self.source.parts[part].name
 
     def host(self, part: int) -> int:
-        """Return the nearest part with faces that a part hangs on."""
-        return host_of(self.source, part)
+        """Return the nearest part with faces that a part hangs on, or the root."""
+        return held_by(self.source, part) or 0
 
     def closed_behind(self, part: int) -> bool:
         """Tell whether the space behind a panel is filled, so that its opening ends in a face."""
@@ -149,8 +149,3 @@ class Workpiece:
         self.added.setdefault((part, lined), []).append(turned)
         sizes = (None if each is None else round(float(each), 4) for each in (thickness, depth))
         self.records.append(InnerSurface(self.name(part), kind, rule, *sizes))
-
-
-def host_of(articulation: Articulation, part: int) -> int:
-    """Return the nearest part with faces that a part hangs on, or the root."""
-    return held_by(articulation, part) or 0
