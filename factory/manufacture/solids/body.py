@@ -10,10 +10,10 @@ from ...articulation import JointKind
 from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
-from .carve import surface_points
+from .carve import block_insides, surface_points
 from .knobs import CLEAR_M, clear_of_bumps, give_way, keep_clear
-from .lattice import closed_up, marked
-from .matter import INSIDE, PATH
+from .lattice import marked
+from .matter import PATH
 from .pieces import MOST_CORNERS
 from .reach import covering
 from .sweep import entered, hung, motions
@@ -44,21 +44,13 @@ def share_out(work: Workpiece) -> None:
             work.owner[tuple(cells[nearest == part].T)] = part
 
 
-def block_insides(work: Workpiece, part: int, points: FloatArray) -> None:
-    """Keep a part's pieces out of space that its own surface shuts in on five sides."""
-    walls = marked(work.lattice, points)
-    own = work.owner == part
-    empty = closed_up(own | walls) & ~walls & ~work.whole
-    work.block(part, ndimage.binary_erosion(empty), INSIDE)
-
-
 def make_rest(work: Workpiece, most: int) -> None:
     """Make parts that are neither panel nor knob; their neighbours keep clear of their way."""
     for part in sorted(work.rest, reverse=True):
         points = surface_points(work, part)
         if not len(points):
             continue
-        block_insides(work, part, points)
+        block_insides(work, part, points, work.owner == part)
         small = np.ptp(points, axis=0).max() < FEW_CELLS * work.lattice.step
         whole = hull_of(points) if small else None
         work.hulls[part] = (
@@ -106,7 +98,7 @@ def hang_panels(work: Workpiece) -> None:
 def make_body(work: Workpiece, part: int, most: int) -> None:
     """Make the body, or another part that nothing moves: walls around free space."""
     points = _standing_points(work, part)
-    block_insides(work, part, points)
+    block_insides(work, part, points, work.owner == part)
     work.hulls[part] = covering(work, part, _cells(work, part, points), points, most)
     keep_clear(work, part)
 

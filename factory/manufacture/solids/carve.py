@@ -227,11 +227,10 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     if work.filled[part]:
         room = _inner(work, (0, part), wall)
     else:
-        walls = marked(work.lattice, surface_points(work, 0))
-        work.block(0, ndimage.binary_erosion(_own_inside(work, walls)), INSIDE)
+        block_insides(work, 0, surface_points(work, 0), work.whole)
         if not panel.slides:
             return
-        room = _empty(work, walls)
+        room = _empty(work, marked(work.lattice, surface_points(work, 0)))
         layer = Box(column.low, np.append(column.high[:2], start + BEHIND_BACK_M))
         room[work.lattice.span(layer.turned(frame.T))] = True
     for taken in _taken(work, part):
@@ -267,9 +266,14 @@ def _filled_behind(work: Workpiece, column: Box, frame: FloatArray) -> bool:
     return bool(cells.size and cells.mean() > FILLED)
 
 
-def _own_inside(work: Workpiece, walls: BoolArray) -> BoolArray:
-    """Return the empty cells that the mesh, whose surface is ``walls``, shuts in on five sides."""
-    return np.asarray(closed_up(work.whole | walls) & ~walls & ~work.whole)
+def block_insides(work: Workpiece, part: int, points: FloatArray, solid: BoolArray) -> None:
+    """Keep a part's pieces out of space that a surface and what is solid shut in on five sides.
+
+    Points of the surface have shape [n, 3] [m].
+    """
+    walls = marked(work.lattice, points)
+    empty = closed_up(solid | walls) & ~walls & ~work.whole
+    work.block(part, ndimage.binary_erosion(empty), INSIDE)
 
 
 def _empty(work: Workpiece, walls: BoolArray) -> BoolArray:
