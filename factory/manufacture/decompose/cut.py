@@ -36,15 +36,11 @@ def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> Soli
     if hull is None:
         return None
     dent = concavity(vertices, faces, hull)
-    convex = dent <= flatness(vertices) and solid.volume() >= CONVEX_SHARE * hull.volume
-    if convex:
+    # As far off a plane rounding may leave a vertex.
+    flat_m = THINNEST_M + 1e-5 * float(np.ptp(vertices, axis=0).max())
+    if dent <= flat_m and solid.volume() >= CONVEX_SHARE * hull.volume:
         return SolidPieces((hull,), "exact", exact=True)
     return SolidPieces((hull,), "single") if fills_little(hull, solid, error_m, slot_m) else None
-
-
-def flatness(vertices: FloatArray) -> float:
-    """Return how far off a plane rounding may leave a vertex [m]."""
-    return THINNEST_M + 1e-5 * float(np.ptp(vertices, axis=0).max())
 
 
 def cut_along_faces(

@@ -131,12 +131,12 @@ def _cover(sheet: OpenSurface, center: FloatArray, config: DecomposeConfig) -> l
     """Return the slabs over an open surface, simplified as far as that keeps it covered."""
     error_m = config.error_m
     points = surface_points(sheet.vertices, sheet.faces)
-    for max_faces in (config.max_faces // 4, config.max_faces):
+    for max_faces in (config.max_faces // 4, config.max_faces, len(sheet.faces)):
         light = lighter(sheet, max_faces)
         hulls = merge(slabs(light, error_m, config.shell_m, center), error_m)
         if light is sheet or uncovered(hulls, points) <= COVER_SHARE * error_m:
-            return hulls
-    return merge(slabs(sheet, error_m, config.shell_m, center), error_m)
+            break
+    return hulls
 
 
 def _not_inside_others(hulls: list[Hull], proud_m: float = TOUCHING_M) -> list[Hull]:
