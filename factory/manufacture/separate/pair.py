@@ -17,7 +17,6 @@ from ..hinges import is_crooked
 from ..poses import held_by, jointed, joints_between, relative_poses
 from ..repair import Pair
 from .along import Sides, hull_depth
-from .between import poses_between
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
 from .clip import SHEET_M
 from .hung import at_an_edge, seat_roundness, trimmed_limit, well_hung
@@ -158,14 +157,6 @@ class PartPair:
             return 0.0
         near_m = self.bodies.config.clearance_m
         return seat_roundness(surface, joint, self.bodies.holding(joint), near_m)
-
-    def poses_between(self) -> list[FloatArray]:
-        """Return poses between those that are cut at, where a long arm needs them."""
-        mover = self.bodies.surfaces[self.parts[1 - self.holder]]
-        if mover is None or not self.jointed:
-            return []
-        count = self.bodies.config.poses
-        return poses_between(self.bodies.articulation, self.parts, mover, count)
 
     def losses(self, after: Sides) -> list[Loss]:
         """Return what a cut takes of each that can be seen."""

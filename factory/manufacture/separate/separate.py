@@ -17,7 +17,7 @@ from ..decompose.pieces import SolidPieces
 from ..hinges import is_crooked
 from ..repair import Pair
 from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
-from .between import Cut, cut_between
+from .between import Cut, cut_between, poses_between
 from .budget import Loss, too_bare
 from .clip import ROUNDING_M
 from .hung import HUB_SHARE, ROUND_SHARE
@@ -190,7 +190,7 @@ def _try(found: Separation, pair: PartPair, poses: Sequence[FloatArray], way: _W
     after = cut(*pair.before, poses)
     losses = pair.losses(after)
     reason = pair.overdone(losses, way.share)
-    between = pair.poses_between() if reason is None and len(poses) > 2 else []
+    between = poses_between(pair) if reason is None and len(poses) > 2 else []
     closer = cut_between(cut, pair.before, after, poses, between)
     if closer is not None:
         after = closer
