@@ -53,7 +53,9 @@ def split_part(
         return SolidPieces((single,), "single")
     found = NOTHING
     walls: list[Hull] = []
-    solids = _hollowed(_outermost(list(gated.solids)), list(gated.cavities))
+    solids = _outermost(gated.solids)
+    for cavity in gated.cavities:
+        solids = [piece for solid in solids for piece in opened(solid, cavity)]
     for sheet in gated.sheets:
         shell = None if hollow else as_shell(sheet, config.error_m, room)
         solid = None if hollow or shell is not None else closed(sheet, room)
@@ -104,7 +106,7 @@ def _single(
     return limit_vertices(hull, config.max_vertices)
 
 
-def _outermost(solids: list[Manifold]) -> list[Manifold]:
+def _outermost(solids: Sequence[Manifold]) -> list[Manifold]:
     """Return the bodies that lie inside no other body; of duplicates one."""
     volumes = [solid.volume() for solid in solids]
     outer = _outer(volumes, lambda other, one: contains(solids[other], solids[one]))
@@ -118,13 +120,6 @@ def _outer(volumes: Sequence[float], holds: Callable[[int, int], bool]) -> list[
         if not any(holds(other, number) for other in kept):
             kept.append(number)
     return sorted(kept)
-
-
-def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold]:
-    """Return the solids with their hollows cut out."""
-    for cavity in cavities:
-        solids = [piece for solid in solids for piece in opened(solid, cavity)]
-    return solids
 
 
 def _cover(sheet: OpenSurface, center: FloatArray, config: DecomposeConfig) -> list[Hull]:
