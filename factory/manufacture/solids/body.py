@@ -6,14 +6,12 @@ import numpy as np
 from scipy import ndimage
 from scipy.spatial import cKDTree
 
-from ...articulation import JointKind
 from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .carve import block_insides, surface_points
 from .knobs import CLEAR_M, clear_of_bumps, give_way, keep_clear
 from .lattice import marked
-from .matter import PATH
 from .pieces import MOST_CORNERS
 from .reach import covering
 from .sweep import entered, hung, motions
@@ -65,8 +63,7 @@ def make_rest(work: Workpiece, most: int) -> None:
         joint = work.joints[part - 1]
         passed = entered(work.lattice, work.hulls[part], motions(joint, 24), CLEAR_M)
         host = work.host(part)
-        work.block(host, passed, PATH)
-        work.owner[passed & (work.owner == host)] = -1
+        work.clear_way(host, passed)
 
 
 def hang_panels(work: Workpiece) -> None:
@@ -75,7 +72,7 @@ def hang_panels(work: Workpiece) -> None:
     for part, panel in work.panels.items():
         joint = work.joints[part - 1]
         hulls = work.hulls[part]
-        if not hulls or joint.kind is JointKind.FIXED:
+        if not hulls:
             continue
         slab = max(hulls, key=lambda hull: hull.volume)
         standing = _cells(work, 0, points)
@@ -91,8 +88,7 @@ def hang_panels(work: Workpiece) -> None:
                 )
             work.joints[part - 1] = moved
         passed = entered(work.lattice, hulls, motions(moved), 0.0)
-        work.block(0, passed & standing, PATH)
-        work.owner[passed & standing] = -1
+        work.clear_way(0, passed & standing)
 
 
 def make_body(work: Workpiece, part: int, most: int) -> None:

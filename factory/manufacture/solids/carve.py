@@ -9,7 +9,7 @@ import numpy as np
 from scipy import ndimage
 
 from ...articulate.seams.placing import SLIDE
-from ...articulation import Joint, JointKind
+from ...articulation import Joint
 from ...asset import Hull
 from ...config import SolidsConfig
 from ...geometry.rows import distinct_rows
@@ -267,7 +267,7 @@ def _filled_behind(work: Workpiece, column: Box, frame: FloatArray) -> bool:
 
 
 def block_insides(work: Workpiece, part: int, points: FloatArray, solid: BoolArray) -> None:
-    """Keep a part's pieces out of space that a surface and what is solid shut in on five sides.
+    """Keep a part's pieces out of space that a surface and solid cells shut in on five sides.
 
     Points of the surface have shape [n, 3] [m].
     """
@@ -291,8 +291,7 @@ def _give_box(work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...]) -> None
         np.append(np.min([box.high[:2] for box in boxes], axis=0), boxes[-1].high[2]),
     )
     up = int(np.abs(panel.side.frame[:2, 2]).argmax())
-    slides = work.joints[panel.part - 1].kind is JointKind.PRISMATIC
-    boards = drawer_box(room, panel.back, up) if slides else ()
+    boards = drawer_box(room, panel.back, up)
     work.boards[panel.part] = boards
     work.add_boards(panel.part, boards, panel)
     if boards:

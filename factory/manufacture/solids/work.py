@@ -18,7 +18,7 @@ from ..poses import held_by
 from .box import Box
 from .bump import Bump
 from .lattice import Lattice, Span
-from .matter import Weights
+from .matter import PATH, Weights
 from .panel import FlatPanel
 from .seam import CutSkin
 
@@ -95,6 +95,11 @@ class Workpiece:
         """Make cells nobody's that are a part's."""
         owner = self.owner[span]
         owner[owner == part] = -1
+
+    def clear_way(self, part: int, passed: BoolArray) -> None:
+        """Keep a part's pieces out of cells that something passes, and make its own nobody's."""
+        self.block(part, passed, PATH)
+        self.owner[passed & (self.owner == part)] = -1
 
     def add_boards(self, part: int, boards: Iterable[Box], panel: FlatPanel) -> None:
         """Add boards, in a panel's frame, to a part's pieces."""
