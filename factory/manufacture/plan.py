@@ -195,12 +195,9 @@ def dispensable_joints(articulation: Articulation, share: float) -> Spare:
 
 def _moved_shares(articulation: Articulation) -> dict[str, float]:
     """Return the diagonal of all that each joint moves over the object's; 0 of empty carriers."""
-    moved: list[set[int]] = [{part} for part in range(len(articulation.parts))]
-    for joint in reversed(articulation.joints):
-        moved[joint.parent] |= moved[joint.child]
     shares = {}
     for joint in articulation.movable_joints:
-        parts = sorted(moved[joint.child])
+        parts = articulation.carried(joint.child)
         faces = np.concatenate([articulation.parts[part].faces for part in parts])
         size = articulation.mesh.submesh(faces).diagonal if len(faces) else 0.0
         shares[joint.name] = size / articulation.mesh.diagonal

@@ -17,8 +17,9 @@ from ..intake.intake import Intake
 from ..runtime.keys import Stage
 from ..runtime.packing import contents
 from ..runtime.stages import Stages
-from .decompose.decompose import PartHulls, decompose
+from .decompose.decompose import decompose
 from .decompose.fewer import fewer
+from .decompose.pieces import SolidPieces
 from .decompose.room import Rooms
 from .inertia import carrier_inertial, part_inertial, weighing
 from .plan import Plan, as_planned
@@ -77,8 +78,8 @@ def _assumptions(usual: Category, intake: Intake, bulk: float | None) -> Iterato
 
 
 def _hulls(
-    planned: Articulation, known: Sequence[PartHulls | None], plan: Plan, stages: Stages
-) -> tuple[tuple[PartHulls, ...], list[Finding]]:
+    planned: Articulation, known: Sequence[SolidPieces | None], plan: Plan, stages: Stages
+) -> tuple[tuple[SolidPieces, ...], list[Finding]]:
     """Decompose every part, joined where the asset has many hulls; and say which were joined."""
     config = stages.config
     rooms = Rooms(planned)
@@ -113,8 +114,8 @@ def with_targets(asset: Asset, stages: Stages) -> Asset:
     shapes = contents((asset.articulation.mesh.vertices, asset.articulation.mesh.faces))
     moved = contents((asset.articulation.parts, asset.articulation.joints, asset.bodies))
     key = FINISH.key(stages.config, "targets", *shapes, *moved)
-    found = stages.recall("finish", _Targets, key, partial(_targets, asset, stages))
-    return replace(asset, targets=found.targets)
+    found = stages.recall("finish", tuple[Target, ...], key, partial(_targets, asset, stages))
+    return replace(asset, targets=found)
 
 
 @dataclass(frozen=True)
@@ -125,22 +126,14 @@ class _Finished:
     findings: tuple[Finding, ...]
 
 
-@dataclass(frozen=True)
-class _Targets:
-    """Grasp places."""
-
-    targets: tuple[Target, ...]
-
-
-def _targets(asset: Asset, stages: Stages) -> _Targets:
+def _targets(asset: Asset, stages: Stages) -> tuple[Target, ...]:
     with stages.clock.stage("targets"):
-        hulls = [body.hulls for body in asset.bodies]
-        return _Targets(find_targets(asset.articulation, hulls))
+        return find_targets(asset.articulation, [body.hulls for body in asset.bodies])
 
 
 def _finished(
     planned: Articulation,
-    pieces: tuple[PartHulls, ...],
+    pieces: tuple[SolidPieces, ...],
     plan: Plan,
     density: float,
     bulk: float | None,
@@ -209,7 +202,7 @@ def _measured(code: str, message: str, parts: Pair, depth_m: float) -> Finding:
 
 def _inertials(
     articulation: Articulation,
-    pieces: tuple[PartHulls, ...],
+    pieces: tuple[SolidPieces, ...],
     density: float,
     bulk: float | None,
     config: BuildConfig,

@@ -20,11 +20,6 @@ from .code import code_digest
 from .store import digest_bytes, stage_key
 
 
-def nothing_else(config: object) -> object:
-    """Return what a stage also reads that reads nothing but what it declares by name."""
-    return None
-
-
 @dataclass(frozen=True)
 class Stage:
     """A stage of the pipeline, as far as its result can be kept.
@@ -45,7 +40,7 @@ class Stage:
     settings: tuple[str, ...] = ()
     libraries: tuple[str, ...] = ()
     data: tuple[str, ...] = ()
-    also: Callable[[Any], object] = nothing_else
+    also: Callable[[Any], object] = lambda config: None
 
     def key(self, config: object, *inputs: object) -> str:
         """Return the name of the result of these inputs, see :func:`~.store.stage_key`."""

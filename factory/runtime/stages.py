@@ -26,11 +26,6 @@ class _Refusal:
     limit: float | None
 
 
-def always(value: object) -> bool:
-    """Tell that any result may be kept."""
-    return True
-
-
 class Stages:
     """The stages of one build, remembered by their inputs.
 
@@ -57,7 +52,7 @@ class Stages:
         kind: type[T],
         key: str,
         make: Callable[[], T],
-        worth: Callable[[T], bool] = always,
+        worth: Callable[[T], bool] = lambda value: True,
     ) -> T:
         """Return the value kept under ``key``, else that of ``make``, which is then kept.
 

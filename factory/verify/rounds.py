@@ -136,10 +136,7 @@ class Rounds:
 
     def _validated(self, draft: HypothesisDraft, others: tuple[Finding, ...]) -> Verdict:
         told = (*draft.findings, *others)
-        simulators = self.stages.config.simulators
-        return _said(
-            validate(draft.bundle, simulators, self.judge, told, draft.inspected, self.stages)
-        )
+        return _said(validate(draft.bundle, self.judge, told, draft.inspected, self.stages))
 
 
 def _said(verdict: Verdict) -> Verdict:

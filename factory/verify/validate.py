@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from asset_factory.sim_checks import Finding, Report, Status
 from asset_factory.sim_checks.checks.disagreement import disagreements
@@ -62,75 +61,55 @@ class Verdict:
         return self.report.errors[0] if self.report.errors else None
 
 
-@dataclass(frozen=True)
-class _Said:
-    """An examination to keep: all but the description, which the bundle holds."""
-
-    findings: tuple[Finding, ...]
-    measurements: Mapping[str, Any] = field(default_factory=dict)
-
-
 def inspect(
-    bundle: Bundle,
-    judge: Judge,
-    own_findings: tuple[Finding, ...] = (),
-    stages: Stages | None = None,
+    bundle: Bundle, judge: Judge, own_findings: tuple[Finding, ...], stages: Stages
 ) -> Verdict:
     """Validate a bundle's URDF without simulators, as repairs need. Arguments: :func:`validate`."""
-    if stages is None:
-        return validate(bundle, (), judge, own_findings)
     key = INSPECT.key(stages.config, folder_digests(bundle.folder))
-    examinations: list[Examination] = []
+    done: list[Examination] = []
 
-    def examine() -> _Said:
-        examinations.append(judge.examine(bundle.urdf))
-        return _Said(examinations[0].findings, examinations[0].measurements)
+    def examine() -> Examination:
+        done.append(judge.examine(bundle.urdf))
+        # The bundle holds the description.
+        return replace(done[0], description=None)
 
-    said = stages.recall("inspect", _Said, key, examine, lambda said: _is_final(said.findings))
-    examined = (
-        examinations[0] if examinations else Examination(None, said.findings, said.measurements)
-    )
-    return replace(
-        validate(bundle, (), judge, own_findings, Verdict(Report(""), examined)), key=key
-    )
+    kept = stages.recall("inspect", Examination, key, examine, _is_final)
+    examined = done[0] if done else kept
+    return Verdict(_reported(bundle, (), judge, own_findings, examined), examined, key)
 
 
 def validate(
     bundle: Bundle,
-    simulators: tuple[str, ...],
     judge: Judge,
-    own_findings: tuple[Finding, ...] = (),
-    inspected: Verdict | None = None,
-    stages: Stages | None = None,
+    own_findings: tuple[Finding, ...],
+    inspected: Verdict,
+    stages: Stages,
 ) -> Verdict:
     """Validate a bundle's URDF, and its MJCF in the simulators that read that.
 
     Args:
         bundle: as exported.
-        simulators: names; each loads the file that is meant for it.
         judge: the validator, with the thresholds.
         own_findings: what the factory itself found wrong, listed first.
-        inspected: of this same bundle, by :func:`inspect`: what needs no simulator is then not
-            measured again.
-        stages: where verdicts are remembered; with it ``simulators`` are those of its settings.
+        inspected: of this same bundle, by :func:`inspect`: what needs no simulator is not measured
+            again.
+        stages: where verdicts are remembered; each simulator of its settings loads the file that
+            is meant for it.
     """
-    examined = inspected.examined if inspected is not None else None
-    if stages is None or inspected is None:
-        return _validated(bundle, simulators, judge, own_findings, examined)
-    verdict = partial(_validated, bundle, simulators, judge, own_findings, examined)
+    examined = inspected.examined
+    make = partial(_reported, bundle, stages.config.simulators, judge, own_findings, examined)
     key = VALIDATE.key(stages.config, inspected.key, [asdict(finding) for finding in own_findings])
-    worth = lambda report: _is_final(report.findings)  # noqa: E731
-    report = stages.recall("validate", Report, key, lambda: verdict().report, worth)
+    report = stages.recall("validate", Report, key, make, _is_final)
     return Verdict(report, examined, key)
 
 
-def _validated(
+def _reported(
     bundle: Bundle,
     simulators: tuple[str, ...],
     judge: Judge,
     own_findings: tuple[Finding, ...],
     examined: Examination | None,
-) -> Verdict:
+) -> Report:
     urdf_simulators = tuple(name for name in simulators if name not in MJCF_SIMULATORS)
     mjcf_simulators = tuple(name for name in simulators if name in MJCF_SIMULATORS)
     examined = examined or judge.examine(bundle.urdf)
@@ -152,9 +131,7 @@ def _validated(
             findings, {**report.measurements, **second.measurements}, simulators
         )
     witnesses = tuple(name for name in simulators if name in took_part)
-    return Verdict(
-        Report(bundle.urdf.name, witnesses, tuple(findings), measurements, differences), examined
-    )
+    return Report(bundle.urdf.name, witnesses, tuple(findings), measurements, differences)
 
 
 def _read_again(bundle: Bundle) -> Description | None:
@@ -167,6 +144,6 @@ def _read_again(bundle: Bundle) -> Description | None:
         return None
 
 
-def _is_final(findings: tuple[Finding, ...]) -> bool:
+def _is_final(said: Examination | Report) -> bool:
     """Return whether the validator came to the end; else another try may say more."""
-    return UNJUDGED_CODES.isdisjoint(finding.code for finding in findings)
+    return UNJUDGED_CODES.isdisjoint(finding.code for finding in said.findings)

@@ -11,7 +11,7 @@ from asset_factory.factory.articulation import Articulation, Joint
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.convex import hull_of
-from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import Separation, separate
 from asset_factory.factory.manufacture.separate.along import hull_depth
@@ -43,16 +43,16 @@ def held(body: Sequence[Solid], mover: Sequence[Solid], joint: Joint) -> Articul
 
 def cut(
     body: Sequence[Solid], mover: Sequence[Solid], joint: Joint
-) -> tuple[Articulation, tuple[PartHulls, ...], Separation]:
+) -> tuple[Articulation, tuple[SolidPieces, ...], Separation]:
     """The object, its hulls before, and what became of them."""
     tree = held(body, mover, joint)
-    before = tuple(PartHulls(hulls_of(solids), "exact", (), True) for solids in (body, mover))
+    before = tuple(SolidPieces(hulls_of(solids), "exact", (), True) for solids in (body, mover))
     return tree, before, separate(tree, before, [PAIR], CONFIG, 64)
 
 
 def cut_free(
     body: Sequence[Solid], mover: Sequence[Solid], joint: Joint, poses: int = 150
-) -> tuple[Articulation, tuple[PartHulls, ...], Separation]:
+) -> tuple[Articulation, tuple[SolidPieces, ...], Separation]:
     """The same of two that afterwards touch nowhere on the way."""
     tree, before, result = cut(body, mover, joint)
     assert result.refused == {}

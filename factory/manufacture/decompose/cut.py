@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 from manifold3d import Manifold
 
+from ...geometry.edges import shared_edges
 from ...geometry.rows import distinct_rows
-from ...geometry.triangles import doubled_normals
+from ...geometry.triangles import FOLLOWING, doubled_normals
 from ...mesh import FloatArray, IntArray
 from .convex import THINNEST_M, concavity, hull_of
 from .pieces import NOTHING, SolidPieces
@@ -35,15 +36,11 @@ def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> Soli
     if hull is None:
         return None
     dent = concavity(vertices, faces, hull)
-    convex = dent <= flatness(vertices) and solid.volume() >= CONVEX_SHARE * hull.volume
-    if convex:
+    # As far off a plane rounding may leave a vertex.
+    flat_m = THINNEST_M + 1e-5 * float(np.ptp(vertices, axis=0).max())
+    if dent <= flat_m and solid.volume() >= CONVEX_SHARE * hull.volume:
         return SolidPieces((hull,), "exact", exact=True)
     return SolidPieces((hull,), "single") if fills_little(hull, solid, error_m, slot_m) else None
-
-
-def flatness(vertices: FloatArray) -> float:
-    """Return how far off a plane rounding may leave a vertex [m]."""
-    return THINNEST_M + 1e-5 * float(np.ptp(vertices, axis=0).max())
 
 
 def cut_along_faces(
@@ -158,8 +155,15 @@ def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[Float
     normals = doubled_normals(corners)
     area = np.linalg.norm(normals, axis=1)
     normals = normals / np.maximum(area, 1e-300)[:, None]
-    left, right, ends = _edges(faces)
-    along = vertices[ends[:, 1]] - vertices[ends[:, 0]]
+    shared = shared_edges(faces)
+    start, end = shared.vertices.T
+    # The face that walks an edge from its lower vertex on is the left one.
+    one, other = shared.faces.T
+    walked = faces[one], faces[one][:, FOLLOWING]
+    forward = ((walked[0] == start[:, None]) & (walked[1] == end[:, None])).any(axis=1)
+    left = np.where(forward, one, other)
+    right = np.where(forward, other, one)
+    along = vertices[end] - vertices[start]
     bend = np.einsum("ij,ij->i", np.cross(normals[left], normals[right]), along)
     length = np.linalg.norm(along, axis=1)
     angle = np.arctan2(
@@ -172,19 +176,6 @@ def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[Float
     owner = np.concatenate([left[reflex], right[reflex]])
     offset = np.einsum("ij,ij->i", normals[owner], corners[owner, 0])
     return _heaviest(normals[owner], offset, weight, float(np.ptp(vertices, axis=0).max()))
-
-
-def _edges(faces: IntArray) -> tuple[IntArray, IntArray, IntArray]:
-    """Return each edge's two faces and its ends, directed as in the first face."""
-    starts = faces.ravel()
-    ends = np.roll(faces, -1, axis=1).ravel()
-    owner = np.repeat(np.arange(len(faces)), 3)
-    low = np.minimum(starts, ends)
-    high = np.maximum(starts, ends)
-    order = np.lexsort((starts > ends, high, low)).reshape(-1, 2)
-    first = order[:, 0]
-    second = order[:, 1]
-    return owner[first], owner[second], np.column_stack([starts[first], ends[first]])
 
 
 def _heaviest(

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 from ...articulation import Articulation
-from ...asset import Hull
 from ...config import BuildConfig, DecomposeConfig
 from ...errors import InputRejected
 from ...mesh import Mesh
@@ -15,6 +14,7 @@ from ...runtime.keys import Stage
 from ...runtime.packing import pack, unpack
 from ...runtime.store import Store
 from .part import split_part
+from .pieces import SolidPieces
 from .room import Room, Rooms
 
 DECOMPOSE = Stage(
@@ -27,34 +27,14 @@ DECOMPOSE = Stage(
 COARSER_ROUNDS = 2
 
 
-@dataclass(frozen=True)
-class PartHulls:
-    """One part's collision geometry.
-
-    Attributes:
-        hulls: convex pieces, object frame at rest; empty for a carrier.
-        method: the farthest any of its pieces had to go: ``none`` (carrier), ``exact``, ``cut``
-            (along its own faces), ``single`` (one hull that fills only small dents), ``sheets``
-            (slabs over open surfaces), ``coacd``, ``vhacd``, ``hull`` (one hull, convex or not
-            ); ``built`` (made from a one-piece mesh).
-        degraded: one sentence for each thing given up on the way; empty when all went well.
-        exact: the hulls' union is the part's own volume, no more and no less.
-    """
-
-    hulls: tuple[Hull, ...]
-    method: str
-    degraded: tuple[str, ...] = ()
-    exact: bool = False
-
-
 def decompose(
     articulation: Articulation,
     config: DecomposeConfig,
     store: Store | None = None,
-    known: Sequence[PartHulls | None] = (),
+    known: Sequence[SolidPieces | None] = (),
     hollow: Collection[str] = (),
     rooms: Rooms | None = None,
-) -> tuple[PartHulls, ...]:
+) -> tuple[SolidPieces, ...]:
     """Return the convex hulls for every part, in the parts' order.
 
     Args:
@@ -80,7 +60,7 @@ def decompose(
             results.append(given)
             continue
         if not len(part.faces):
-            results.append(PartHulls((), "none", (), True))
+            results.append(SolidPieces((), "none", (), True))
             continue
         mesh = articulation.part_mesh(index)
         room = rooms.around(index)
@@ -91,11 +71,11 @@ def decompose(
     return tuple(results)
 
 
-def recalled(store: Store | None, key: str, make: Callable[[], PartHulls]) -> PartHulls:
+def recalled(store: Store | None, key: str, make: Callable[[], SolidPieces]) -> SolidPieces:
     """Return the hulls of a part that a store keeps, else make them, and keep them there."""
     kept = None if store is None else store.load(key)
     if kept is not None:
-        return unpack(PartHulls, kept)
+        return unpack(SolidPieces, kept)
     made = make()
     if store is not None:
         store.save(key, pack(made))
@@ -110,7 +90,7 @@ def error_for(mesh: Mesh, config: DecomposeConfig) -> float:
 
 def _decompose_part(
     name: str, mesh: Mesh, config: DecomposeConfig, room: Room, hollow: bool
-) -> PartHulls:
+) -> SolidPieces:
     """Return the hulls of one part, with growing error until they are few enough."""
     degraded: list[str] = []
     error_m = error_for(mesh, config)
@@ -126,8 +106,7 @@ def _decompose_part(
         count = len(pieces.hulls)
         if count <= config.max_hulls:
             exact = pieces.exact and not degraded
-            degraded += pieces.degraded
-            return PartHulls(pieces.hulls, pieces.method, tuple(degraded), exact)
+            return replace(pieces, degraded=(*degraded, *pieces.degraded), exact=exact)
         if attempt < COARSER_ROUNDS:
             degraded.append(
                 f"{count} hulls at an error of {1000 * error_m:g} mm, more than "

@@ -10,9 +10,10 @@ from ...runtime.keys import Stage
 from ...runtime.packing import contents
 from ...runtime.store import Store
 from .convex import limit_vertices
-from .decompose import PartHulls, recalled
+from .decompose import recalled
 from .merge import merge
 from .methods import slot_of
+from .pieces import SolidPieces
 from .room import NOWHERE, Room, Rooms
 
 FEWER = Stage(
@@ -30,13 +31,13 @@ FEW = 8
 
 
 def fewer(
-    pieces: tuple[PartHulls, ...],
+    pieces: tuple[SolidPieces, ...],
     most: int,
     coarsest: float,
     config: BuildConfig,
     store: Store | None = None,
     rooms: Rooms | None = None,
-) -> tuple[tuple[PartHulls, ...], dict[int, float]]:
+) -> tuple[tuple[SolidPieces, ...], dict[int, float]]:
     """Join the hulls of parts, those of most hulls first, until all together are few enough.
 
     Where even the largest error leaves more, the asset keeps those.
@@ -70,7 +71,7 @@ def fewer(
     return tuple(joined), errors_m
 
 
-def _joined(piece: PartHulls, error_m: float, config: BuildConfig, room: Room) -> PartHulls:
+def _joined(piece: SolidPieces, error_m: float, config: BuildConfig, room: Room) -> SolidPieces:
     """Return one part with its hulls joined, up to an error [m]; itself where none can be."""
     slot_m = slot_of(config.decompose) if error_m <= GENTLE * config.decompose.error_m else None
     merged = merge(list(piece.hulls), error_m, slot_m, room)

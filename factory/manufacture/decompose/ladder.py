@@ -73,13 +73,13 @@ def search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPie
         hulls = [hull for vertices, _ in found if (hull := hull_of(vertices)) is not None]
         fault = fault or complaint(solid, hulls, attempt.outside_m)
         if fault is None:
-            return SolidPieces(tuple(hulls), attempt.method, False, degraded, searched)
+            return SolidPieces(tuple(hulls), attempt.method, degraded, searched=searched)
         degraded += (f"{attempt.name}: {fault}",)
     whole = hull_of(triangles_of(solid)[0])
     if whole is None:
         return NOTHING
     degraded += ("one convex hull stands for a solid that is not convex",)
-    return SolidPieces((whole,), "hull", False, degraded, searched)
+    return SolidPieces((whole,), "hull", degraded, searched=searched)
 
 
 def _answer(attempt: _Attempt) -> tuple[list[Triangles], str | None]:

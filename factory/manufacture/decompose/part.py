@@ -53,7 +53,9 @@ def split_part(
         return SolidPieces((single,), "single")
     found = NOTHING
     walls: list[Hull] = []
-    solids = _hollowed(_outermost(list(gated.solids)), list(gated.cavities))
+    solids = _outermost(gated.solids)
+    for cavity in gated.cavities:
+        solids = [piece for solid in solids for piece in opened(solid, cavity)]
     for sheet in gated.sheets:
         shell = None if hollow else as_shell(sheet, config.error_m, room)
         solid = None if hollow or shell is not None else closed(sheet, room)
@@ -85,7 +87,7 @@ def _finished(
     exact = found.exact and len(hulls) == len(found.hulls)
     exact = exact and all(len(hull.vertices) <= config.max_vertices for hull in hulls)
     limited = [limit_vertices(each, config.max_vertices) for each in _not_inside_others(hulls)]
-    return SolidPieces(tuple(limited), found.method, exact, found.degraded)
+    return SolidPieces(tuple(limited), found.method, found.degraded, exact)
 
 
 def _single(
@@ -104,7 +106,7 @@ def _single(
     return limit_vertices(hull, config.max_vertices)
 
 
-def _outermost(solids: list[Manifold]) -> list[Manifold]:
+def _outermost(solids: Sequence[Manifold]) -> list[Manifold]:
     """Return the bodies that lie inside no other body; of duplicates one."""
     volumes = [solid.volume() for solid in solids]
     outer = _outer(volumes, lambda other, one: contains(solids[other], solids[one]))
@@ -120,23 +122,16 @@ def _outer(volumes: Sequence[float], holds: Callable[[int, int], bool]) -> list[
     return sorted(kept)
 
 
-def _hollowed(solids: list[Manifold], cavities: list[Manifold]) -> list[Manifold]:
-    """Return the solids with their hollows cut out."""
-    for cavity in cavities:
-        solids = [piece for solid in solids for piece in opened(solid, cavity)]
-    return solids
-
-
 def _cover(sheet: OpenSurface, center: FloatArray, config: DecomposeConfig) -> list[Hull]:
     """Return the slabs over an open surface, simplified as far as that keeps it covered."""
     error_m = config.error_m
     points = surface_points(sheet.vertices, sheet.faces)
-    for max_faces in (config.max_faces // 4, config.max_faces):
+    for max_faces in (config.max_faces // 4, config.max_faces, len(sheet.faces)):
         light = lighter(sheet, max_faces)
         hulls = merge(slabs(light, error_m, config.shell_m, center), error_m)
         if light is sheet or uncovered(hulls, points) <= COVER_SHARE * error_m:
-            return hulls
-    return merge(slabs(sheet, error_m, config.shell_m, center), error_m)
+            break
+    return hulls
 
 
 def _not_inside_others(hulls: list[Hull], proud_m: float = TOUCHING_M) -> list[Hull]:

@@ -1,4 +1,4 @@
-"""Convex pieces of a solid, and how faithful they are to it."""
+"""Convex pieces of solids and parts, and how faithful they are to them."""
 
 from __future__ import annotations
 
@@ -12,21 +12,25 @@ FAITHFUL = ("exact", "cut", "single", "sheets", "coacd", "vhacd", "hull")
 
 @dataclass(frozen=True)
 class SolidPieces:
-    """Convex pieces of one solid, or of several.
+    """Convex pieces of one solid, of several, or of a part: its collision geometry.
 
     Attributes:
-        hulls: that together cover it; none where it is too thin for a body.
-        method: one of ``FAITHFUL``.
-        exact: the hulls are the solid, no more and no less.
-        degraded: a sentence for everything given up on the way.
+        hulls: that together cover it, object frame at rest; none where it is too thin for a body,
+            nor of a carrier.
+        method: the farthest any of its pieces had to go: ``none`` (carrier), ``exact``, ``cut``
+            (along its own faces), ``single`` (one hull that fills only small dents), ``sheets``
+            (slabs over open surfaces), ``coacd``, ``vhacd``, ``hull`` (one hull, convex or not
+            ); ``built`` (made from a one-piece mesh).
+        degraded: one sentence for each thing given up on the way; empty when all went well.
+        exact: the hulls' union is the solid's own volume, no more and no less.
         searched: pieces that CoACD and V-HACD made of it, failed attempts included: what their
             time goes by.
     """
 
     hulls: tuple[Hull, ...]
     method: str
-    exact: bool = False
     degraded: tuple[str, ...] = ()
+    exact: bool = False
     searched: int = 0
 
     def __add__(self, other: SolidPieces) -> SolidPieces:
@@ -34,8 +38,8 @@ class SolidPieces:
         return SolidPieces(
             self.hulls + other.hulls,
             max(self.method, other.method, key=FAITHFUL.index),
-            self.exact and other.exact,
             self.degraded + other.degraded,
+            self.exact and other.exact,
             self.searched + other.searched,
         )
 

@@ -137,7 +137,7 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
         for patch in two_sided_patches(faces[group]):
             manifold = manifold_of(vertices, patch)
             if manifold is not None:
-                closed += manifold.decompose()
+                closed.append(manifold)
             else:
                 sheets.append(_compact(vertices, patch))
     solids, cavities = _inside_out(closed)

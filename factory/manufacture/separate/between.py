@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ...articulation import Articulation
 from ...mesh import FloatArray
-from ..poses import joints_between, relative_poses
+from ..poses import relative_poses
 from .along import Sides, are_near
-from .budget import SeenSurface
 from .hung import reach_m
+from .pair import PartPair
 
 #: After a cut all of a hinge's way is looked at, in steps so long at the end of its arm [m],
 STEP_M = 0.004
@@ -25,24 +24,26 @@ LEAST_M = 0.002
 Cut = Callable[..., Sides]
 
 
-def poses_between(
-    articulation: Articulation, parts: tuple[int, int], mover: SeenSurface, count: int
-) -> list[FloatArray]:
+def poses_between(pair: PartPair) -> list[FloatArray]:
     """Return poses between those of hinges, so near that a sheet at an arm's end meets another.
 
-    One of two parts holds the other, whose surface is ``mover``; they were cut at ``count`` poses
-    along each joint. None for slides, which are cut on all of their way, and where those are near
-    enough.
+    None for slides, which are cut on all of their way, where the poses that are cut at are near
+    enough, and where no joint holds one part in the other.
     """
-    turning = [joint for joint in joints_between(articulation, *parts) if joint.turns]
+    mover = pair.bodies.surfaces[pair.parts[1 - pair.holder]]
+    if mover is None or not pair.jointed:
+        return []
+    articulation = pair.bodies.articulation
+    count = pair.bodies.config.poses
+    turning = [joint for joint in pair.joints if joint.turns]
     way = max((joint.range * reach_m(mover, joint) for joint in turning), default=0.0)
     most = FINEST * (count - 1)
     finer = min(int(way / STEP_M), most) + 1
     if finer <= count:
         return []
     leaving = min(int(LEAVING * way / LEAVING_STEP_M), most) + 1
-    first = relative_poses(articulation, *parts, leaving, LEAVING)
-    return first + relative_poses(articulation, *parts, finer)
+    first = relative_poses(articulation, *pair.parts, leaving, LEAVING)
+    return first + relative_poses(articulation, *pair.parts, finer)
 
 
 def cut_between(

@@ -10,7 +10,7 @@ from ...articulation import Articulation
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
 from ..decompose.convex import thickness
-from ..decompose.solids import gate, union
+from ..decompose.solids import gate, triangles_of, union
 
 #: Intersections smaller than this are rounding [m3]: a cube of a twentieth of a millimetre.
 LEAST_VOLUME_M3 = 1.25e-13
@@ -48,9 +48,8 @@ def overlap_m(a: Manifold, b: Manifold, pose: FloatArray) -> float:
 def _thickness(piece: Manifold) -> float:
     """Return a piece's least width, or three times its mean thickness if it is bent [m]."""
     mean = thickness_m(piece)
-    mesh = piece.hull().to_mesh64()
-    vertices = mesh.vert_properties[:, :3]
-    normals = doubled_normals(vertices[mesh.tri_verts.astype(np.int64)])
+    vertices, faces = triangles_of(piece.hull())
+    normals = doubled_normals(vertices[faces])
     length = np.linalg.norm(normals, axis=1)
     kept = length > 1e-9 * length.max() if len(length) else length > 0
     width = thickness(vertices, normals[kept] / length[kept, None]) if kept.any() else 0.0

@@ -15,8 +15,8 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..hinges import is_crooked
 from ..poses import held_by, jointed, joints_between, relative_poses
+from ..repair import Pair
 from .along import Sides, hull_depth
-from .between import poses_between
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
 from .clip import SHEET_M
 from .hung import at_an_edge, seat_roundness, trimmed_limit, well_hung
@@ -83,6 +83,12 @@ class PartPair:
         known = [part.name for part in bodies.articulation.parts]
         a, b = map(known.index, names)
         return cls(bodies, (a, b), (bodies.hulls[a], bodies.hulls[b]))
+
+    @property
+    def names(self) -> Pair:
+        """Return their names."""
+        first, second = (self.bodies.articulation.parts[part].name for part in self.parts)
+        return first, second
 
     @cached_property
     def poses(self) -> list[FloatArray]:
@@ -152,14 +158,6 @@ class PartPair:
         near_m = self.bodies.config.clearance_m
         return seat_roundness(surface, joint, self.bodies.holding(joint), near_m)
 
-    def poses_between(self) -> list[FloatArray]:
-        """Return poses between those that are cut at, where a long arm needs them."""
-        mover = self.bodies.surfaces[self.parts[1 - self.holder]]
-        if mover is None or not self.jointed:
-            return []
-        count = self.bodies.config.poses
-        return poses_between(self.bodies.articulation, self.parts, mover, count)
-
     def losses(self, after: Sides) -> list[Loss]:
         """Return what a cut takes of each that can be seen."""
         found = []
@@ -178,11 +176,10 @@ class PartPair:
         """
         config = self.bodies.config
         limits = CutLimits(self._free_m, self._trimmed_m + config.clearance_m, share)
-        names = [self.bodies.articulation.parts[part].name for part in self.parts]
         # Of a closed sheet more may go than of a solid, where it hangs at an edge of its own.
         least_m = SHEET_M if self.hinges else 0.0
         solid = [thickness_m(self.bodies.solids[part]) > least_m for part in self.parts]
-        return overdone(names, losses, solid, limits, config)
+        return overdone(self.names, losses, solid, limits, config)
 
     @cached_property
     def solid(self) -> bool:

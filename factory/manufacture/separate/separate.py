@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from operator import is_
@@ -12,12 +12,12 @@ from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import limit_vertices
-from ..decompose.decompose import PartHulls
 from ..decompose.merge import merge
+from ..decompose.pieces import SolidPieces
 from ..hinges import is_crooked
 from ..repair import Pair
 from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
-from .between import Cut, cut_between
+from .between import Cut, cut_between, poses_between
 from .budget import Loss, too_bare
 from .clip import ROUNDING_M
 from .hung import HUB_SHARE, ROUND_SHARE
@@ -83,15 +83,15 @@ class Separation:
         trimmed: pair of part names -> the visible cut.
     """
 
-    pieces: tuple[PartHulls, ...]
-    refused: Mapping[Pair, SeparationRefusal] = field(default_factory=dict)
-    hidden: Mapping[Pair, float] = field(default_factory=dict)
-    trimmed: Mapping[Pair, tuple[CutBack, ...]] = field(default_factory=dict)
+    pieces: tuple[SolidPieces, ...]
+    refused: dict[Pair, SeparationRefusal] = field(default_factory=dict)
+    hidden: dict[Pair, float] = field(default_factory=dict)
+    trimmed: dict[Pair, tuple[CutBack, ...]] = field(default_factory=dict)
 
 
 def separate(
     articulation: Articulation,
-    pieces: tuple[PartHulls, ...],
+    pieces: tuple[SolidPieces, ...],
     pairs: Iterable[Pair],
     config: SeparateConfig,
     max_vertices: int,
@@ -104,20 +104,22 @@ def separate(
     wanted = sorted({(min(pair), max(pair)) for pair in pairs})
     if not wanted:
         return Separation(pieces)
-    bench = _Bench(Workpieces(articulation, [list(piece.hulls) for piece in pieces], config))
+    bodies = Workpieces(articulation, [list(piece.hulls) for piece in pieces], config)
+    found = Separation(pieces)
     for pair in wanted:
-        bench.cut(pair)
+        _cut(found, bodies, pair)
     # A sheet between two others that made way for the second may have come too near to the first.
-    for pair in filter(bench.nears, wanted):
-        bench.cut(pair)
+    for pair in wanted:
+        if pair not in found.refused and _came_near(bodies, pair):
+            _cut(found, bodies, pair)
     after = tuple(
         with_hulls(piece, kept, max_vertices)
-        for piece, kept in zip(pieces, bench.bodies.hulls, strict=True)
+        for piece, kept in zip(pieces, bodies.hulls, strict=True)
     )
-    return Separation(after, bench.refused, bench.hidden, bench.trimmed)
+    return replace(found, pieces=after)
 
 
-def with_hulls(piece: PartHulls, hulls: list[Hull], max_vertices: int) -> PartHulls:
+def with_hulls(piece: SolidPieces, hulls: list[Hull], max_vertices: int) -> SolidPieces:
     """Return a part with what cuts left of its hulls, joined where they are convex together.
 
     A cut adds corners to a hull; of more than ``max_vertices`` those that matter least are left
@@ -144,91 +146,74 @@ class _Way:
     share: float
 
 
-@dataclass
-class _Bench:
-    """The parts that are worked on, and the cuts.
+def _cut(found: Separation, bodies: Workpieces, names: Pair) -> None:
+    """Cut two parts apart on all of their way, else at rest, if that takes no more than may."""
+    config = bodies.config
+    pair = PartPair.of(bodies, names)
+    hidden = pair.at_rest_m > config.tolerance_m
+    reason = pair.hopeless()
+    for way in ways(pair) if reason is None else ():
+        told = _try(found, pair, pair.poses, way)
+        if told is None:
+            reason = None
+            break
+        # Why a pit will not do says nothing of a part that is no knob.
+        reason = told if reason is None or way.share == config.most_cut else reason
+    cut = reason is None
 
-    Attributes:
-        bodies: the parts.
-        refused, hidden, trimmed: as in :class:`Separation`.
-    """
+    if reason is not None:
+        # What is in the way along it is for the checks to see, and for other repairs.
+        at_rest = _Way(cut_apart_along, config.most_cut)
+        cut = _try(found, pair, pair.poses[:2], at_rest) is None
+        if hidden and not pair.jointed:
+            reason = (
+                f"they overlap by {pair.at_rest_m * 1000:.2f} mm at rest and no joint holds "
+                f"one in the other; {reason}"
+            )
+        found.refused[names] = SeparationRefusal(reason, pair.solid and hidden, cut)
+    if cut and hidden:
+        found.hidden[names] = pair.at_rest_m
 
-    bodies: Workpieces
-    refused: dict[Pair, SeparationRefusal] = field(default_factory=dict)
-    hidden: dict[Pair, float] = field(default_factory=dict)
-    trimmed: dict[Pair, tuple[CutBack, ...]] = field(default_factory=dict)
 
-    def cut(self, names: Pair) -> None:
-        """Cut two parts apart on all of their way, else at rest, if that takes no more than may."""
-        config = self.bodies.config
-        pair = PartPair.of(self.bodies, names)
-        hidden = pair.at_rest_m > config.tolerance_m
-        reason = pair.hopeless()
-        for way in ways(pair) if reason is None else ():
-            told = self._try(names, pair, pair.poses, way)
-            if told is None:
-                reason = None
-                break
-            # Why a pit will not do says nothing of a part that is no knob.
-            reason = told if reason is None or way.share == config.most_cut else reason
-        cut = reason is None
+def _came_near(bodies: Workpieces, names: Pair) -> bool:
+    """Tell whether two parts that were cut apart are nearer at rest than they may be."""
+    least = bodies.config.clearance_m
+    pair = PartPair.of(bodies, names)
+    deepest = max(hull_depth(*pair.before, pose, least) for pose in pair.poses[:2])
+    return deepest > ROUNDING_M - least
 
-        if reason is not None:
-            # What is in the way along it is for the checks to see, and for other repairs.
-            at_rest = _Way(cut_apart_along, config.most_cut)
-            cut = self._try(names, pair, pair.poses[:2], at_rest) is None
-            if hidden and not pair.jointed:
-                reason = (
-                    f"they overlap by {pair.at_rest_m * 1000:.2f} mm at rest and no joint holds "
-                    f"one in the other; {reason}"
-                )
-            self.refused[names] = SeparationRefusal(reason, pair.solid and hidden, cut)
-        if cut and hidden:
-            self.hidden[names] = pair.at_rest_m
 
-    def nears(self, names: Pair) -> bool:
-        """Tell whether two parts that were cut apart are nearer at rest than they may be."""
-        if names in self.refused:
-            return False
-        least = self.bodies.config.clearance_m
-        pair = PartPair.of(self.bodies, names)
-        return max(hull_depth(*pair.before, pose, least) for pose in pair.poses[:2]) > (
-            ROUNDING_M - least
-        )
-
-    def _try(
-        self, names: Pair, pair: PartPair, poses: Sequence[FloatArray], way: _Way
-    ) -> str | None:
-        """Cut two parts at some poses, or say why not."""
-        config = self.bodies.config
-        cut = partial(way.cut, clearance_m=config.clearance_m)
-        after = cut(*pair.before, poses)
+def _try(found: Separation, pair: PartPair, poses: Sequence[FloatArray], way: _Way) -> str | None:
+    """Cut two parts at some poses, or say why not."""
+    config = pair.bodies.config
+    cut = partial(way.cut, clearance_m=config.clearance_m)
+    after = cut(*pair.before, poses)
+    losses = pair.losses(after)
+    reason = pair.overdone(losses, way.share)
+    between = poses_between(pair) if reason is None and len(poses) > 2 else []
+    closer = cut_between(cut, pair.before, after, poses, between)
+    if closer is not None:
+        after = closer
         losses = pair.losses(after)
         reason = pair.overdone(losses, way.share)
-        between = pair.poses_between() if reason is None and len(poses) > 2 else []
-        closer = cut_between(cut, pair.before, after, poses, between)
-        if closer is not None:
-            after = closer
-            losses = pair.losses(after)
-            reason = pair.overdone(losses, way.share)
-        if reason is not None:
-            return reason
-        if max(each.bare_area for each in losses) > SOCKET_SHARE and pair.jointed:
-            after = _socketed(pair, poses) or after
-            losses = pair.losses(after)
-        reason = too_bare(names, losses, config)
-        if reason is not None:
-            return reason
-        for part, hulls in zip(pair.parts, after, strict=True):
-            self.bodies.hulls[part] = hulls
-        trimmed = tuple(
-            CutBack(name, each.deepest_m, each.share, each.area)
-            for name, each in zip(names, losses, strict=True)
-            if each.deepest_m > config.visible_m
-        )
-        if trimmed:
-            self.trimmed[names] = trimmed
-        return None
+    if reason is not None:
+        return reason
+    if max(each.bare_area for each in losses) > SOCKET_SHARE and pair.jointed:
+        after = _socketed(pair, poses) or after
+        losses = pair.losses(after)
+    reason = too_bare(pair.names, losses, config)
+    if reason is not None:
+        return reason
+    for part, hulls in zip(pair.parts, after, strict=True):
+        pair.bodies.hulls[part] = hulls
+    trimmed = tuple(
+        CutBack(name, each.deepest_m, each.share, each.area)
+        for name, each in zip(pair.names, losses, strict=True)
+        if each.deepest_m > config.visible_m
+    )
+    if trimmed:
+        found.trimmed[pair.names] = trimmed
+    return None
 
 
 def ways(pair: PartPair) -> Iterator[_Way]:

@@ -6,14 +6,12 @@ import numpy as np
 from scipy import ndimage
 from scipy.spatial import cKDTree
 
-from ...articulation import JointKind
 from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
-from .carve import surface_points
+from .carve import block_insides, surface_points
 from .knobs import CLEAR_M, clear_of_bumps, give_way, keep_clear
-from .lattice import closed_up, marked
-from .matter import INSIDE, PATH
+from .lattice import marked
 from .pieces import MOST_CORNERS
 from .reach import covering
 from .sweep import entered, hung, motions
@@ -44,21 +42,13 @@ def share_out(work: Workpiece) -> None:
             work.owner[tuple(cells[nearest == part].T)] = part
 
 
-def block_insides(work: Workpiece, part: int, points: FloatArray) -> None:
-    """Keep a part's pieces out of space that its own surface shuts in on five sides."""
-    walls = marked(work.lattice, points)
-    own = work.owner == part
-    empty = closed_up(own | walls) & ~walls & ~work.whole
-    work.block(part, ndimage.binary_erosion(empty), INSIDE)
-
-
 def make_rest(work: Workpiece, most: int) -> None:
     """Make parts that are neither panel nor knob; their neighbours keep clear of their way."""
     for part in sorted(work.rest, reverse=True):
         points = surface_points(work, part)
         if not len(points):
             continue
-        block_insides(work, part, points)
+        block_insides(work, part, points, work.owner == part)
         small = np.ptp(points, axis=0).max() < FEW_CELLS * work.lattice.step
         whole = hull_of(points) if small else None
         work.hulls[part] = (
@@ -73,8 +63,7 @@ def make_rest(work: Workpiece, most: int) -> None:
         joint = work.joints[part - 1]
         passed = entered(work.lattice, work.hulls[part], motions(joint, 24), CLEAR_M)
         host = work.host(part)
-        work.block(host, passed, PATH)
-        work.owner[passed & (work.owner == host)] = -1
+        work.clear_way(host, passed)
 
 
 def hang_panels(work: Workpiece) -> None:
@@ -83,7 +72,7 @@ def hang_panels(work: Workpiece) -> None:
     for part, panel in work.panels.items():
         joint = work.joints[part - 1]
         hulls = work.hulls[part]
-        if not hulls or joint.kind is JointKind.FIXED:
+        if not hulls:
             continue
         slab = max(hulls, key=lambda hull: hull.volume)
         standing = _cells(work, 0, points)
@@ -99,14 +88,13 @@ def hang_panels(work: Workpiece) -> None:
                 )
             work.joints[part - 1] = moved
         passed = entered(work.lattice, hulls, motions(moved), 0.0)
-        work.block(0, passed & standing, PATH)
-        work.owner[passed & standing] = -1
+        work.clear_way(0, passed & standing)
 
 
 def make_body(work: Workpiece, part: int, most: int) -> None:
     """Make the body, or another part that nothing moves: walls around free space."""
     points = _standing_points(work, part)
-    block_insides(work, part, points)
+    block_insides(work, part, points, work.owner == part)
     work.hulls[part] = covering(work, part, _cells(work, part, points), points, most)
     keep_clear(work, part)
 

@@ -18,7 +18,8 @@ from ...runtime.keys import Stage
 from ...runtime.packing import contents
 from ...runtime.stages import Stages
 from ...runtime.store import digest_bytes
-from ..decompose.decompose import PartHulls
+from ..decompose.pieces import SolidPieces
+from ..poses import held_by
 from .body import add_shelves, hang_panels, make_body, make_rest, share_out
 from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
 from .clear import cleared
@@ -28,7 +29,7 @@ from .lattice import Lattice, enclosed
 from .recognize import cut_bases, recognize, recognize_bumps
 from .skin import parts_to_build, skin_parts
 from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
-from .work import Workpiece, host_of
+from .work import Workpiece
 
 SOLIDS = Stage(
     "solids",
@@ -49,7 +50,7 @@ class SolidParts:
     """
 
     articulation: Articulation
-    pieces: tuple[PartHulls | None, ...]
+    pieces: tuple[SolidPieces | None, ...]
     surfaces: tuple[InnerSurface, ...]
 
 
@@ -125,7 +126,7 @@ def solids(
     return SolidParts(replace(made, notes=notes), pieces, tuple(work.records))
 
 
-def _notes(work: Workpiece, pieces: tuple[PartHulls | None, ...]) -> Iterator[str]:
+def _notes(work: Workpiece, pieces: tuple[SolidPieces | None, ...]) -> Iterator[str]:
     """Yield a sentence for each invention, and for each part not made as panels are."""
     kinds = Counter(record.kind for record in work.records)
     said = ", ".join(f"{count} x {kind}" for kind, count in sorted(kinds.items()))
@@ -148,7 +149,7 @@ def _prepared(
     others = [part for part in range(1, len(articulation.parts)) if part not in seen.panels]
     others = [part for part in others if len(articulation.parts[part].faces)]
     bumps, rest = recognize_bumps(articulation, others)
-    hosts = {part: host_of(articulation, part) for part in bumps}
+    hosts = {part: held_by(articulation, part) or 0 for part in bumps}
     skin = cut_bases(seen.skin, bumps, hosts)
     joints = list(articulation.joints)
     of_panels = planes_of_panels(seen.panels, joints, config)
@@ -198,16 +199,16 @@ def _shown(work: Workpiece) -> None:
     for part in work.bumps:
         bump_surfaces(work, part)
     for part in work.rest:
-        hull_surfaces(work, part, work.hulls.get(part, ()))
+        hull_surfaces(work, part)
 
 
 def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:
     return articulation if np.array_equal(turn, np.eye(3)) else rotated(articulation, turn)
 
 
-def _piece(hulls: tuple[Hull, ...], faces: int) -> PartHulls | None:
+def _piece(hulls: tuple[Hull, ...], faces: int) -> SolidPieces | None:
     if not faces:
-        return PartHulls((), "none", (), True)
+        return SolidPieces((), "none", (), True)
     if not hulls:
         return None
-    return PartHulls(hulls, "built")
+    return SolidPieces(hulls, "built")

@@ -9,7 +9,7 @@ import numpy as np
 from scipy import ndimage
 
 from ...articulate.seams.placing import SLIDE
-from ...articulation import Joint, JointKind
+from ...articulation import Joint
 from ...asset import Hull
 from ...config import SolidsConfig
 from ...geometry.rows import distinct_rows
@@ -227,11 +227,10 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     if work.filled[part]:
         room = _inner(work, (0, part), wall)
     else:
-        walls = marked(work.lattice, surface_points(work, 0))
-        work.block(0, ndimage.binary_erosion(_own_inside(work, walls)), INSIDE)
+        block_insides(work, 0, surface_points(work, 0), work.whole)
         if not panel.slides:
             return
-        room = _empty(work, walls)
+        room = _empty(work, marked(work.lattice, surface_points(work, 0)))
         layer = Box(column.low, np.append(column.high[:2], start + BEHIND_BACK_M))
         room[work.lattice.span(layer.turned(frame.T))] = True
     for taken in _taken(work, part):
@@ -267,9 +266,14 @@ def _filled_behind(work: Workpiece, column: Box, frame: FloatArray) -> bool:
     return bool(cells.size and cells.mean() > FILLED)
 
 
-def _own_inside(work: Workpiece, walls: BoolArray) -> BoolArray:
-    """Return the empty cells that the mesh, whose surface is ``walls``, shuts in on five sides."""
-    return np.asarray(closed_up(work.whole | walls) & ~walls & ~work.whole)
+def block_insides(work: Workpiece, part: int, points: FloatArray, solid: BoolArray) -> None:
+    """Keep a part's pieces out of space that a surface and solid cells shut in on five sides.
+
+    Points of the surface have shape [n, 3] [m].
+    """
+    walls = marked(work.lattice, points)
+    empty = closed_up(solid | walls) & ~walls & ~work.whole
+    work.block(part, ndimage.binary_erosion(empty), INSIDE)
 
 
 def _empty(work: Workpiece, walls: BoolArray) -> BoolArray:
@@ -287,8 +291,7 @@ def _give_box(work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...]) -> None
         np.append(np.min([box.high[:2] for box in boxes], axis=0), boxes[-1].high[2]),
     )
     up = int(np.abs(panel.side.frame[:2, 2]).argmax())
-    slides = work.joints[panel.part - 1].kind is JointKind.PRISMATIC
-    boards = drawer_box(room, panel.back, up) if slides else ()
+    boards = drawer_box(room, panel.back, up)
     work.boards[panel.part] = boards
     work.add_boards(panel.part, boards, panel)
     if boards:

@@ -12,7 +12,6 @@ from ..poses import moved
 from ..separate.clip import carved, clipped, meeting
 from .box import Box
 from .bump import Bump
-from .matter import PATH
 from .sweep import entered, motions
 from .work import Workpiece
 
@@ -32,7 +31,7 @@ def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> list[list[fl
     """Return, per axis, where the lattice needs planes for rooms to end by knobs [m]."""
     planes: list[list[float]] = [[], [], []]
     for part, bump in bumps.items():
-        room = _box(_passed(bump, joints[part - 1]))
+        room = _box(_passed(bump.hull, joints[part - 1]))
         ends = np.stack([room.low, room.high], axis=1).tolist()
         if bump.normal is not None:
             # Pieces that end a little too high are seen to enter a thin layer at its foot; a
@@ -53,8 +52,7 @@ def make_bumps(work: Workpiece) -> None:
         host = work.host(part)
         _free_above(work, host, bump)
         inside = entered(work.lattice, [bump.hull], _way(work.joints[part - 1]), CLEAR_M)
-        work.block(host, inside, PATH)
-        work.owner[inside & (work.owner == host)] = -1
+        work.clear_way(host, inside)
 
 
 def _way(joint: Joint) -> list[FloatArray]:
@@ -63,14 +61,9 @@ def _way(joint: Joint) -> list[FloatArray]:
     return [np.eye(4), *motions(joint, PRESSES)] if slides else [np.eye(4)]
 
 
-def _passed(bump: Bump, joint: Joint) -> FloatArray:
-    """Return its corners all along its way [m], shape [n, 3]."""
-    return _all_along(bump.hull.vertices, _way(joint))
-
-
-def _all_along(points: FloatArray, way: list[FloatArray]) -> FloatArray:
-    """Return the points at all poses of a way [m], shape [n, 3]."""
-    return np.concatenate([moved(points, pose) for pose in way])
+def _passed(hull: Hull, joint: Joint) -> FloatArray:
+    """Return a hull's corners all along its way [m], shape [n, 3]."""
+    return np.concatenate([moved(hull.vertices, pose) for pose in _way(joint)])
 
 
 def _box(points: FloatArray) -> Box:
@@ -104,7 +97,7 @@ def keep_clear(work: Workpiece, host: int) -> None:
     """Cut the pieces of what holds knobs where these pass; the knobs stay whole."""
     for part, bump in work.bumps.items():
         if work.host(part) == host:
-            passed = _passed(bump, work.joints[part - 1])
+            passed = _passed(bump.hull, work.joints[part - 1])
             work.hulls[host] = _all_around(work.hulls.get(host, ()), passed)
 
 
@@ -117,7 +110,7 @@ def give_way(work: Workpiece, part: int) -> None:
     before = work.hulls.get(host, ())
     after = before
     for hull in work.hulls[part]:
-        after = _all_around(after, _all_along(hull.vertices, _way(joint)))
+        after = _all_around(after, _passed(hull, joint))
     left = sum(hull.volume for hull in after)
     if left >= PANEL_LEFT * sum(hull.volume for hull in before):
         work.hulls[host] = after

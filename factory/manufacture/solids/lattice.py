@@ -24,7 +24,7 @@ VOTES = 2
 #: Sides of six on which a space is shut in.
 SHUT_IN = 5
 #: Cells along each axis.
-Span = tuple[slice, slice, slice]
+Span = tuple[slice, ...]
 _SIDES = (Side.LEFT, Side.FRONT, Side.BOTTOM)
 
 
@@ -32,7 +32,7 @@ _SIDES = (Side.LEFT, Side.FRONT, Side.BOTTOM)
 class Lattice:
     """Planes across each axis [m], ascending; cell i lies between planes i and i + 1."""
 
-    lines: tuple[FloatArray, FloatArray, FloatArray]
+    lines: tuple[FloatArray, ...]
 
     @classmethod
     def over(cls, bounds: FloatArray, cells: int, planes: list[list[float]]) -> Lattice:
@@ -55,13 +55,12 @@ class Lattice:
                 near[[0, -1]] = False
                 even = even[~near]
             lines.append(np.sort(np.concatenate([even, wanted])))
-        return cls((lines[0], lines[1], lines[2]))
+        return cls(tuple(lines))
 
     @property
-    def shape(self) -> tuple[int, int, int]:
+    def shape(self) -> tuple[int, ...]:
         """Return the cells along each axis."""
-        x, y, z = (len(each) - 1 for each in self.lines)
-        return x, y, z
+        return tuple(len(each) - 1 for each in self.lines)
 
     @cached_property
     def step(self) -> float:
@@ -69,10 +68,9 @@ class Lattice:
         return float(max(np.median(np.diff(line)) for line in self.lines))
 
     @property
-    def middles(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def middles(self) -> tuple[FloatArray, ...]:
         """Return the coordinates of the cells' centres along each axis [m]."""
-        x, y, z = ((each[1:] + each[:-1]) / 2.0 for each in self.lines)
-        return x, y, z
+        return tuple((each[1:] + each[:-1]) / 2.0 for each in self.lines)
 
     @cached_property
     def volumes(self) -> FloatArray:
@@ -82,11 +80,10 @@ class Lattice:
 
     def span(self, box: Box) -> Span:
         """Return the cells whose centres lie in a box."""
-        x, y, z = (
+        return tuple(
             slice(*np.searchsorted(middle, [box.low[axis], box.high[axis]]))
             for axis, middle in enumerate(self.middles)
         )
-        return x, y, z
 
     def below(self, planes: FloatArray, span: Span, margin: float = 0.0) -> BoolArray:
         """Return which cells of a span have their centres below all of some planes.

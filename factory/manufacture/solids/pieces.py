@@ -113,16 +113,11 @@ def _islands(solid: BoolArray) -> list[Span]:
     label, count = ndimage.label(solid)
     if not count:
         return []
-    spans = [_whole(span) for span in ndimage.find_objects(label) if span is not None]
+    spans = [span for span in ndimage.find_objects(label) if span is not None]
     if count > 1 and not any(_meet(a, b) for i, a in enumerate(spans) for b in spans[:i]):
         return spans
-    trimmed = _trimmed(solid, _whole(tuple(slice(0, size) for size in solid.shape)))
+    trimmed = _trimmed(solid, tuple(slice(0, size) for size in solid.shape))
     return [] if trimmed is None else [trimmed]
-
-
-def _whole(slices: tuple[slice, ...]) -> Span:
-    x, y, z = slices
-    return x, y, z
 
 
 def _meet(a: Span, b: Span) -> bool:
@@ -162,14 +157,13 @@ def _foils(matter: Matter, span: Span, points: FloatArray) -> Iterator[tuple[Hul
 def _trimmed(solid: BoolArray, span: Span) -> Span | None:
     trimmed = list(span)
     for axis in (0, 1, 2):
-        x, y, z = trimmed
         across = tuple(other for other in range(3) if other != axis)
-        filled_at = np.flatnonzero(solid[x, y, z].any(axis=across))
+        filled_at = np.flatnonzero(solid[tuple(trimmed)].any(axis=across))
         if not len(filled_at):
             return None
         start = span[axis].start
         trimmed[axis] = slice(start + int(filled_at[0]), start + int(filled_at[-1]) + 1)
-    return _whole(tuple(trimmed))
+    return tuple(trimmed)
 
 
 def _box(lattice: Lattice, span: Span) -> Box:
@@ -298,7 +292,7 @@ def _halves(span: Span, axis: int, plane: int) -> tuple[Span, Span]:
     second = list(span)
     first[axis] = slice(span[axis].start, plane)
     second[axis] = slice(plane, span[axis].stop)
-    return _whole(tuple(first)), _whole(tuple(second))
+    return tuple(first), tuple(second)
 
 
 def _nearby(matter: Matter, span: Span) -> _Nearby:

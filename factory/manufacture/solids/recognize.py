@@ -54,7 +54,10 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
     for index in parts:
         joint = articulation.joints[index - 1]
         given = articulation.parts[index].panel
-        if given is None or not opens(joint, given) or _on_panel(articulation, index, panels):
+        if given is None or not opens(joint, given):
+            continue
+        # What hangs on a panel, directly or not, is none.
+        if any(above.parent in panels for above in joints_above(articulation, index)):
             continue
         view = views.get(side_facing(given.outward))
         if view is None or not (view.part == index).any():
@@ -70,13 +73,8 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
     lost = [index for index in panels if not (skin.part == index).any()]
     panels = {index: panel for index, panel in panels.items() if index not in lost}
     own = part[skin.face]
-    skin = skin.labelled(np.where(np.isin(own, lost), own, skin.part))
+    skin = replace(skin, part=np.where(np.isin(own, lost), own, skin.part))
     return Recognized(views, panels, skin)
-
-
-def _on_panel(articulation: Articulation, part: int, panels: dict[int, FlatPanel]) -> bool:
-    """Return whether a part hangs on a panel, directly or not."""
-    return any(joint.parent in panels for joint in joints_above(articulation, part))
 
 
 def _apart(panels: dict[int, FlatPanel]) -> dict[int, FlatPanel]:
@@ -133,7 +131,7 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
     # Straps and locks stand out of a lid; above its seam is nothing else.
     proud = (middles[:, 2] <= panel.back) & panel.is_lid
     part[own & ~inside & ~fitted & ~proud] = 0
-    return skin.labelled(part)
+    return replace(skin, part=part)
 
 
 def _behind(panel: FlatPanel, depth: float = OWN_BACK_M) -> Box:
@@ -186,7 +184,7 @@ def cut_bases(skin: CutSkin, bumps: dict[int, Bump], hosts: dict[int, int]) -> C
         skin = cut(skin, bump.normal, bump.base, own)
         below = (skin.part == index) & (skin.middles @ bump.normal < bump.base)
         if not below.all():
-            skin = skin.labelled(np.where(below, hosts[index], skin.part))
+            skin = replace(skin, part=np.where(below, hosts[index], skin.part))
     return skin
 
 

@@ -70,10 +70,6 @@ class CutSkin:
             np.concatenate([self.part, other.part]),
         )
 
-    def labelled(self, part: IntArray) -> CutSkin:
-        """Return the same triangles as other parts'."""
-        return CutSkin(self.corners, self.face, self.weights, part)
-
 
 def cut(skin: CutSkin, normal: FloatArray, offset: float, which: BoolArray) -> CutSkin:
     """Return the mesh with some triangles, ``which``, cut where ``normal . x = offset`` [m]."""

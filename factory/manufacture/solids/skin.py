@@ -135,7 +135,11 @@ def _solid_behind(articulation: Articulation, part: int, crossed: Crossings) -> 
     own = np.zeros(len(mesh.faces), dtype=np.bool_)
     own[articulation.parts[part].faces] = True
     local = articulation.part_mesh(part).vertices @ side.frame.T
-    window = _window(crossed.raster, local)
+    low = local[:, :2].min(axis=0)
+    high = local[:, :2].max(axis=0)
+    inset = INSET * (high - low)
+    window = np.zeros((crossed.raster.rows, crossed.raster.columns), dtype=np.bool_)
+    window[crossed.raster.window(low + inset, high - inset)] = True
     far = float(local[:, 2].max()) - crossed.raster.near
     reach = far + NEAR * float(np.ptp(mesh.vertices @ side.frame[2]))
     mine = own[crossed.face]
@@ -144,15 +148,5 @@ def _solid_behind(articulation: Articulation, part: int, crossed: Crossings) -> 
     behind = ~mine & (crossed.depth > front[crossed.pixel]) & (crossed.depth <= reach)
     met = np.zeros(len(front), dtype=np.bool_)
     met[crossed.pixel[behind]] = True
-    looked = window & np.isfinite(front)
+    looked = window.ravel() & np.isfinite(front)
     return float(met[looked].mean()) if looked.any() else 0.0
-
-
-def _window(raster: Raster, local: FloatArray) -> BoolArray:
-    """Return the pixels well within a part's rectangle, shape [rows * columns]."""
-    low = local[:, :2].min(axis=0)
-    high = local[:, :2].max(axis=0)
-    inset = INSET * (high - low)
-    window = np.zeros((raster.rows, raster.columns), dtype=np.bool_)
-    window[raster.window(low + inset, high - inset)] = True
-    return window.ravel()

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...geometry.rows import distinct_rows
 from ...mesh import BoolArray, FloatArray
+from ..decompose.solids import triangles_of, union
 from .box import Box
 from .seam import SAME_M
 
@@ -98,11 +99,8 @@ def inside_of(boxes: Sequence[Box], mouth: float) -> Triangles:
 
 def outside_of(boxes: Sequence[Box]) -> Triangles:
     """Return the surface of all boxes together, seen from outside."""
-    if not boxes:
-        return np.zeros((0, 3, 3))
     solids = [
         manifold3d.Manifold.cube(box.size.tolist()).translate(box.low.tolist()) for box in boxes
     ]
-    mesh = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add).to_mesh64()
-    points = np.asarray(mesh.vert_properties)[:, :3]
-    return np.asarray(points[np.asarray(mesh.tri_verts, dtype=np.int64)])
+    points, faces = triangles_of(union(solids))
+    return np.asarray(points[faces])

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import Articulation
-from ...asset import Hull
 from ...geometry.colors import linear_of
 from ...geometry.rows import distinct_rows
 from ...geometry.triangles import areas_of
@@ -113,9 +112,9 @@ def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
     return first, np.cross(normal, first)
 
 
-def hull_surfaces(work: Workpiece, part: int, hulls: tuple[Hull, ...]) -> None:
+def hull_surfaces(work: Workpiece, part: int) -> None:
     """Add all of a part's pieces, where its own surface is only a shred."""
-    triangles = [hull.vertices[hull.faces] for hull in hulls]
+    triangles = [hull.vertices[hull.faces] for hull in work.hulls.get(part, ())]
     own = areas_of(work.skin.of_part(part)).sum()
     if triangles and own < SHRED * sum(areas_of(each).sum() for each in triangles):
         work.add(part, np.concatenate(triangles), "body", "pieces")

@@ -18,7 +18,7 @@ from ..poses import held_by
 from .box import Box
 from .bump import Bump
 from .lattice import Lattice, Span
-from .matter import Weights
+from .matter import PATH, Weights
 from .panel import FlatPanel
 from .seam import CutSkin
 
@@ -84,8 +84,8 @@ class Workpiece:
         return self.source.parts[part].name
 
     def host(self, part: int) -> int:
-        """Return the nearest part with faces that a part hangs on."""
-        return host_of(self.source, part)
+        """Return the nearest part with faces that a part hangs on, or the root."""
+        return held_by(self.source, part) or 0
 
     def closed_behind(self, part: int) -> bool:
         """Tell whether the space behind a panel is filled, so that its opening ends in a face."""
@@ -95,6 +95,11 @@ class Workpiece:
         """Make cells nobody's that are a part's."""
         owner = self.owner[span]
         owner[owner == part] = -1
+
+    def clear_way(self, part: int, passed: BoolArray) -> None:
+        """Keep a part's pieces out of cells that something passes, and make its own nobody's."""
+        self.block(part, passed, PATH)
+        self.owner[passed & (self.owner == part)] = -1
 
     def add_boards(self, part: int, boards: Iterable[Box], panel: FlatPanel) -> None:
         """Add boards, in a panel's frame, to a part's pieces."""
@@ -149,8 +154,3 @@ class Workpiece:
         self.added.setdefault((part, lined), []).append(turned)
         sizes = (None if each is None else round(float(each), 4) for each in (thickness, depth))
         self.records.append(InnerSurface(self.name(part), kind, rule, *sizes))
-
-
-def host_of(articulation: Articulation, part: int) -> int:
-    """Return the nearest part with faces that a part hangs on, or the root."""
-    return held_by(articulation, part) or 0

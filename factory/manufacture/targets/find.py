@@ -20,8 +20,7 @@ from .surroundings import surroundings_of
 MOST = 8
 #: Points on what faces against the opening; how many of those that lie open are asked whether a
 #: finger can push there; and how many of each where a grasp this good is at hand.
-PLENTY = 96
-POKES = 24
+PLENTY = (96, 24)
 GOOD = 0.8
 FEW = (32, 8)
 #: Targets of one kind nearer than this, to be reached from one side, are one [m].
@@ -59,7 +58,7 @@ def _holds(task: HoldSearch) -> list[Target]:
     """Try every candidate: poses to grasp at, and points to push at or hook behind."""
     poses = find_poses(task.moving)
     holds = [hold for pose in poses if (hold := grasp(task, pose)) is not None]
-    plenty, most = FEW if any(hold.score >= GOOD for hold in holds) else (PLENTY, POKES)
+    plenty, most = FEW if any(hold.score >= GOOD for hold in holds) else PLENTY
     spots = zip(*spread_against(task.moving, plenty), strict=True)
     open_spots = (spot for spot in spots if exposed(task, *spot))
     pokes = (poke(task, *spot) for spot in islice(open_spots, most))

@@ -16,12 +16,8 @@ from .surroundings import HandView, Surroundings
 
 #: What the kinds are worth beside each other.
 WORTH = {"grasp": 1.0, "hook": 0.6, "push": 0.55}
-#: Of the worth, for fingertips that reach to each of the gripper's depths, or gaps of each of its
-#: widths.
-DEPTH_WORTH = (1.0, 0.85, 0.65)
-GAP_WORTH = (1.0, 0.7)
-#: For widths that only the widest hand takes; a blocked palm; a blocked arm; a hold by friction
-#: alone; not on a handle.
+#: Of the worth, for widths that only the widest hand takes; a blocked palm; a blocked arm; a hold
+#: by friction alone; not on a handle.
 WIDE = 0.6
 PALM = 0.5
 ARM = 0.4
@@ -129,7 +125,7 @@ def _closed(task: HoldSearch, pose: Pose, view: HandView) -> Target | None:
     half = GRIPPER.finger_width / 2.0
     window = GRIPPER.widest / 2.0 + GRIPPER.finger_thickness
     room = GRIPPER.finger_thickness + 2.0 * GRIPPER.play
-    for depth, depth_worth in zip(GRIPPER.depths, DEPTH_WORTH, strict=True):
+    for depth, depth_worth in GRIPPER.depths:
         spans = view.spans((-window, -half, -depth), (window, half, GRIPPER.play), room)
         held = spans[(spans[:, 0] <= GRIPPER.play) & (spans[:, 1] >= -GRIPPER.play)]
         if len(held) != 1:
@@ -154,7 +150,7 @@ def _rated_grasp(
     normal = view.axes[2]
     point = pose.point if abs(middle) < CENTRED_M else _surface_at(view, middle, depth)
     # What turns between the fingers is held as well there as at its rim.
-    spins = _spins(task, point, width)
+    spins = bool(task.moving.joint.turns and task.moving.lever(point) < width / 2.0)
     reach = point + fingers * width / 2.0 if spins else point
     if not task.moving.far_enough(reach):
         return None
@@ -176,11 +172,6 @@ def _rated_grasp(
     return task.target("grasp", point, normal, fingers, worth, opening=width, at=reach)
 
 
-def _spins(task: HoldSearch, point: FloatArray, width: float) -> bool:
-    """Return whether the joint's axis runs between the fingers."""
-    return bool(task.moving.joint.turns and task.moving.lever(point) < width / 2.0)
-
-
 def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
     """Return the outermost own surface in the middle between the fingers [m], object frame."""
     sliver = 1e-3
@@ -191,7 +182,7 @@ def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
 
 def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
     """Return whether there is any room for a fingertip before a point of the surface."""
-    room = min(GRIPPER.gaps)
+    room = min(gap for gap, _ in GRIPPER.gaps)
     view = task.view(point, _frame(task, outward), 2.0 * room)
     half = room / 4.0
     return view.free((-half, -half, GRIPPER.off), (half, half, room))
@@ -242,7 +233,7 @@ def _hooked(
     start = (EDGE_M * np.sin(tilt), EDGE_M * np.cos(tilt)) if tilt else (0.0, 0.0)
     tip = start[1] - (TIP_M if tilt else 0.5 * half)
     side = start[0] + GRIPPER.off
-    for gap, gap_worth in zip(GRIPPER.gaps, GAP_WORTH, strict=True):
+    for gap, gap_worth in GRIPPER.gaps:
         # The tip passes the point: it hooks, rather than touches.
         if not view.free((side, -half, tip), (side + gap, half, GRIPPER.length)):
             continue

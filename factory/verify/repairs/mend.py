@@ -13,7 +13,6 @@ from ...manufacture.hinges import STRAIGHT, at_back_edge, at_front_edge, is_aske
 from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
 from ...manufacture.separate.sweep import swept_m
-from ...mesh import FloatArray
 from .evidence import RepairEvidence, record_change
 from .shorten import SHORTER
 
@@ -191,15 +190,18 @@ def _freed_early(asset: Asset, changes: Iterable[Mended], least_share: float) ->
 
 def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator[Mended]:
     """Yield small changes, the least first."""
-    straight = _straightened(joint)
-    if straight is not None:
-        angle = float(np.degrees(np.arccos(min(1.0, float(straight.axis @ joint.axis)))))
-        kind = RepairKind.AXIS_STRAIGHTENED
-        yield Mended(straight, record_change(kind, joint.name, angle, 0.0, "deg"))
     # An axis that is off is not left so for the sake of another change.
-    base = straight or joint
-    for kind, hung in _rehung(articulation, base):
-        yield Mended(hung, _moved(kind, joint, hung))
+    base = joint
+    if is_askew(joint.axis):
+        longest = int(np.abs(joint.axis).argmax())
+        base = replace(joint, axis=np.eye(3)[longest] * np.sign(joint.axis[longest]))
+        angle = float(np.degrees(np.arccos(min(1.0, float(base.axis @ joint.axis)))))
+        kind = RepairKind.AXIS_STRAIGHTENED
+        yield Mended(base, record_change(kind, joint.name, angle, 0.0, "deg"))
+    for kind, at_edge in TO_EDGE.items():
+        hung = at_edge(articulation, base)
+        if hung is not None and _is_near(articulation, base, hung):
+            yield Mended(hung, _moved(kind, joint, hung))
     if share < BLOCKED_SHARE and joint.lower == 0.0:
         turned = replace(base, axis=-base.axis)
         yield Mended(turned, Repair(RepairKind.OPENING_REVERSED, joints=(joint.name,)))
@@ -207,7 +209,6 @@ def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator
 
 def _at_lines(articulation: Articulation, joint: Joint, lines: Iterable[Joint]) -> Iterator[Mended]:
     """Yield a hinge at the lines of others of the same part that it is nearly at."""
-    most = MOVED_SHARE * articulation.part_mesh(joint.child).diagonal
     for line in lines:
         cosine = float(line.axis @ joint.axis)
         hinges = joint.kind is JointKind.REVOLUTE is line.kind
@@ -216,8 +217,7 @@ def _at_lines(articulation: Articulation, joint: Joint, lines: Iterable[Joint]) 
         along = line.axis * float(line.axis @ (joint.origin - line.origin))
         axis = line.axis * np.sign(cosine)
         hung = replace(joint, axis=axis, origin=line.origin + along)
-        near = float(np.linalg.norm(hung.origin - joint.origin)) <= most
-        if near and abs(cosine) >= STRAIGHT:
+        if _is_near(articulation, joint, hung) and abs(cosine) >= STRAIGHT:
             yield Mended(hung, _moved(RepairKind.HINGE_TO_LINE, joint, hung))
 
 
@@ -237,20 +237,7 @@ def _moved(kind: RepairKind, joint: Joint, hung: Joint) -> Repair:
     return record_change(kind, joint.name, moved, 0.0, "mm")
 
 
-def _straightened(joint: Joint) -> Joint | None:
-    if not is_askew(joint.axis):
-        return None
-    longest = int(np.abs(joint.axis).argmax())
-    direction: FloatArray = np.eye(3)[longest] * np.sign(joint.axis[longest])
-    return replace(joint, axis=direction)
-
-
-def _rehung(articulation: Articulation, joint: Joint) -> Iterator[tuple[RepairKind, Joint]]:
-    """Yield a hinge at near edges of its part, and the repair that moves it there."""
-    if joint.kind is not JointKind.REVOLUTE:
-        return
-    most = MOVED_SHARE * articulation.part_mesh(joint.child).diagonal
-    for kind, at_edge in TO_EDGE.items():
-        hung = at_edge(articulation, joint)
-        if hung is not None and float(np.linalg.norm(hung.origin - joint.origin)) <= most:
-            yield kind, hung
+def _is_near(articulation: Articulation, joint: Joint, hung: Joint) -> bool:
+    """Tell whether a hinge is moved no further than its part's size lets it."""
+    moved = float(np.linalg.norm(hung.origin - joint.origin))
+    return moved <= MOVED_SHARE * articulation.part_mesh(joint.child).diagonal

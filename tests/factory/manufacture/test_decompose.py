@@ -15,7 +15,7 @@ from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.errors import Unjudged
 from asset_factory.factory.manufacture.decompose import ladder, methods
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of, surface_points
-from asset_factory.factory.manufacture.decompose.decompose import PartHulls, decompose
+from asset_factory.factory.manufacture.decompose.decompose import decompose
 from asset_factory.factory.manufacture.decompose.methods import MOST_SEARCHED, SolidPieces, refined
 from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.room import NOWHERE
@@ -92,7 +92,7 @@ def test_a_carrier_has_no_hulls():
     mesh = Mesh.from_triangles(vertices, faces)
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, np.array([0, 0, 1.0]), np.zeros(3), 0.0, 0.1)
     results = decompose(parted({"body": [mesh], "carrier": []}, joint), CONFIG)
-    assert results[1] == PartHulls((), "none", (), True)
+    assert results[1] == SolidPieces((), "none", (), True)
 
 
 def test_coacd_covers_a_curved_solid_keeps_its_hole_and_repeats_itself():

@@ -5,9 +5,9 @@ import trimesh
 
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.decompose.fewer import fewer
 from asset_factory.factory.manufacture.decompose.outside import uncovered
+from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
 from asset_factory.factory.runtime.store import Store
 
 CONFIG = BuildConfig()
@@ -20,7 +20,7 @@ def comb(teeth, gap_m):
         made = trimesh.creation.box((0.02, 0.02, 0.3))
         shift = [number * (0.02 + gap_m), 0, 0]
         hulls.append(Hull(np.asarray(made.vertices) + shift, np.asarray(made.faces)))
-    return PartHulls(tuple(hulls), "exact", (), True)
+    return SolidPieces(tuple(hulls), "exact", (), True)
 
 
 def test_few_hulls_stay_as_they_are():

@@ -6,7 +6,7 @@ from plain_solids import sized_box
 
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.decompose.convex import depth_below
-from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
 from asset_factory.factory.manufacture.separate.separate import with_hulls
 
 
@@ -14,7 +14,7 @@ def block(size, center=(0.0, 0.0, 0.0)):
     return Hull(*sized_box(size, center))
 
 
-PANEL = PartHulls((block((0.3, 0.3, 0.02)),), "exact", (), True)
+PANEL = SolidPieces((block((0.3, 0.3, 0.02)),), "exact", (), True)
 #: The panel in nine tiles, without the one in the middle.
 PLACES = [(x, y, 0.0) for x in (-0.1, 0.0, 0.1) for y in (-0.1, 0.0, 0.1) if (x, y) != (0.0, 0.0)]
 TILES = [block((0.1, 0.1, 0.02), place) for place in PLACES]

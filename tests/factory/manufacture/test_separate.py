@@ -11,8 +11,8 @@ from plain_solids import sized_box as box
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
-from asset_factory.factory.manufacture.decompose.decompose import PartHulls
 from asset_factory.factory.manufacture.decompose.outside import outside
+from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import hull_depth
@@ -44,7 +44,7 @@ def object_of(base, mover, joint=None, third=None):
 
 
 def pieces_of(*hulls):
-    return tuple(PartHulls((one,), "exact", (), True) for one in hulls)
+    return tuple(SolidPieces((one,), "exact", (), True) for one in hulls)
 
 
 def gap(result, pose=None):
@@ -132,7 +132,7 @@ def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.4)
     tree = parted({"base": solids[:2], "mover": solids[2:]}, slide)
     left, right, mover = (Hull(mesh.vertices, mesh.faces) for mesh in solids)
-    pieces = (PartHulls((left, right), "exact", (), True), *pieces_of(mover))
+    pieces = (SolidPieces((left, right), "exact", (), True), *pieces_of(mover))
     result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
     assert result.refused == {}
     assert result.pieces[1].hulls[0].volume == pytest.approx(mover.volume, rel=1e-6)

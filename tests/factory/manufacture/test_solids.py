@@ -9,12 +9,14 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from manifold3d import Manifold
 from plain_solids import sized_box as box
 
 from asset_factory.factory.manufacture.decompose.openings import capped
 from asset_factory.factory.manufacture.decompose.simplify import simplified
 from asset_factory.factory.manufacture.decompose.solids import (
     closes,
+    contains,
     gate,
     manifold_of,
     triangles_of,
@@ -53,6 +55,19 @@ def test_a_pane_at_the_corners_of_its_frame_is_a_sheet():
 def test_boxes_that_share_welded_faces_edges_or_corners_come_apart():
     for at in ((1, 0, 0), (1, 1, 0), (1, 1, 1)):
         assert volumes(welded(together(box((1, 1, 1)), box((1, 1, 1), at)))) == [1.0, 1.0]
+
+
+def test_a_grain_at_a_bodys_corner_is_nothing():
+    vertices, faces = box((1, 1, 1))
+    grain = 5e-5 * (vertices - vertices.min(axis=0)) + vertices.max(axis=0)
+    assert volumes(welded(together((vertices, faces), (grain, faces)))) == [1.0]
+
+
+def test_a_body_that_stands_out_of_another_does_not_lie_in_it_however_little_does():
+    outer = Manifold.cube([1.0, 1.0, 1.0], True)
+    inner = Manifold.cube([0.5, 0.5, 0.5], True)
+    assert contains(outer, inner)
+    assert not contains(outer, inner + Manifold.cube([0.01, 0.01, 1.2], True))
 
 
 def test_an_open_box_is_a_sheet_wound_one_way():

@@ -9,7 +9,7 @@ from held_parts import PAIR, held, hulls_of
 
 from asset_factory.factory.articulation import Joint, rotation_about
 from asset_factory.factory.config import SeparateConfig
-from asset_factory.factory.manufacture.decompose.decompose import PartHulls
+from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
 from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.along import cut_apart_along, hull_depth
@@ -45,7 +45,7 @@ RING = [turned(BOARD.copy(), angle) for angle in ANGLES]
 FLOOR = [trimesh.creation.box(bounds=[(-0.3, -0.3, -0.2), (0.3, 0.3, -0.06)])]
 
 
-PIECES = tuple(PartHulls(hulls_of(each), "exact", (), True) for each in ([*RING, *FLOOR], KNOB))
+PIECES = tuple(SolidPieces(hulls_of(each), "exact", (), True) for each in ([*RING, *FLOOR], KNOB))
 
 
 def object_of(joint):

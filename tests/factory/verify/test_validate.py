@@ -1,5 +1,7 @@
 """The way to the judge: no inspection is repeated, and two files of one asset make one report."""
 
+from dataclasses import replace
+
 import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet
 
@@ -24,11 +26,12 @@ def test_what_was_inspected_is_not_measured_again(tmp_path, monkeypatch):
         return examine(judge, path)
 
     monkeypatch.setattr(Judge, "examine", counted)
+    stages = Stages(BuildConfig(simulators=("mujoco",)))
     with Judge() as judge:
-        inspected = inspect(bundle, judge)
-        verdict = validate(bundle, ("mujoco",), judge, inspected=inspected)
+        inspected = inspect(bundle, judge, (), stages)
+        verdict = validate(bundle, judge, (), inspected, stages)
         assert examined == ["asset.urdf", "asset.xml"]
-        again = validate(bundle, ("mujoco",), judge)
+        again = validate(bundle, judge, (), replace(inspected, examined=None), stages)
     assert examined == ["asset.urdf", "asset.xml"] * 2
     assert verdict.report.to_json() == again.report.to_json()
 
@@ -41,8 +44,9 @@ def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_pa
     drawer = box([0.395, 0.0, 0.4], [0.2, 0.4, 0.8])
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, -1, 0], [0.395, 0.0, 0.4], 0.0, 0.3)
     bundle = export_bundle(boxes_asset([body, drawer], (slide,)), PROVENANCE, tmp_path / "bundle")
+    stages = Stages(BuildConfig(simulators=("sapien", "mujoco")))
     with Judge() as judge:
-        report = validate(bundle, ("sapien", "mujoco"), judge).report
+        report = validate(bundle, judge, (), inspect(bundle, judge, (), stages), stages).report
     (found,) = [item for item in report.disagreements if item.question == "opens"]
     assert found.verdicts == {"sapien": "pass", "mujoco": "jammed"}
     assert "overlap by 5.00 mm" in found.reason
@@ -69,13 +73,12 @@ class Hurried:
 
 def test_what_ran_out_of_time_is_asked_again_and_what_was_said_is_not(tmp_path):
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path / "bundle")
-    simulators = ("sapien",)
-    stages = Stages(BuildConfig(simulators=simulators), Store(tmp_path / "cache"))
+    stages = Stages(BuildConfig(simulators=("sapien",)), Store(tmp_path / "cache"))
     hurried = Hurried()
-    inspected = [inspect(bundle, hurried, stages=stages) for _ in range(3)]
+    inspected = [inspect(bundle, hurried, (), stages) for _ in range(3)]
     assert [verdict.status for verdict in inspected] == ["unjudged", "passed", "passed"]
     assert hurried.examined == 2
     hurried.checked = 0
-    asked = (bundle, simulators, hurried, (), inspected[-1], stages)
+    asked = (bundle, hurried, (), inspected[-1], stages)
     assert [validate(*asked).status for _ in range(3)] == ["unjudged", "passed", "passed"]
     assert hurried.checked == 2
