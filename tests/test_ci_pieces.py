@@ -10,21 +10,18 @@ from pathlib import Path
 
 import pytest
 import yaml
-from box_world import write_urdf
-from ros_packages import SLIDE
+from box_world import write_drawer
 
 ROOT = Path(__file__).resolve().parents[1]
-BOXES = {"shell": ((0, 0, 0), (0.4, 0.2, 0.2)), "drawer": ((0, 0.204, 0), (0.4, 0.2, 0.2))}
 
 
 @pytest.fixture
 def repository(tmp_path):
     """A folder of assets, one sound and one not, where ``factory`` is this checkout's."""
     for name, length in (("sound", "1"), ("broken", "2")):
-        slide = SLIDE.replace("1 0 0", f"{length} 0 0")
-        path = write_urdf(tmp_path, BOXES, f"\n\n\n{slide}")
-        (tmp_path / "assets").mkdir(exist_ok=True)
-        path.rename(tmp_path / "assets" / f"{name}.urdf")
+        path = write_drawer(tmp_path / "assets" / f"{name}.urdf", 0.004)
+        joint = path.read_text().replace('axis xyz="1 0 0"', f'axis xyz="{length} 0 0"')
+        path.write_text(joint.replace("<joint", "\n\n\n<joint"))
     program = tmp_path / "bin" / "factory"
     program.parent.mkdir()
     program.write_text(f'#!/bin/sh\nexec {sys.executable} -m asset_factory.factory.cli "$@"\n')

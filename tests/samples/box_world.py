@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from fault_corpus.things import renewed, words
+from ros_packages import SLIDE
 
 from asset_factory.sim_checks.description import (
     DescribedShape,
@@ -135,6 +136,14 @@ def with_joint(description: Description, name: str, **changes: object) -> Descri
 
 def with_link(description: Description, name: str, **changes: object) -> Description:
     return replace(description, links=renewed(description.links, name, **changes))
+
+
+def write_drawer(path: Path, gap: float) -> Path:
+    """A URDF of a shell and a drawer that slides past it, so far apart [m]."""
+    size = (0.4, 0.2, 0.2)
+    boxes = {"shell": ((0, 0, 0), size), "drawer": ((0, 0.2 + gap, 0), size)}
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return write_urdf(path.parent, boxes, SLIDE).rename(path)
 
 
 def write_urdf(folder: Path, boxes: Mapping[str, Box], joints: str) -> Path:

@@ -7,7 +7,7 @@ import pytest
 from fault_corpus.collection import blind_spots, broken, good
 from fault_corpus.exhibits import ENGINES
 
-from asset_factory.sim_checks import Report
+from asset_factory.sim_checks import Report, Status
 from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.judge import Judge, examine_here
@@ -15,6 +15,7 @@ from asset_factory.sim_checks.judge import Judge, examine_here
 GOOD = good()
 BROKEN = broken()
 ON_PAPER = [exhibit for exhibit in BROKEN if exhibit.expected("static")]
+NOT_FINITE = [exhibit for exhibit in ON_PAPER if (exhibit.code or "").endswith("_not_finite")]
 IN_ENGINES = [exhibit for exhibit in BROKEN if any(exhibit.expected(engine) for engine in ENGINES)]
 
 
@@ -56,6 +57,14 @@ def test_a_fault_in_an_engine_is_caught_by_its_own_code(exhibit, tmp_path, judge
             severity = "error" if engine in exhibit.engines else exhibit.severity
             assert told(report, engine).get(code) == severity, (engine, report.findings)
     assert report.passed != exhibit.rejected
+
+
+@named(NOT_FINITE)
+def test_a_number_that_is_not_finite_gives_a_verdict_in_every_engine_too(exhibit, tmp_path, judge):
+    report = judge.check(exhibit.build(tmp_path), ENGINES)
+    assert report.errors[0].code == exhibit.code
+    assert report.status is not Status.UNJUDGED
+    assert exhibit.code in report.to_json()
 
 
 @named(GOOD)

@@ -4,8 +4,8 @@ import os
 
 import pytest
 import trimesh
+from box_world import write_drawer
 from small_cabinet import write_mjcf, write_urdf
-from test_run_checks import drawer
 
 from asset_factory.sim_checks import Status, run_checks
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
@@ -14,12 +14,6 @@ from asset_factory.sim_checks.processes.isolation import Failure, Outcome, WarmC
 from asset_factory.sim_checks.simulators.catalog import installed
 
 ENGINES = tuple(name for name in ("mujoco", "pybullet") if installed(name))
-
-
-def folder(parent, name):
-    path = parent / name
-    path.mkdir(parents=True)
-    return path
 
 
 @pytest.fixture(scope="module")
@@ -46,10 +40,10 @@ def test_a_file_that_kills_an_engine_costs_itself_its_verdict_and_the_next_one_n
 
 
 def test_no_order_and_no_number_of_workers_changes_a_byte(tmp_path):
-    bad = drawer(folder(tmp_path, "overlapping"), -0.004)
+    bad = write_drawer(tmp_path / "overlapping.urdf", -0.004)
     unreadable = tmp_path / "bad.urdf"
     unreadable.write_text("<robot")
-    files = (bad, write_mjcf(folder(tmp_path, "mjcf")), unreadable)
+    files = (bad, write_mjcf(tmp_path), unreadable)
     alone = {path: run_checks(path, ENGINES).to_json() for path in files}
     for workers, order in ((1, files[::-1]), (3, (*files[1:], *files[:1]))):
         with Judge(workers=workers) as judge:

@@ -5,8 +5,7 @@ import signal
 from dataclasses import replace
 
 import pytest
-from box_world import write_urdf
-from ros_packages import SLIDE
+from box_world import write_drawer
 
 from asset_factory.sim_checks import Status, run_checks
 from asset_factory.sim_checks.checks import catalog
@@ -14,16 +13,8 @@ from asset_factory.sim_checks.config import CheckConfig, ChildConfig
 from asset_factory.sim_checks.judge import examine_here
 
 
-def drawer(folder, gap):
-    boxes = {
-        "shell": ((0, 0.3, 0), (0.4, 0.1, 0.4)),
-        "drawer": ((0, 0.15 - gap, 0), (0.4, 0.2, 0.4)),
-    }
-    return write_urdf(folder, boxes, SLIDE)
-
-
 def test_a_sound_file_passes_with_its_clearance_measured(tmp_path):
-    report = run_checks(drawer(tmp_path, 0.003), ())
+    report = run_checks(write_drawer(tmp_path / "drawer.urdf", 0.003), ())
     assert report.passed
     (sweep,) = report.measurements["penetration"]["joints"]
     assert sweep["clearance_mm"] == pytest.approx(3.0, abs=0.1)
@@ -42,7 +33,7 @@ def test_an_unreadable_file_is_one_finding_and_no_simulator_is_asked(tmp_path):
 def test_an_unknown_simulator_is_wrong_usage(tmp_path):
     told = r"there are sapien, mujoco, pybullet, newton; did you mean 'mujoco'\?"
     with pytest.raises(ValueError, match=told):
-        run_checks(drawer(tmp_path, 0.003), ("mujcoo",))
+        run_checks(write_drawer(tmp_path / "drawer.urdf", 0.003), ("mujcoo",))
 
 
 def die(*_):
@@ -57,7 +48,7 @@ def dying_examine(path, config, *, native=True):
 
 def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(tmp_path, monkeypatch):
     monkeypatch.setattr("asset_factory.sim_checks.judge.examine_here", dying_examine)
-    report = run_checks(drawer(tmp_path, 0.003), ())
+    report = run_checks(write_drawer(tmp_path / "drawer.urdf", 0.003), ())
     assert [finding.code for finding in report.errors] == ["check_crashed"]
     assert "SIGSEGV" in report.errors[0].message
     assert "lint" in report.measurements
@@ -66,7 +57,7 @@ def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(tmp_path, m
 
 def test_a_check_that_takes_too_long_is_a_finding(tmp_path):
     config = replace(CheckConfig(), child=ChildConfig(wall_s=0.01))
-    report = run_checks(drawer(tmp_path, 0.003), (), config)
+    report = run_checks(write_drawer(tmp_path / "drawer.urdf", 0.003), (), config)
     assert report.errors[0].code == "check_timeout"
 
 

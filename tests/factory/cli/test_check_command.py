@@ -6,35 +6,17 @@ import threading
 from pathlib import Path
 
 import pytest
+from box_world import write_drawer
 
 from asset_factory.factory.cli import console
 from asset_factory.factory.cli.commands import run
 from asset_factory.sim_checks import Disagreement, Report
 from asset_factory.sim_checks.judge import Judge
 
-BODY = (
-    '<inertial><origin xyz="{at}"/><mass value="1"/>'
-    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
-    '<collision><origin xyz="{at}"/><geometry><box size="0.4 0.2 0.2"/></geometry></collision>'
-)
-
-
-def write(path, gap):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    shell = BODY.format(at="0 0 0")
-    drawer = BODY.format(at=f"0 {0.2 + gap} 0")
-    path.write_text(
-        f'<robot name="r"><link name="shell">{shell}</link><link name="drawer">{drawer}</link>'
-        '<joint name="slide" type="prismatic"><parent link="shell"/>'
-        '<child link="drawer"/><axis xyz="1 0 0"/>'
-        '<limit lower="0" upper="0.3" effort="10" velocity="1"/></joint></robot>'
-    )
-    return path
-
 
 def test_a_folder_is_judged_file_by_file_with_its_path_as_the_name(tmp_path, capsys):
-    write(tmp_path / "good" / "asset.urdf", 0.004)
-    write(tmp_path / "bad" / "asset.urdf", -0.004)
+    write_drawer(tmp_path / "good" / "asset.urdf", 0.004)
+    write_drawer(tmp_path / "bad" / "asset.urdf", -0.004)
     (tmp_path / "notes.xml").write_text("<notes/>")
     assert run(["check", str(tmp_path), "--sim", "", "--json", str(tmp_path / "report.json")]) == 0
     reports = json.loads((tmp_path / "report.json").read_text())
@@ -47,7 +29,7 @@ def test_a_folder_is_judged_file_by_file_with_its_path_as_the_name(tmp_path, cap
 
 
 def test_one_file_gives_one_report_and_no_other_output(tmp_path, capsys):
-    path = write(tmp_path / "asset.urdf", 0.004)
+    path = write_drawer(tmp_path / "asset.urdf", 0.004)
     assert run(["check", str(path), "--sim", "", "--json", "-"]) == 0
     report = json.loads(capsys.readouterr().out)
     assert report["description"] == "asset.urdf"
@@ -56,7 +38,7 @@ def test_one_file_gives_one_report_and_no_other_output(tmp_path, capsys):
 
 
 def test_reports_are_printed_as_they_come(tmp_path, monkeypatch):
-    files = [write(tmp_path / f"{name}.urdf", 0.004) for name in ("one", "two")]
+    files = [write_drawer(tmp_path / f"{name}.urdf", 0.004) for name in ("one", "two")]
     printed = threading.Event()
     check = Judge.check
     print_report = console.print_report
@@ -77,7 +59,7 @@ def test_reports_are_printed_as_they_come(tmp_path, monkeypatch):
 def test_every_simulator_at_once_and_who_disagrees(tmp_path, capsys):
     for engine in ("sapien", "mujoco", "pybullet"):
         pytest.importorskip(engine)
-    path = write(tmp_path / "asset.urdf", -0.01)
+    path = write_drawer(tmp_path / "asset.urdf", -0.01)
     assert run(["check", str(path), "--sim", "all", "--strict"]) == 1
     out = capsys.readouterr().out
     assert "(sapien, mujoco, pybullet)" in out
@@ -101,7 +83,7 @@ def test_joints_of_which_engines_say_the_same_are_told_in_one_line(capsys):
 
 def test_many_files_are_judged_at_once_and_told_in_the_order_given(tmp_path, monkeypatch, capsys):
     names = ["one", "two", "three"]
-    files = [write(tmp_path / f"{name}.urdf", 0.004) for name in names]
+    files = [write_drawer(tmp_path / f"{name}.urdf", 0.004) for name in names]
     both = threading.Barrier(2)
     second_done = threading.Event()
     judges = set()
@@ -144,7 +126,7 @@ def test_a_format_that_no_engine_reads_is_judged_by_the_file_beside_it_that_says
 ):
     pytest.importorskip("sapien")
     # Told before the file that speaks for it.
-    mjcf_beside(write(tmp_path / "z.urdf", 0.004), upper).rename(tmp_path / "a.xml")
+    mjcf_beside(write_drawer(tmp_path / "z.urdf", 0.004), upper).rename(tmp_path / "a.xml")
     assert run(["check", str(tmp_path), "--sim", "sapien"]) == code
     out = capsys.readouterr().out
     assert ("note simulated_beside: " in out) is (code == 0)
@@ -153,13 +135,12 @@ def test_a_format_that_no_engine_reads_is_judged_by_the_file_beside_it_that_says
 
 
 def test_findings_are_told_once_by_code_with_the_worst_first(tmp_path, capsys):
-    path = write(tmp_path / "asset.urdf", -0.004)
+    path = write_drawer(tmp_path / "asset.urdf", -0.004)
     text = path.read_text()
     first, second = (text.replace('axis xyz="1 0 0"', f'axis xyz="{n} 0 0"') for n in (2, 5))
-    joint = second[second.index("<joint") : second.index("</robot>")].replace("slide", "other")
-    link = BODY.format(at="0 0.5 0")
-    joint = joint.replace('child link="drawer"', 'child link="tray"')
-    path.write_text(first.replace("</robot>", f'<link name="tray">{link}</link>{joint}</robot>'))
+    tray = second[second.index('<link name="drawer"') : second.index("</robot>")]
+    tray = tray.replace("drawer", "tray").replace("slide", "other").replace("0.196", "0.5")
+    path.write_text(first.replace("</robot>", f"{tray}</robot>"))
     assert run(["check", str(tmp_path), "--sim", ""]) == 0
     lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
     axes = [line for line in lines if "axis_not_unit" in line]
@@ -172,7 +153,7 @@ def test_findings_are_told_once_by_code_with_the_worst_first(tmp_path, capsys):
 
 
 def test_what_the_urdf_was_told_for_is_not_told_again_of_the_mjcf(tmp_path, capsys):
-    urdf = write(tmp_path / "asset.urdf", -0.004)
+    urdf = write_drawer(tmp_path / "asset.urdf", -0.004)
     path = mjcf_beside(urdf, 0.3)
     path.write_text(path.read_text().replace("0.204", "0.196"))
     assert run(["check", str(tmp_path), "--sim", ""]) == 0
@@ -183,7 +164,7 @@ def test_what_the_urdf_was_told_for_is_not_told_again_of_the_mjcf(tmp_path, caps
 
 
 def test_only_what_the_baseline_does_not_know_fails(tmp_path, capsys):
-    path = write(tmp_path / "asset.urdf", -0.004)
+    path = write_drawer(tmp_path / "asset.urdf", -0.004)
     known = str(tmp_path / "known.json")
     check = ["check", str(path), "--sim", "", "--strict"]
     assert run(check) == 1

@@ -10,10 +10,8 @@ from export_samples import (
     box,
     boxes_asset,
     cabinet,
-    frames,
     image,
     inertial_of,
-    tree_of_boxes,
 )
 
 from asset_factory.factory.articulation import Joint, JointKind, Part
@@ -25,41 +23,8 @@ from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 LIMITS = Limits(wall_s=120.0)
 
 
-def sapien_frames(path, settings_of):
-    """Runs in a child: link poses for each setting of the joints, and collision shapes per link."""
-    import sapien
-
-    scene = sapien.Scene([sapien.physx.PhysxCpuSystem()])
-    loader = scene.create_urdf_loader()
-    loader.fix_root_link = True
-    builders = loader.parse(path)[0]
-    for link in builders[0].link_builders:
-        link.visual_records.clear()
-    articulation = builders[0].build()
-    found = []
-    for values in settings_of:
-        articulation.set_qpos([values[joint.name] for joint in articulation.active_joints])
-        poses = {link.name: link.entity_pose for link in articulation.links}
-        found.append({name: pose.to_transformation_matrix() for name, pose in poses.items()})
-    return found, [len(link.collision_shapes) for link in articulation.links]
-
-
 def exported(asset, folder):
     return export_bundle(asset, PROVENANCE, folder)
-
-
-@pytest.mark.parametrize("seed", [0, 1, 2])
-def test_sapien_puts_every_link_where_the_articulation_does(tmp_path, seed):
-    pytest.importorskip("sapien", reason="sapien is not installed")
-    asset = tree_of_boxes(seed)
-    joints = asset.articulation.joints
-    cases = [{j.name: j.lower + share * j.range for j in joints} for share in (0.0, 0.4, 1.0)]
-    urdf = str(exported(asset, tmp_path).urdf)
-    read, shapes = run_isolated(sapien_frames, urdf, cases, limits=LIMITS).unwrap()
-    assert shapes == [1] * len(asset.articulation.parts)
-    for values, seen in zip(cases, read, strict=True):
-        for name, frame in frames(asset.articulation, values).items():
-            assert np.allclose(seen[name], frame, atol=2e-6)
 
 
 def pybullet_turned(path):

@@ -4,23 +4,17 @@ import numpy as np
 import pytest
 
 pytest.importorskip("pxr")
-from usda import CABINET, stage
+from usda import CABINET, stage, write
 
 from asset_factory.factory.articulate.annotated import articulator_for
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.intake.load import load
 
 
-def written(folder, text):
-    path = folder / "thing.usda"
-    path.write_text(text)
-    return path
-
-
 def test_its_parts_and_joints_come_with_it_in_metres_and_z_up(tmp_path):
     header = 'metersPerUnit = 0.01\nupAxis = "Y"'
     config = BuildConfig(articulator="annotated")
-    intake = load(written(tmp_path, stage(CABINET, header)), config.intake)
+    intake = load(write(tmp_path, stage(CABINET, header)), config.intake)
     assert intake.provenance.scale == pytest.approx(0.01)
     cabinet = articulator_for(intake, config).articulate(intake.mesh)
     assert [part.name for part in cabinet.parts] == ["base", "door"]

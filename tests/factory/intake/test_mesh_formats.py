@@ -207,10 +207,3 @@ def test_same_file_gives_the_same_intake(tmp_path):
     for name in ("vertices", "faces", "corner_uv", "corner_normals", "face_material"):
         assert getattr(first.mesh, name).tobytes() == getattr(second.mesh, name).tobytes()
     assert first.mesh.materials == second.mesh.materials
-
-
-def test_digest_covers_referred_files(tmp_path):
-    path = write_obj(tmp_path)
-    before = load_mesh(path, LIMITS).provenance.digest
-    (tmp_path / "wood.png").write_bytes(png(color=(0, 0, 0)))
-    assert load_mesh(path, LIMITS).provenance.digest != before

@@ -5,6 +5,7 @@ import zipfile
 import pytest
 
 pytest.importorskip("pxr")
+from refusing import refusal
 from usda import CABINET, stage, write
 
 from asset_factory.factory.errors import InputRejected
@@ -13,10 +14,8 @@ from asset_factory.factory.intake.importers.usd import read_annotated
 ROOM = 10_000_000
 
 
-def refusal(main):
-    with pytest.raises(InputRejected) as caught:
-        read_annotated(main, main.parent, ROOM, ROOM)
-    return caught.value.code
+def refused(main):
+    return refusal(read_annotated, main, main.parent, ROOM, ROOM).code
 
 
 @pytest.fixture
@@ -36,27 +35,27 @@ def referring(folder, reference, how="references"):
 )
 def test_reference_out_of_the_folder_is_refused(tmp_path, outside, how, reference):
     main = referring(tmp_path / "thing", reference.replace("ABSOLUTE", str(outside)), how)
-    assert refusal(main) == "external_reference"
+    assert refused(main) == "external_reference"
 
 
 def test_sublayer_and_variant_out_of_the_folder_are_refused(tmp_path, outside):
     sublayer = write(tmp_path / "a", "#usda 1.0\n(\nsubLayers = [@../outside.usda@]\n)\n")
-    assert refusal(sublayer) == "external_reference"
+    assert refused(sublayer) == "external_reference"
     variant = (
         '#usda 1.0\ndef Xform "obj" (variants = {string v = "a"}\nprepend variantSets = "v")\n{\n'
         'variantSet "v" = {\n'
         '"a" { def Xform "x" (prepend references = @../outside.usda@)\n{\n}\n}\n}\n}\n'
     )
-    assert refusal(write(tmp_path / "b", variant)) == "external_reference"
+    assert refused(write(tmp_path / "b", variant)) == "external_reference"
 
 
 def test_layer_of_a_layer_and_a_link_are_followed(tmp_path, outside):
     folder = tmp_path / "thing"
     text = f'#usda 1.0\ndef Xform "obj" (references = @../../{outside.name}@)\n{{\n}}\n'
     write(folder / "parts", text, "inner.usda")
-    assert refusal(referring(folder, "./parts/inner.usda")) == "external_reference"
+    assert refused(referring(folder, "./parts/inner.usda")) == "external_reference"
     (folder / "link.usda").symlink_to(outside)
-    assert refusal(referring(folder, "./link.usda")) == "external_reference"
+    assert refused(referring(folder, "./link.usda")) == "external_reference"
 
 
 def test_package_that_leads_out_is_refused(tmp_path, outside):
@@ -64,21 +63,21 @@ def test_package_that_leads_out_is_refused(tmp_path, outside):
     inner = referring(folder, str(outside))
     with zipfile.ZipFile(folder / "thing.usdz", "w", zipfile.ZIP_STORED) as archive:
         archive.write(inner, "inner.usda")
-    assert refusal(folder / "thing.usdz") == "external_reference"
+    assert refused(folder / "thing.usdz") == "external_reference"
 
 
 def test_computed_references_clips_other_formats_and_absent_files_are_refused(tmp_path):
     computed = "`${WHERE}`"
-    assert refusal(referring(tmp_path / "a", computed)) == "unsupported"
+    assert refused(referring(tmp_path / "a", computed)) == "unsupported"
     clips = (
         '#usda 1.0\ndef Xform "obj" (clips = {dictionary default = {asset[] assetPaths = '
         "[@../x.usda@]}})\n{\n}\n"
     )
-    assert refusal(write(tmp_path / "b", clips)) == "unsupported"
-    assert refusal(referring(tmp_path / "c", "./shape.abc")) == "unsupported"
-    assert refusal(referring(tmp_path / "d", "./absent.usda")) == "missing_file"
-    assert refusal(referring(tmp_path / "e", "parts/absent.usda")) == "missing_file"
-    assert refusal(write(tmp_path / "f", "nonsense")) == "unreadable"
+    assert refused(write(tmp_path / "b", clips)) == "unsupported"
+    assert refused(referring(tmp_path / "c", "./shape.abc")) == "unsupported"
+    assert refused(referring(tmp_path / "d", "./absent.usda")) == "missing_file"
+    assert refused(referring(tmp_path / "e", "parts/absent.usda")) == "missing_file"
+    assert refused(write(tmp_path / "f", "nonsense")) == "unreadable"
 
 
 def test_own_layers_and_looks_elsewhere_are_fine(tmp_path):

@@ -3,8 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from box_world import cabinet, chain, keyboard, write_urdf
-from ros_packages import SLIDE
+from box_world import cabinet, chain, keyboard, write_drawer
 
 from asset_factory.sim_checks import run_checks
 from asset_factory.sim_checks.checks.extent import oversized, undriven
@@ -15,7 +14,6 @@ from asset_factory.sim_checks.judge import examine_here
 from asset_factory.sim_checks.report import Report, Status
 
 PLENTY = WorkConfig()
-BOXES = ((0.0, "shell"), (0.3, "drawer"))
 
 
 @pytest.mark.parametrize(
@@ -56,8 +54,7 @@ def test_a_simulator_is_not_asked_for_more_than_it_can_drive():
 
 
 def test_what_is_too_large_never_passes(tmp_path):
-    boxes = {name: ((x, 0.0, 0.1), (0.2, 0.2, 0.2)) for x, name in BOXES}
-    path = write_urdf(tmp_path, boxes, SLIDE)
+    path = write_drawer(tmp_path / "drawer.urdf", 0.004)
     small = replace(CheckConfig(), work=replace(PLENTY, hulls=1))
     assert examine_here(path, CheckConfig()).description is not None
     report = run_checks(path, ("mujoco",), small)

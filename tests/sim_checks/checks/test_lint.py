@@ -61,9 +61,6 @@ def test_a_sound_cabinet_has_no_findings():
     ("broken", "code", "severity"),
     [
         (lambda d: with_joint(d, "hinge", axis=np.array([0.0, 0.0, 1.005])), "axis_not_unit", SOFT),
-        (inertia(mass=float("nan")), "inertia_not_finite", HARD),
-        (inertia(moments=(0.0, 0.01, 0.01)), "inertia_not_positive", HARD),
-        (inertia(moments=(0.001, 0.001, 0.02)), "inertia_triangle", HARD),
         (inertia(moments=(0.16, 0.28, 0.4)), "inertia_implausible", SOFT),
         (inertia(moments=(0.6, 0.6, 0.6)), "inertia_impossible", HARD),
         (inertia(moments=(10.0, 10.0, 10.0)), "inertia_impossible", HARD),

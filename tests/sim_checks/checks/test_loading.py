@@ -69,6 +69,15 @@ def with_joint(observation, joint, /, **changes):
     return replace(observation, model=replace(observation.model, joints=joints))
 
 
+def shifted(observation, by, *links):
+    """The same, but the named links, or all, lie so far away [m]."""
+    (sample,) = observation.poses
+    poses = {name: pose.copy() for name, pose in sample.poses.items()}
+    for name in links or poses:
+        poses[name][:3, 3] += by
+    return replace(observation, poses=(PoseSample(sample.values, poses),))
+
+
 @pytest.fixture
 def description(tmp_path):
     return read_description(write_urdf(tmp_path))
@@ -201,20 +210,12 @@ def test_a_static_link_s_mass_is_nobody_s_business(description):
 
 @pytest.mark.parametrize(("offset", "expected"), [(9e-6, []), (1.1e-5, ["pose_mismatch"])])
 def test_a_link_a_hundredth_of_a_millimetre_off_is_seen(description, offset, expected):
-    observation = faithful(description)
-    poses = {name: pose.copy() for name, pose in observation.poses[0].poses.items()}
-    poses["door"][0, 3] += offset
-    moved = replace(observation, poses=(PoseSample(observation.poses[0].values, poses),))
+    moved = shifted(faithful(description), (offset, 0.0, 0.0), "door")
     assert found(description, moved) == expected
 
 
 def test_a_base_put_elsewhere_is_no_disagreement(description):
-    observation = faithful(description)
-    shift = np.eye(4)
-    shift[:3, 3] = (1.0, 2.0, 3.0)
-    poses = {name: shift @ pose for name, pose in observation.poses[0].poses.items()}
-    elsewhere = replace(observation, poses=(PoseSample(observation.poses[0].values, poses),))
-    assert found(description, elsewhere) == []
+    assert found(description, shifted(faithful(description), (1.0, 2.0, 3.0))) == []
 
 
 @pytest.mark.parametrize(
@@ -234,11 +235,8 @@ def test_what_an_engine_makes_no_number_of_is_a_lie_that_can_be_written(descript
 
 
 def test_a_link_put_nowhere_is_a_lie_that_can_be_written(description):
-    observation = faithful(description)
     for nowhere, lost in (("door", ["door"]), ("carcass", ["carcass", "drawer", "door"])):
-        poses = {name: pose.copy() for name, pose in observation.poses[0].poses.items()}
-        poses[nowhere][0, 3] = NAN
-        moved = replace(observation, poses=(PoseSample(observation.poses[0].values, poses),))
+        moved = shifted(faithful(description), (NAN, 0.0, 0.0), nowhere)
         result = check_loading(description, "engine", moved, CheckConfig())
         assert [(x.code, x.parts, x.value) for x in result.findings] == [
             ("pose_mismatch", (x,), None) for x in lost
@@ -257,9 +255,7 @@ def test_a_link_put_nowhere_is_a_lie_that_can_be_written(description):
     ],
 )
 def test_an_engine_is_not_held_to_numbers_that_are_none(description, inertia):
-    links = tuple(
-        replace(x, inertia=inertia if x.name == "drawer" else x.inertia) for x in description.links
-    )
+    links = renewed(description.links, "drawer", inertia=inertia)
     assert found(replace(description, links=links), faithful(description)) == []
 
 
@@ -267,8 +263,7 @@ def test_an_engine_is_not_held_to_numbers_that_are_none(description, inertia):
     "mimic", [Mimic("hinge", float("inf")), Mimic("hinge", 1.0, NAN), Mimic("hinge", 1e300)]
 )
 def test_a_joint_that_follows_by_no_number_follows_nothing(description, mimic):
-    joints = tuple(replace(x, mimic=mimic) if x.name == "slide" else x for x in description.joints)
-    broken = replace(description, joints=joints)
+    broken = replace(description, joints=renewed(description.joints, "slide", mimic=mimic))
     assert sound_mimics(broken) == {}
     assert found(broken, with_joint(faithful(description), "slide", mimic=Mimic("hinge"))) == []
     assert all(np.isfinite(list(sample.values())).all() for sample in pose_samples(broken))
@@ -276,7 +271,7 @@ def test_a_joint_that_follows_by_no_number_follows_nothing(description, mimic):
 
 @pytest.mark.parametrize("upper", [NAN, float("inf"), 1e308])
 def test_poses_are_compared_where_there_are_any(description, upper):
-    joints = tuple(replace(x, upper=upper) if x.name == "slide" else x for x in description.joints)
+    joints = renewed(description.joints, "slide", upper=upper)
     samples = pose_samples(replace(description, joints=joints))
     assert all(abs(sample["slide"]) <= 1.0 for sample in samples)
 

@@ -45,24 +45,9 @@ def test_each_defect_is_caught_by_its_own_code(defect, code, name, parts, depth)
     assert found.value == pytest.approx(depth, rel=0.02)
 
 
-def test_a_part_wholly_inside_another_is_caught():
-    block = body("block", [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])
-    inner = body("inner", [((0.1, 0.0, 0.0), (0.2, 0.2, 0.2))])
-    slide = joint("slide", "prismatic", "block", "inner", (0, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.05))
-    (found,) = hard(check(described([block, inner], [slide])))
-    assert (found.code, found.value) == ("rest_penetration", pytest.approx(500.0))
-
-
 def test_two_joints_are_looked_at_with_both_open():
     ranges = {"a": (0.0, 1.0), "b": (-1.0, 2.0)}
     assert combination_values(ranges, 0) == [{"a": 1.0, "b": 2.0}]
-
-
-def test_a_pair_that_the_file_excludes_is_measured_and_reported_softly():
-    description = replace(cabinet("wide"), excluded=frozenset({frozenset({"carcass", "drawer"})}))
-    result = check(description)
-    assert hard(result) == []
-    assert codes(result) == ["excluded_penetration"]
 
 
 def test_an_excluded_pair_excuses_no_other_pair_of_its_links():
