@@ -12,7 +12,7 @@ from ...mesh import FloatArray, read_only
 from ..proposal import Motion
 from .body import Body, Partition, body_of
 from .candidates import Candidates, find_candidates
-from .extent import LEAST, Extent, extent_of, nearest_to, single
+from .extent import LEAST, Extent, extent_of, nearest_to
 from .grid import BoolArray
 from .guess import NOTHING, Guess
 from .numbers import NAMES, measure
@@ -116,12 +116,12 @@ def _right_way(
 
     Not so for buttons: they lie on the part that holds them.
     """
-    extent = extent_of(body, single(candidates, chosen), numbers[chosen], guess)
+    extent = extent_of(body, candidates.at([chosen]), numbers[chosen], guess)
     pressed = bool(candidates.slides[chosen]) and is_small(numbers[chosen])
     if extent.share >= LEAST or pressed:
         return chosen, extent
     twin = chosen ^ 1
-    other = extent_of(body, single(candidates, twin), numbers[twin], guess)
+    other = extent_of(body, candidates.at([twin]), numbers[twin], guess)
     return (twin, other) if other.share >= FREE else (chosen, extent)
 
 
