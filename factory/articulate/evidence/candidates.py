@@ -8,15 +8,12 @@ from enum import IntEnum
 
 import numpy as np
 
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 from .body import Body
-from .grid import BoolArray
 from .guess import Guess
 
 #: Corners along one direction of a box, nearer than this share of the part's diagonal, are one.
 SAME_PLACE = 0.004
-#: Share of the part's surface that lies in a plane before the plane is one of its faces.
-FLAT = 0.1
 ROUND_SECTORS = 12
 #: Components of a part looked at for roundness, largest first.
 MOST_COMPONENTS = 12
@@ -100,13 +97,7 @@ def _places(body: Body, direction: FloatArray) -> list[float]:
     high = float(along.max())
     places = [low, high, (low + high) / 2.0]
     flat = np.abs(body.own.normals @ direction) > 0.9
-    if flat.sum() >= FLAT * len(body.own):
-        values = body.own.points[flat] @ direction
-        width = max(0.015 * body.diagonal, 1e-9)
-        bins = np.maximum((values - low) / width, 0.0).astype(np.int64)
-        heavy = np.flatnonzero(np.bincount(bins) >= FLAT * len(body.own))
-        for chosen in heavy[[0, -1]] if len(heavy) else ():
-            places.append(float(np.median(values[bins == chosen])))
+    places += body.heavy_planes(body.own.points[flat] @ direction, low)
     kept: list[float] = []
     for place in places:
         if all(abs(place - other) > SAME_PLACE * body.diagonal for other in kept):

@@ -8,12 +8,11 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ...mesh import FloatArray, read_only
+from ...mesh import BoolArray, FloatArray, read_only
 from ..proposal import Motion
 from .body import Body, Partition, body_of
 from .candidates import Candidates, find_candidates
 from .extent import LEAST, Extent, extent_of, nearest_to
-from .grid import BoolArray
 from .guess import NOTHING, Guess
 from .numbers import NAMES, measure
 from .rating import Rating, load_rating

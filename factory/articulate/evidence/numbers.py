@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from .body import Body
 from .candidates import Candidates, LineSource
-from .grid import BoolArray
 from .guess import Guess
 from .look import Look, free_share, look_at, stands_out
 from .travel import Travel, travel

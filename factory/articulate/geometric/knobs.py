@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 from ...part import PartKind
 from ..proposal import Motion
 from .movers import Mover
@@ -110,7 +109,7 @@ def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArra
     return twins >= (PAIR if strip else ROW) or int((small & close & front).sum()) > BUTTONS
 
 
-def _stack(scene: Scene, knob: int, free: npt.NDArray[np.bool_]) -> IntArray:
+def _stack(scene: Scene, knob: int, free: BoolArray) -> IntArray:
     """Return the knob and the pieces mounted on it, within its outline."""
     slack = 0.02 * scene.extents[knob]
     inside = (scene.low >= scene.low[knob] - slack)[:, RECT].all(axis=1)
