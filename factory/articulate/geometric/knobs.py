@@ -103,8 +103,7 @@ def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArra
     twins = sum(bool(abs(scene.extents[k, SIDEWAYS] - size) <= 0.05 * size) for k in same_plate)
     plate = plates[knob]
     strip = float(scene.extents[plate, UP]) <= STRIP * float(scene.size[UP])
-    close = (scene.low >= scene.low[plate] - scene.touch)[:, RECT].all(axis=1)
-    close &= (scene.high <= scene.high[plate] + scene.touch)[:, RECT].all(axis=1)
+    close = scene.within(scene.low[plate] - scene.touch, scene.high[plate] + scene.touch, RECT)
     front = np.abs(scene.high[:, FRONT] - scene.high[knob, FRONT]) <= 2.0 * scene.touch
     return twins >= (PAIR if strip else ROW) or int((small & close & front).sum()) > BUTTONS
 
@@ -112,10 +111,9 @@ def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArra
 def _stack(scene: Scene, knob: int, free: BoolArray) -> IntArray:
     """Return the knob and the pieces mounted on it, within its outline."""
     slack = 0.02 * scene.extents[knob]
-    inside = (scene.low >= scene.low[knob] - slack)[:, RECT].all(axis=1)
-    inside &= (scene.high <= scene.high[knob] + slack)[:, RECT].all(axis=1)
-    inside &= (
-        free
+    inside = (
+        scene.within(scene.low[knob] - slack, scene.high[knob] + slack, RECT)
+        & free
         & (scene.low[:, FRONT] < scene.high[knob, FRONT])
         & (scene.high[:, FRONT] <= scene.high[knob, FRONT] + scene.touch)
     )

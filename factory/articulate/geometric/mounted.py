@@ -48,7 +48,7 @@ def _stands_on(scene: Scene, piece: int, posts: list[int]) -> bool:
     """Return whether a piece is held by at least two of the others, as a bar by its posts."""
     low = scene.low[piece] - scene.touch / 4.0
     high = scene.high[piece] + scene.touch / 4.0
-    return int(((scene.low[posts] <= high) & (scene.high[posts] >= low)).all(axis=1).sum()) >= 2
+    return int(scene.meeting(low, high)[posts].sum()) >= 2
 
 
 def _own_grip(scene: Scene, seed: FrontSlab) -> FloatArray | None:

@@ -76,7 +76,7 @@ class Front:
         first_row, last_row, first_column, last_column = self.relief.box
         rows = lines_of(self.level, first_row, last_row)
         upright = upright_seams(self.relief, self.face)
-        columns = lines_of(upright.turned(), first_column, last_column)
+        columns = lines_of(upright, first_column, last_column)
         face = with_strips(self.face, rows, columns)
         return FrontScene(face, rows, columns)
 
