@@ -9,12 +9,12 @@ from enum import IntEnum
 import numpy as np
 
 from ...mesh import BoolArray, FloatArray, IntArray
+from ..geometric.knobs import SECTORS, goes_round
 from .body import Body
 from .guess import Guess
 
 #: Corners along one direction of a box, nearer than this share of the part's diagonal, are one.
 SAME_PLACE = 0.004
-ROUND_SECTORS = 12
 #: Components of a part looked at for roundness, largest first.
 MOST_COMPONENTS = 12
 
@@ -149,7 +149,7 @@ def _round_lines(body: Body) -> list[Line]:
     lines: list[Line] = []
     for label in ids[np.argsort(-counts, kind="stable")][:MOST_COMPONENTS]:
         points = triangles[labels == label].reshape(-1, 3)
-        if len(points) < 3 * ROUND_SECTORS:
+        if len(points) < 3 * SECTORS:
             continue
         for frame in body.frames:
             for k in range(3):
@@ -176,13 +176,7 @@ def _circle(points: FloatArray, u: FloatArray, v: FloatArray) -> tuple[FloatArra
         return None
     center = (low + high) / 2.0
     radius = float(sides.mean()) / 2.0
-    offset = plane - center
-    distance = np.linalg.norm(offset, axis=1)
-    rim = offset[distance > 0.92 * radius]
-    sectors = np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * ROUND_SECTORS).astype(
-        np.int64
-    )
-    if distance.max() > 1.06 * radius or len(np.unique(sectors % ROUND_SECTORS)) < ROUND_SECTORS:
+    if not goes_round(plane - center, 0.92 * radius, 1.06 * radius):
         return None
     return center[0] * u + center[1] * v, radius
 

@@ -71,14 +71,22 @@ def is_round(scene: Scene, piece: int) -> bool:
     corners = scene.triangles[scene.labels == piece].reshape(-1, 3)[:, RECT]
     center = (scene.low[piece] + scene.high[piece])[RECT] / 2.0
     radius = float(scene.extents[piece, SIDEWAYS]) / 2.0
-    offset = corners - center
-    distance = np.linalg.norm(offset, axis=1)
-    rim = offset[distance >= 0.93 * radius]
-    sectors = (
-        np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * SECTORS).astype(np.int64)
-        % SECTORS
-    )
-    return bool(distance.max() <= 1.04 * radius and len(np.unique(sectors)) == SECTORS)
+    return goes_round(corners - center, 0.93 * radius, 1.04 * radius)
+
+
+def goes_round(offsets: FloatArray, inner: float, outer: float) -> bool:
+    """Tell whether points are within a circle, and near it in all directions.
+
+    Args:
+        offsets: of the points from its middle [m], shape [n, 2].
+        inner: radius from which a point is near the circle [m].
+        outer: radius that no point is beyond [m].
+    """
+    distance = np.linalg.norm(offsets, axis=1)
+    rim = offsets[distance >= inner]
+    sectors = np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * SECTORS)
+    directions = np.unique(sectors.astype(np.int64) % SECTORS)
+    return bool(distance.max() <= outer and len(directions) == SECTORS)
 
 
 def _plate(scene: Scene, piece: int, stack: IntArray) -> int:
