@@ -11,7 +11,7 @@ from ...errors import ConfigError
 from ...geometry.components import connected_components
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import FloatArray, Mesh
 from ...models.particulate.inference import Network
 from ...models.weights.sources import SHIPPED
 from ...part import Proposer
@@ -122,9 +122,10 @@ class AutoArticulator:
             return rigid_articulation(
                 mesh, self.name, notes or ("nothing in this mesh looks as if it moved",)
             )
+        # Handles and mouldings that touch only a mover go with it.
         made = assembled(
             mesh,
-            _with_loose(mesh, sharing.face_part),
+            settled(contacts_of(mesh, connected_components(mesh)), sharing.face_part),
             [sure[index] for index in sharing.chosen],
             self.name,
             sharing.hosts,
@@ -138,9 +139,9 @@ class AutoArticulator:
             mesh: metres, z up.
             areas: of its faces [m2], shape [face_count].
         """
-        contacts = contacts_of(mesh, connected_components(mesh), areas)
+        contacts = contacts_of(mesh, connected_components(mesh))
         views = tuple(
-            replace(view, face_part=settled(contacts, view.face_part, areas))
+            replace(view, face_part=settled(contacts, view.face_part))
             for view in look_around(mesh, self.network, self.particulate, self.config.views)
         )
         ruled = GeometricArticulator().proposals(mesh)
@@ -195,10 +196,3 @@ def load_auto(
     return AutoArticulator(
         learned.network, learned.weights, trust or load_trust(), settings, config
     )
-
-
-def _with_loose(mesh: Mesh, face_part: IntArray) -> IntArray:
-    """Return labels in which handles and mouldings that touch only a mover go with it."""
-    areas = face_areas(mesh)
-    contacts = contacts_of(mesh, connected_components(mesh), areas)
-    return settled(contacts, face_part, areas)
