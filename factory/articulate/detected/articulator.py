@@ -29,7 +29,7 @@ from ..stated.articulator import StatedArticulator, seen_from
 from ..stated.placing import SeenMesh
 from ..straight import straightening
 from .agreement import Agreement
-from .merging import HINGE_OF, DetectedPart, likely_hinges, seen_parts
+from .merging import DetectedPart, likely_hinges, seen_parts
 from .panels import panels_of
 from .rating import CARRIED, CellParts, support_of_box
 from .screens import open_screen
@@ -255,8 +255,8 @@ def _hinged(part: DetectedPart, seen: SeenMesh) -> StatedPart:
     height = seen.mesh.bounds[0, 2] + box[1] * seen.mesh.extents[2]
     row = int((height - raster.low[1]) / raster.pixel)
     first, second, *_ = likely_hinges(part.found, lid_hinges(seen.around, row))
-    other = StatedAlternative(hinge=HINGE_OF[second])
-    return structs.replace(lid, hinge=HINGE_OF[first], alternatives=(other,))
+    other = StatedAlternative(hinge=Hinge(second))
+    return structs.replace(lid, hinge=Hinge(first), alternatives=(other,))
 
 
 def _without(guess: Articulation, gone: Collection[int]) -> Articulation:
@@ -281,7 +281,7 @@ def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
 
 def _hinged_at(guess: Articulation, joint: Joint, hinge: Hinge | None) -> bool:
     """Tell whether a joint turns a part about a line at one side of its box."""
-    outward = -next(side for side, name in HINGE_OF.items() if name is hinge).frame[2]
+    outward = -Side(hinge).frame[2]
     low, high = guess.part_mesh(joint.child).bounds
     half = float(np.abs(outward) @ (high - low)) / 2.0
     off = float(outward @ (joint.origin - (low + high) / 2.0))
