@@ -78,20 +78,24 @@ class OpeningPart:
         )
 
 
-def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Region:
-    """Return all of a rectangle of one side that is before a depth, in that side's frame [m].
+def box_behind(side: Side, low: FloatArray, high: FloatArray) -> Region:
+    """Return all of a rectangle of one side, however deep, in that side's frame [m].
 
     Args:
         side: that is looked at.
         low: up and to the right, shape [2].
         high: likewise.
-        back: that depth, away from the viewer.
     """
-    right, up, away = side.frame
+    right, up, _ = side.frame
     return Region(
-        np.stack([right, -right, up, -up, away]),
-        np.array([high[1], -low[1], high[0], -low[0], back]),
+        np.stack([right, -right, up, -up]), np.array([high[1], -low[1], high[0], -low[0]])
     )
+
+
+def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Region:
+    """Return what of :func:`box_behind` is before a depth, away from the viewer [m]."""
+    before = Region(side.frame[2:], np.array([back]))
+    return box_behind(side, low, high).within(before)
 
 
 def rim_depth(front: Front, panel: FrontPanel) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 from scipy import ndimage
 
 from ...mesh import FloatArray, IntArray
+from ...views.raster import Raster
 from .evidence import Seams
 from .handles import Protrusion
 
@@ -141,6 +142,10 @@ class Rectangle:
     def closed(self) -> float:
         """Return how well all four sides are covered, 0 to 1."""
         return float(0.5 * self.sides.mean() + 0.5 * self.sides.min())
+
+    def corners(self, raster: Raster) -> FloatArray:
+        """Return its place in a picture: right and up [m], low and high, shape [2, 2]."""
+        return raster.low + np.stack([self.low, self.high])[:, ::-1] * raster.pixel
 
     def holds(self, point: FloatArray | IntArray, margin: float = 0.0) -> bool:
         """Return whether a place (row, column) lies inside."""

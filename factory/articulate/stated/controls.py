@@ -15,7 +15,7 @@ from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import thickness
 from ..seams.knobs import knobs_on
-from ..seams.placing import TURN, OpeningPart, box_before
+from ..seams.placing import TURN, OpeningPart, box_before, box_behind
 from .boxed import StatedBox
 from .snapping import AT_OUTLINE
 
@@ -82,9 +82,10 @@ def _control(part: StatedBox) -> OpeningPart:
     ends = np.array(part.view.box).reshape(2, 2)[:, ::-1]
     low = np.where(ends[0] <= AT_OUTLINE, -np.inf, low)
     high = np.where(ends[1] >= 1.0 - AT_OUTLINE, np.inf, high)
-    region = box_before(raster.side, low, high, back)
     if _depth_is_bounded(part):
-        region = Region(region.normals[:-1], region.offsets[:-1])
+        region = box_behind(raster.side, low, high)
+    else:
+        region = box_before(raster.side, low, high, back)
     return OpeningPart(kind, region, _motion(kind, away, origin))
 
 
