@@ -83,7 +83,7 @@ def hypotheses_of(intake: Intake, config: BuildConfig) -> tuple[Hypothesis, ...]
         seen = "; ".join(likeliest.notes) or "nothing in this mesh looks as if it moved"
         says = f", says {likeliest.articulator} (it is {size} m): {seen}"
         raise _nothing_moves(name, f"{says}; {WAY_FORWARD}")
-    return tuple(replace(each, articulation=located(each.articulation)) for each in found)
+    return tuple(Hypothesis(located(each.articulation)) for each in found)
 
 
 def _refuse_flat(name: str, mesh: Mesh) -> None:
@@ -136,7 +136,6 @@ class _Tree:
     Attributes:
         own: the mesh's surface, where a joint's range leaves out the input's pose, so that the
             articulator moved it, or where the articulator cut triangles along its parts.
-        probability: of the hypothesis.
     """
 
     parts: tuple[Part, ...]
@@ -146,7 +145,6 @@ class _Tree:
     weights: tuple[Weights, ...]
     looks_like: str | None
     own: _Surface | None
-    probability: float
 
 
 @dataclass(frozen=True)
@@ -180,10 +178,10 @@ def _tree(made: Hypothesis, intake: Intake) -> _Tree:
     tree = made.articulation
     own = None if tree.mesh is intake.mesh else _Surface.of(tree.mesh)
     said = {name: getattr(tree, name) for name in SAID}
-    return _Tree(**said, own=own, probability=made.probability)
+    return _Tree(**said, own=own)
 
 
 def _grown(tree: _Tree, intake: Intake) -> Hypothesis:
     mesh = intake.mesh if tree.own is None else tree.own.on(intake.mesh)
     said = {name: getattr(tree, name) for name in SAID}
-    return Hypothesis(Articulation(mesh=mesh, **said), tree.probability)
+    return Hypothesis(Articulation(mesh=mesh, **said))
