@@ -234,19 +234,14 @@ def _hinge(
 
     The back corner, or the front one if it opens wider.
     """
-    across, at_low = {
-        OpensBy.LEFT: (SIDEWAYS, True),
-        OpensBy.RIGHT: (SIDEWAYS, False),
-        OpensBy.BOTTOM: (UP, True),
-        OpensBy.TOP: (UP, False),
+    across, edge, sign = {
+        OpensBy.LEFT: (SIDEWAYS, panel.low, -1.0),
+        OpensBy.RIGHT: (SIDEWAYS, panel.high, 1.0),
+        OpensBy.BOTTOM: (UP, panel.low, 1.0),
+        OpensBy.TOP: (UP, panel.high, -1.0),
     }[side]
     axis = np.zeros(3)
-    axis[UP if across == SIDEWAYS else SIDEWAYS] = {
-        OpensBy.LEFT: -1.0,
-        OpensBy.RIGHT: 1.0,
-        OpensBy.BOTTOM: 1.0,
-        OpensBy.TOP: -1.0,
-    }[side]
+    axis[UP if across == SIDEWAYS else SIDEWAYS] = sign
     margin = np.minimum(np.array([1.0, 0.5, 1.0]) * scene.touch, 0.2 * (panel.high - panel.low))
     box = np.stack([panel.low + margin, panel.high - margin])
     limit = THICK_DOOR_LIMIT if across == SIDEWAYS and _is_thick_door(scene, panel) else DOOR_LIMIT
@@ -254,7 +249,7 @@ def _hinge(
     best_turn = -1.0
     for depth in (panel.high[FRONT], panel.low[FRONT]):
         origin = panel.center.copy()
-        origin[across] = panel.low[across] if at_low else panel.high[across]
+        origin[across] = edge[across]
         origin[FRONT] = depth
         turn = free_turn(
             _without_knuckles(surroundings, origin, axis, panel), box, axis, origin, limit

@@ -79,8 +79,7 @@ def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
 
 def _is_framed(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
     """Tell whether the frame stands at two opposite sides, with little in front of the leaves."""
-    low = scene.low[leaves].min(axis=0)
-    high = scene.high[leaves].max(axis=0)
+    low, high = scene.box_of(leaves)
     hair = scene.touch / 2.0
     for axis in (SIDEWAYS, UP):
         other = UP if axis == SIDEWAYS else SIDEWAYS
@@ -140,7 +139,7 @@ def _handle_offset(scene: Scene, leaf: int, group: IntArray) -> float:
     if not len(fittings) or out.max() < scene.touch / 2.0:
         return 0.0
     handle = fittings[out >= 0.6 * out.max()]
-    middle = (scene.low[handle].min(axis=0) + scene.high[handle].max(axis=0))[SIDEWAYS] / 2.0
+    middle = scene.box_of(handle)[:, SIDEWAYS].sum() / 2.0
     return float(
         (middle - (scene.low[leaf] + scene.high[leaf])[SIDEWAYS] / 2.0)
         / scene.extents[leaf, SIDEWAYS]

@@ -65,7 +65,7 @@ def handle_box(scene: Scene, seed: FrontSlab, mounted: IntArray) -> FloatArray |
     outer = protruding(scene, seed, mounted)
     if not len(outer) or _crowded(scene, seed, outer):
         return None
-    box = np.stack([scene.low[outer].min(axis=0), scene.high[outer].max(axis=0)])
+    box = scene.box_of(outer)
     sides = (box[1] - box[0])[RECT] / np.array([seed.width, seed.height])
     if float(np.prod(sides)) > HANDLE_AREA or sides.min() > 0.5:
         return None

@@ -35,8 +35,7 @@ def find_panels(scene: Scene) -> tuple[FrontSlab, ...]:
 
 
 def _panel(scene: Scene, slabs: tuple[int, ...]) -> FrontSlab:
-    index = list(slabs)
-    return FrontSlab(slabs, scene.low[index].min(axis=0), scene.high[index].max(axis=0))
+    return FrontSlab(slabs, *scene.box_of(list(slabs)))
 
 
 def _seed_pieces(scene: Scene) -> IntArray:

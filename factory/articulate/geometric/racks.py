@@ -31,8 +31,7 @@ def find_racks(scene: Scene, doors: tuple[Mover, ...], taken: IntArray) -> tuple
     found = []
     labels = scene.label_touching(wires, scene.touch / 4.0)
     for group in (wires[labels == label] for label in np.unique(labels)):
-        low = scene.low[group].min(axis=0)
-        high = scene.high[group].max(axis=0)
+        low, high = scene.box_of(group)
         sides = (high - low) / scene.size
         basket = sides[SIDEWAYS] >= WIDE and sides[FRONT] >= DEEP and sides[UP] >= HIGH
         middle = (low + high) / 2.0
@@ -51,7 +50,6 @@ def find_racks(scene: Scene, doors: tuple[Mover, ...], taken: IntArray) -> tuple
 
 
 def _behind(scene: Scene, door: Mover, point: np.ndarray) -> bool:
-    low = scene.low[door.pieces].min(axis=0)
-    high = scene.high[door.pieces].max(axis=0)
+    low, high = scene.box_of(door.pieces)
     across = (low <= point) & (point <= high)
     return bool(across[RECT].all() and low[FRONT] < point[FRONT])

@@ -84,14 +84,7 @@ def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
     width = float(scene.extents[cap, SIDEWAYS])
     origin: FloatArray = (scene.low[cap] + scene.high[cap]) / 2.0
     up = np.array([0.0, 0.0, 1.0])
-    if (
-        float(
-            np.ptp(
-                np.stack([scene.low[group].min(axis=0), scene.high[group].max(axis=0)]), axis=0
-            ).max()
-        )
-        > 1.5 * width
-    ):
+    if float(np.ptp(scene.box_of(group), axis=0).max()) > 1.5 * width:
         guess = ("sticks out from the round top of a round body; assumed to turn by half a turn",)
         motion = Motion(JointKind.REVOLUTE, up, origin, 0.0, np.pi)
         return Mover(PartKind.LEVER, motion, group, guess)

@@ -73,10 +73,14 @@ class Scene:
         doubled = np.abs(_cross(sides[:, 0], sides[:, 1]))
         return np.asarray(np.bincount(self.labels, doubled / 2.0))
 
+    def box_of(self, pieces: IntArray | Sequence[int] | slice) -> FloatArray:
+        """Return the box around some pieces [m], shape [2, 3]."""
+        return np.stack([self.low[pieces].min(axis=0), self.high[pieces].max(axis=0)])
+
     @cached_property
     def box(self) -> FloatArray:
         """Return the box of everything [m], shape [2, 3]."""
-        return np.stack([self.low.min(axis=0), self.high.max(axis=0)])
+        return self.box_of(slice(None))
 
     @cached_property
     def size(self) -> FloatArray:

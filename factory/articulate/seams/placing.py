@@ -148,19 +148,12 @@ def panel_mover(
     back = rim + thickness if leaf is None else raster.near + behind
     region = box_before(raster.side, low, high, back)
     middle = (low + high) / 2.0
-    across, height = {
-        OpensBy.LEFT: (low[1], middle[0]),
-        OpensBy.RIGHT: (high[1], middle[0]),
-        OpensBy.BOTTOM: (middle[1], low[0]),
-        OpensBy.TOP: (middle[1], high[0]),
-        OpensBy.OUT: (middle[1], middle[0]),
-    }[way]
-    axis = {
-        OpensBy.LEFT: -up,
-        OpensBy.RIGHT: up,
-        OpensBy.BOTTOM: right,
-        OpensBy.TOP: -right,
-        OpensBy.OUT: -away,
+    across, height, axis = {
+        OpensBy.LEFT: (low[1], middle[0], -up),
+        OpensBy.RIGHT: (high[1], middle[0], up),
+        OpensBy.BOTTOM: (middle[1], low[0], right),
+        OpensBy.TOP: (middle[1], high[0], -right),
+        OpensBy.OUT: (middle[1], middle[0], -away),
     }[way]
     slides = way is OpensBy.OUT
     motion = Motion(
