@@ -21,9 +21,7 @@ from ..proposal import Hypothesis
 from ..stated import StatedArticulator
 from .answers import KeptAnswer, answer_path, keep_answer, kept_answer
 from .endpoint import Reply, ask, require_endpoint
-from .instruction import instruction_for
-from .question import Question
-from .sheet import sheet_of
+from .question import Question, question_of
 
 NAME = "vlm"
 #: How often a model is asked about one input: again with what was wrong.
@@ -55,7 +53,7 @@ class VlmArticulator(HypothesisMaker):
             Unjudged: ``model_unavailable``.
             ConfigError: the endpoint refuses the key, the model or the question.
         """
-        question = Question(sheet_of(mesh), instruction_for(self._input_name))
+        question = question_of(mesh, self._input_name)
         path = answer_path(self._config, question)
         kept = kept_answer(path)
         if kept is not None:
