@@ -73,5 +73,5 @@ def _panel_in(box: FloatArray, side: Side, dense: Dense) -> Found | None:
 
 
 def _signs(support: float, front: Front, rectangle: Rectangle) -> FloatArray:
-    handle = bool(front.scene.handles_in(rectangle))
+    handle = bool(front.handles_in(rectangle))
     return np.array([support, np.sqrt(support), rectangle.relief.mean(), handle])

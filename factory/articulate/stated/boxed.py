@@ -110,5 +110,5 @@ def boxed_in(front: Front, part: StatedPart, place: int, box: Rectangle) -> Stat
             unit="of its area",
             limit=LEAST_SHOWN,
         )
-    panel = FrontPanel(box, front.scene.handles_in(box))
+    panel = FrontPanel(box, front.handles_in(box))
     return StatedBox(part, place, part.view, front, panel)

@@ -67,7 +67,7 @@ class SeenMesh:
     def look(self) -> SeenMesh:
         """Look at its upright sides now; returns itself."""
         for front in self.around.values():
-            _ = front.scene
+            _ = front.pulls
         return self
 
 
