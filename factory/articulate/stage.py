@@ -114,15 +114,10 @@ class _Surface:
 
     @classmethod
     def of(cls, mesh: Mesh) -> _Surface:
-        return cls(
-            mesh.vertices, mesh.faces, mesh.corner_uv, mesh.corner_normals, mesh.face_material
-        )
+        return cls(**{field.name: getattr(mesh, field.name) for field in fields(cls)})
 
     def on(self, mesh: Mesh) -> Mesh:
-        return replace(mesh, **{name: getattr(self, name) for name in SURFACE})
-
-
-SURFACE = tuple(field.name for field in fields(_Surface))
+        return replace(mesh, **vars(self))
 
 
 #: All of an articulation but its mesh.
@@ -147,13 +142,6 @@ class _Tree:
     own: _Surface | None
 
 
-@dataclass(frozen=True)
-class _Trees:
-    """All hypotheses of one input."""
-
-    trees: tuple[_Tree, ...]
-
-
 def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis, ...]:
     """Return what :func:`hypotheses_of` does, with the settings of ``stages``, and remember it.
 
@@ -167,11 +155,11 @@ def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis,
     """
     config = stages.config
 
-    def trees() -> _Trees:
-        return _Trees(tuple(_tree(made, intake) for made in hypotheses_of(intake, config)))
+    def trees() -> tuple[_Tree, ...]:
+        return tuple(_tree(made, intake) for made in hypotheses_of(intake, config))
 
-    kept = stages.recall("articulate", _Trees, ARTICULATE.key(config, loaded), trees)
-    return tuple(_grown(tree, intake) for tree in kept.trees)
+    kept = stages.recall("articulate", tuple[_Tree, ...], ARTICULATE.key(config, loaded), trees)
+    return tuple(_grown(tree, intake) for tree in kept)
 
 
 def _tree(made: Hypothesis, intake: Intake) -> _Tree:
