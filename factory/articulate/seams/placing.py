@@ -100,27 +100,19 @@ def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Re
 
 def rim_depth(front: Front, panel: FrontPanel) -> float:
     """Return how far behind the nearest point the outer edge of a panel lies [pixels]."""
-    top, bottom, left, right = _borders(front, panel)
-    borders = (top, bottom, left, right)
-    return max((float(np.median(each)) for each in borders if len(each)), default=0.0)
-
-
-def _borders(front: Front, panel: FrontPanel) -> tuple[FloatArray, ...]:
-    low = panel.rectangle.low
-    high = panel.rectangle.high
-    depth = -front.face.height
     rows, columns = (
         slice(int(start) + inset, int(stop) - inset + 1)
-        for start, stop in zip(low, high, strict=True)
+        for start, stop in zip(panel.rectangle.low, panel.rectangle.high, strict=True)
         for inset in (min(INSET, int(stop - start) // 2),)
     )
-    lines = (
-        (depth[rows.stop - 1, columns], front.relief.seen[rows.stop - 1, columns]),
-        (depth[rows.start, columns], front.relief.seen[rows.start, columns]),
-        (depth[rows, columns.start], front.relief.seen[rows, columns.start]),
-        (depth[rows, columns.stop - 1], front.relief.seen[rows, columns.stop - 1]),
+    borders = (
+        (rows.stop - 1, columns),
+        (rows.start, columns),
+        (rows, columns.start),
+        (rows, columns.stop - 1),
     )
-    return tuple(values[seen] for values, seen in lines)
+    shown = (-front.face.height[border][front.relief.seen[border]] for border in borders)
+    return max((float(np.median(depth)) for depth in shown if len(depth)), default=0.0)
 
 
 def panel_mover(
