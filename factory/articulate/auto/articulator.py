@@ -11,7 +11,7 @@ from ...errors import ConfigError
 from ...geometry.components import connected_components
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
-from ...mesh import FloatArray, Mesh
+from ...mesh import Mesh
 from ...models.particulate.inference import Network
 from ...models.weights.sources import SHIPPED
 from ...part import Proposer
@@ -71,7 +71,7 @@ class AutoArticulator:
         """
         if MeshOrigin.of(mesh).is_generated:
             return knobs_of(mesh, self.name)
-        decided = self.decide(mesh, self.proposals(mesh, face_areas(mesh)))
+        decided = self.decide(mesh, self.proposals(mesh))
         return replace(decided, weights=self.weights)
 
     def _least(self, rated: Sequence[Proposal]) -> float:
@@ -132,13 +132,9 @@ class AutoArticulator:
         )
         return replace(made, notes=(*made.notes, *notes))
 
-    def proposals(self, mesh: Mesh, areas: FloatArray) -> tuple[Proposal, ...]:
-        """Return everything that may move, by whoever says so.
-
-        Args:
-            mesh: metres, z up.
-            areas: of its faces [m2], shape [face_count].
-        """
+    def proposals(self, mesh: Mesh) -> tuple[Proposal, ...]:
+        """Return everything of ``mesh`` [m], z up, that may move, by whoever says so."""
+        areas = face_areas(mesh)
         contacts = contacts_of(mesh, connected_components(mesh))
         views = tuple(
             replace(view, face_part=settled(contacts, view.face_part))

@@ -148,7 +148,9 @@ class DetectedArticulator(HypothesisMaker):
             chance = self.agreement.of_panel(signs)
             if chance >= LEAST_CHANCE:
                 panels.append(replace(found, score=chance))
-        lids = [each for each in detection.parts(self._least_score) if each.sort is Sort.LID]
+        # Where little is asked lids with a lower score are looked at, too.
+        lowest = LEAST_SCORE if self.least is None else min(LEAST_SCORE, self.least)
+        lids = [each for each in detection.parts(lowest) if each.sort is Sort.LID]
         rated = []
         for part in seen_parts([*panels, *lids], extents):
             stated = part.stated
@@ -213,11 +215,6 @@ class DetectedArticulator(HypothesisMaker):
             except InputRejected:
                 continue
         return []
-
-    @property
-    def _least_score(self) -> float:
-        """Return the score from which lids of a side are looked at: less where little is asked."""
-        return LEAST_SCORE if self.least is None else min(LEAST_SCORE, self.least)
 
     def _still(self, mesh: Mesh, guess: Articulation, detection: Detection) -> Articulation:
         """Return an articulation that moves nothing, with notes on what was seen."""

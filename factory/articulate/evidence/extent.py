@@ -103,8 +103,3 @@ def _front(body: Body, axis: FloatArray) -> float:
         along, along - near, "left"
     )
     return float(along[around >= 0.5 * around.max()][-1])
-
-
-def nearest_to(axis: FloatArray, origin: FloatArray, point: FloatArray) -> FloatArray:
-    """Return the point of a line nearest to another [m], shape [3]."""
-    return np.asarray(origin + axis * float(axis @ (point - origin)))

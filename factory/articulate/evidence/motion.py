@@ -12,7 +12,7 @@ from ...mesh import BoolArray, FloatArray, read_only
 from ..proposal import Motion
 from .body import Body, Partition, body_of
 from .candidates import Candidates, find_candidates
-from .extent import LEAST, Extent, extent_of, nearest_to
+from .extent import LEAST, Extent, extent_of
 from .guess import NOTHING, Guess
 from .numbers import NAMES, measure
 from .rating import Rating, load_rating
@@ -102,9 +102,9 @@ def _motion(
     chosen, extent = _right_way(body, candidates, chosen, numbers, guess)
     middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
     axis = candidates.axis[chosen]
-    origin = (
-        middle if candidates.slides[chosen] else nearest_to(axis, candidates.origin[chosen], middle)
-    )
+    origin = candidates.origin[chosen]
+    along = axis * float(axis @ (middle - origin))
+    origin = middle if candidates.slides[chosen] else origin + along
     return Motion(extent.kind, axis, origin, extent.lower, extent.upper)
 
 
