@@ -217,7 +217,7 @@ class DetectedArticulator(HypothesisMaker):
         return []
 
     def _still(self, mesh: Mesh, guess: Articulation, detection: Detection) -> Articulation:
-        """Return an articulation that moves nothing, with notes on what was seen."""
+        """Return an articulation that moves nothing, with notes on all that was seen."""
         looks = f"it looks like a {detection.kind.replace('_', ' ')}"
         sure = f"with probability {detection.kinds.max():.2f}"
         opens = f"it has something to open with probability {detection.opens:.2f}"

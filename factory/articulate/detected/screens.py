@@ -22,7 +22,7 @@ THICKEST = 0.2
 def open_screen(mesh: Mesh) -> StatedPart | None:
     """Return the screen of a laptop that is drawn open, as a person would state it.
 
-    That is what stands on the base if it is a plate; ``None`` where nothing is, as on a closed one.
+    It is the plate that stands on the base; ``None`` where there is none, as on a closed one.
     """
     points = spread(mesh.vertices[mesh.faces], REST_SURFELS).points
     low, high = mesh.bounds
