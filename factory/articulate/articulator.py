@@ -35,11 +35,15 @@ class HypothesisMaker(Protocol):
     """An articulator that knows several ways in which a mesh may be articulated."""
 
     def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
-        """Return them, the likeliest first, which is what ``articulate`` says.
+        """Return them, the likeliest first.
 
         Args:
             mesh: the whole object, metres, z up.
         """
+
+    def articulate(self, mesh: Mesh) -> Articulation:
+        """Return the likeliest hypothesis of ``mesh`` [m], z up."""
+        return self.hypotheses(mesh)[0].articulation
 
 
 def make_hypotheses(articulator: Articulator, mesh: Mesh) -> tuple[Hypothesis, ...]:
@@ -51,4 +55,4 @@ def make_hypotheses(articulator: Articulator, mesh: Mesh) -> tuple[Hypothesis, .
     """
     if isinstance(articulator, HypothesisMaker):
         return articulator.hypotheses(mesh)
-    return (Hypothesis.of(articulator.articulate(mesh)),)
+    return (Hypothesis(articulator.articulate(mesh)),)

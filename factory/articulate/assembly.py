@@ -73,31 +73,21 @@ def _part(name: str, faces: IntArray, proposal: Proposal) -> Part:
 
 def _joints(name: str, proposal: Proposal, holder: int, part: int) -> Iterator[Joint]:
     """Yield one joint; two for a part that turns and slides: it slides in a carrier that turns."""
-    motion = proposal.motion
-    slide = proposal.slide
-    yield Joint(
-        name=f"{name}_{JOINT_SUFFIX[motion.kind]}",
-        kind=motion.kind,
-        parent=holder,
-        child=part if slide is None else part - 1,
-        axis=motion.axis,
-        origin=motion.origin,
-        lower=motion.lower,
-        upper=motion.upper,
-        confidence=proposal.probability,
-    )
-    if slide is not None:
+    motions = [proposal.motion] if proposal.slide is None else [proposal.motion, proposal.slide]
+    parent = holder
+    for child, motion in enumerate(motions, start=part + 1 - len(motions)):
         yield Joint(
-            name=f"{name}_{JOINT_SUFFIX[JointKind.PRISMATIC]}",
-            kind=JointKind.PRISMATIC,
-            parent=part - 1,
-            child=part,
-            axis=slide.axis,
-            origin=motion.origin,
-            lower=slide.lower,
-            upper=slide.upper,
+            name=f"{name}_{JOINT_SUFFIX[motion.kind]}",
+            kind=motion.kind,
+            parent=parent,
+            child=child,
+            axis=motion.axis,
+            origin=proposal.motion.origin,
+            lower=motion.lower,
+            upper=motion.upper,
             confidence=proposal.probability,
         )
+        parent = child
 
 
 def _parents_first(hosts: Sequence[int]) -> list[int]:

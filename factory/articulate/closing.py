@@ -12,7 +12,7 @@ from ..geometry.posing import face_parts
 from ..mesh import FloatArray
 from ..part import PartKind
 from .evidence.body import Body, Partition, body_of
-from .evidence.candidates import GUESSED, Candidates
+from .evidence.candidates import Candidates, LineSource
 from .evidence.frames import level_frame
 from .evidence.setting import free_way
 from .ranges import OPEN_DIFFERENCE, box_volumes
@@ -102,7 +102,7 @@ def _free(body: Body, joint: Joint, sign: float) -> float:
         np.array([False]),
         sign * joint.axis[None],
         joint.origin[None],
-        np.array([GUESSED]),
+        np.array([LineSource.GUESSED]),
         np.zeros(1),
     )
     return float(MOST * free_way(body, turn, MOST))

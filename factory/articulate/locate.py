@@ -33,15 +33,11 @@ def located(articulation: Articulation) -> Articulation:
 
 def sourced(articulation: Articulation, proposer: Proposer) -> Articulation:
     """Return an articulation whose moving parts all come from one proposer."""
-    sources = [
-        PartSource(proposal_id(proposer, part.faces, [joint]), proposer, joint.confidence)
-        for joint, part in zip(articulation.joints, articulation.parts[1:], strict=True)
-    ]
-    parts = [
-        replace(part, source=source)
-        for part, source in zip(articulation.parts[1:], sources, strict=True)
-    ]
-    return replace(articulation, parts=(articulation.parts[0], *parts))
+    parts = [articulation.parts[0]]
+    for joint, part in zip(articulation.joints, articulation.parts[1:], strict=True):
+        name = proposal_id(proposer, part.faces, [joint])
+        parts.append(replace(part, source=PartSource(name, proposer, joint.confidence)))
+    return replace(articulation, parts=tuple(parts))
 
 
 def _located(mesh: Mesh, joint: Joint, part: Part) -> Part:

@@ -129,19 +129,19 @@ class Hypothesis:
 
     Attributes:
         articulation: parts and joints.
-        probability: that every joint is right, as if they were independent, 0 to 1; joints that
-            nobody rated count as certain.
     """
 
     articulation: Articulation
-    probability: float
 
-    @classmethod
-    def of(cls, articulation: Articulation) -> Hypothesis:
-        """Return the hypothesis that a mesh is articulated so."""
+    @property
+    def probability(self) -> float:
+        """Return the probability that every joint is right, as if they were independent, 0 to 1.
+
+        Joints that nobody rated count as certain.
+        """
         chances = [
             joint.confidence
-            for joint in articulation.movable_joints
+            for joint in self.articulation.movable_joints
             if joint.confidence is not None
         ]
-        return cls(articulation, float(np.prod(chances)))
+        return float(np.prod(chances))

@@ -83,7 +83,7 @@ def hypotheses_of(intake: Intake, config: BuildConfig) -> tuple[Hypothesis, ...]
         seen = "; ".join(likeliest.notes) or "nothing in this mesh looks as if it moved"
         says = f", says {likeliest.articulator} (it is {size} m): {seen}"
         raise _nothing_moves(name, f"{says}; {WAY_FORWARD}")
-    return tuple(replace(each, articulation=located(each.articulation)) for each in found)
+    return tuple(Hypothesis(located(each.articulation)) for each in found)
 
 
 def _refuse_flat(name: str, mesh: Mesh) -> None:
@@ -114,15 +114,10 @@ class _Surface:
 
     @classmethod
     def of(cls, mesh: Mesh) -> _Surface:
-        return cls(
-            mesh.vertices, mesh.faces, mesh.corner_uv, mesh.corner_normals, mesh.face_material
-        )
+        return cls(**{field.name: getattr(mesh, field.name) for field in fields(cls)})
 
     def on(self, mesh: Mesh) -> Mesh:
-        return replace(mesh, **{name: getattr(self, name) for name in SURFACE})
-
-
-SURFACE = tuple(field.name for field in fields(_Surface))
+        return replace(mesh, **vars(self))
 
 
 #: All of an articulation but its mesh.
@@ -136,7 +131,6 @@ class _Tree:
     Attributes:
         own: the mesh's surface, where a joint's range leaves out the input's pose, so that the
             articulator moved it, or where the articulator cut triangles along its parts.
-        probability: of the hypothesis.
     """
 
     parts: tuple[Part, ...]
@@ -146,14 +140,6 @@ class _Tree:
     weights: tuple[Weights, ...]
     looks_like: str | None
     own: _Surface | None
-    probability: float
-
-
-@dataclass(frozen=True)
-class _Trees:
-    """All hypotheses of one input."""
-
-    trees: tuple[_Tree, ...]
 
 
 def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis, ...]:
@@ -169,21 +155,21 @@ def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis,
     """
     config = stages.config
 
-    def trees() -> _Trees:
-        return _Trees(tuple(_tree(made, intake) for made in hypotheses_of(intake, config)))
+    def trees() -> tuple[_Tree, ...]:
+        return tuple(_tree(made, intake) for made in hypotheses_of(intake, config))
 
-    kept = stages.recall("articulate", _Trees, ARTICULATE.key(config, loaded), trees)
-    return tuple(_grown(tree, intake) for tree in kept.trees)
+    kept = stages.recall("articulate", tuple[_Tree, ...], ARTICULATE.key(config, loaded), trees)
+    return tuple(_grown(tree, intake) for tree in kept)
 
 
 def _tree(made: Hypothesis, intake: Intake) -> _Tree:
     tree = made.articulation
     own = None if tree.mesh is intake.mesh else _Surface.of(tree.mesh)
     said = {name: getattr(tree, name) for name in SAID}
-    return _Tree(**said, own=own, probability=made.probability)
+    return _Tree(**said, own=own)
 
 
 def _grown(tree: _Tree, intake: Intake) -> Hypothesis:
     mesh = intake.mesh if tree.own is None else tree.own.on(intake.mesh)
     said = {name: getattr(tree, name) for name in SAID}
-    return Hypothesis(Articulation(mesh=mesh, **said), tree.probability)
+    return Hypothesis(Articulation(mesh=mesh, **said))

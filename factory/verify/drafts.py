@@ -105,6 +105,6 @@ def _told_of(articulation: Articulation, why: str) -> Finding:
     joints = articulation.movable_joints
     told = [f"{articulation.parts[joint.child].name} {_VERBS[joint.kind]}" for joint in joints]
     if any(joint.confidence is not None for joint in joints):
-        told.append(f"probability {Hypothesis.of(articulation).probability:.2f}")
+        told.append(f"probability {Hypothesis(articulation).probability:.2f}")
     said = f"read otherwise ({', '.join(told)}), it {why}"
     return Finding("other_reading", Severity.WARNING, said)

@@ -76,7 +76,7 @@ def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iter
         if not truth.movable_joints:
             continue
         areas = face_areas(truth.mesh)
-        proposals = articulator.proposals(truth.mesh, areas)
+        proposals = articulator.proposals(truth.mesh)
         right = np.array([is_right(each, truth, areas) for each in proposals], dtype=np.float64)
         yield TrustTrial(truth, proposals, right)
 

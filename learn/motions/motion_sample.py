@@ -9,11 +9,10 @@ import numpy as np
 
 from asset_factory.factory.articulate.evidence.body import body_of
 from asset_factory.factory.articulate.evidence.candidates import (
-    GUESSED,
     Candidates,
+    LineSource,
     find_candidates,
 )
-from asset_factory.factory.articulate.evidence.extent import single
 from asset_factory.factory.articulate.evidence.numbers import GUESS, measure
 from asset_factory.factory.articulate.evidence.setting import Setting, setting_of
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
@@ -90,11 +89,11 @@ def motion_samples(
         reach = np.inf if joint.kind is JointKind.CONTINUOUS else joint.range
         setting = None
         if right[best]:
-            setting = setting_of(body, single(candidates, best), numbers[best])
+            setting = setting_of(body, candidates.at([best]), numbers[best])
         yield MotionSample(
             name=name,
             numbers=numbers.astype(np.float32),
-            guessed=candidates.source == GUESSED,
+            guessed=candidates.source == LineSource.GUESSED,
             worth=worth,
             right=right,
             alike=_alike(candidates, truth.size),

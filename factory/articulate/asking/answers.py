@@ -11,9 +11,8 @@ from msgspec import Struct, ValidationError, convert
 
 from ...config import VlmConfig
 from ...runtime.store import write_json
+from .endpoint import MOST_BYTES
 from .question import Question
-
-MOST_BYTES = 1024 * 1024
 
 
 class KeptAnswer(Struct, frozen=True):

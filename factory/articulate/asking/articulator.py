@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import Any
 from urllib.parse import urlsplit
 
-from ...articulation import Articulation
 from ...config import BuildConfig, VlmConfig
 from ...errors import ConfigError, InputRejected
 from ...intake.intake import Intake
@@ -17,14 +16,12 @@ from ...intake.stated import stated_from
 from ...mesh import Mesh
 from ...part import Proposer
 from ..annotated import annotated_articulator, annotation_of
-from ..articulator import Articulator
+from ..articulator import Articulator, HypothesisMaker
 from ..proposal import Hypothesis
 from ..stated import StatedArticulator
 from .answers import KeptAnswer, answer_path, keep_answer, kept_answer
 from .endpoint import Reply, ask, require_endpoint
-from .instruction import instruction_for
-from .question import Question
-from .sheet import sheet_of
+from .question import Question, question_of
 
 NAME = "vlm"
 #: How often a model is asked about one input: again with what was wrong.
@@ -34,7 +31,7 @@ LONGEST = 64 * 1024
 _FENCED = re.compile(r"\s*```(?:json)?\s*(.*?)\s*```\s*", re.DOTALL)
 
 
-class VlmArticulator:
+class VlmArticulator(HypothesisMaker):
     """Asks a model once, once more with the fault, and never again about the same pictures.
 
     Args:
@@ -48,10 +45,6 @@ class VlmArticulator:
         self._input_name = input_name
         self._config = config
 
-    def articulate(self, mesh: Mesh) -> Articulation:
-        """Return the likeliest hypothesis of ``mesh`` [m], z up."""
-        return self.hypotheses(mesh)[0].articulation
-
     def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
         """Return the articulations that fit the model's answer, the likeliest first.
 
@@ -60,7 +53,7 @@ class VlmArticulator:
             Unjudged: ``model_unavailable``.
             ConfigError: the endpoint refuses the key, the model or the question.
         """
-        question = Question(sheet_of(mesh), instruction_for(self._input_name))
+        question = question_of(mesh, self._input_name)
         path = answer_path(self._config, question)
         kept = kept_answer(path)
         if kept is not None:
@@ -89,12 +82,9 @@ class VlmArticulator:
             f"{self._config.model} at {host} said what opens: "
             f"{kept.read} tokens read, {kept.written} written"
         )
-        trees = [
-            replace(each.articulation, articulator=NAME, notes=(*each.articulation.notes, note))
-            for each in found
-        ]
+        trees = (each.articulation for each in found)
         return tuple(
-            replace(each, articulation=tree) for each, tree in zip(found, trees, strict=True)
+            Hypothesis(replace(tree, articulator=NAME, notes=(*tree.notes, note))) for tree in trees
         )
 
 

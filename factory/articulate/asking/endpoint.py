@@ -133,7 +133,8 @@ def ask(config: VlmConfig, messages: Sequence[dict[str, Any]]) -> Reply:
                     raise ConfigError(f"{config.url}: {why}")
             if number + 1 < TRIES:
                 time.sleep(min(pause, LONGEST_PAUSE_S))
-    raise Unjudged(_unavailable(f"{config.url}: no answer in {TRIES} tries; {why}"))
+    sentence = f"{config.url}: no answer in {TRIES} tries; {why}"
+    raise Unjudged(Finding("model_unavailable", Severity.ERROR, sentence, cause=OUT_OF_TIME))
 
 
 def _post(
@@ -160,7 +161,3 @@ def _reply(answer: bytes) -> Reply:
     usage = completion.usage or _Usage()
     text = completion.choices[0].message.content if completion.choices else None
     return Reply(text or "", (usage.prompt_tokens, usage.completion_tokens))
-
-
-def _unavailable(sentence: str) -> Finding:
-    return Finding("model_unavailable", Severity.ERROR, sentence, cause=OUT_OF_TIME)

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from ...config import BuildConfig
 from ...errors import InputRejected
-from ...intake.intake import Intake
 from ...intake.source import Source
+from ...mesh import Mesh
 from .instruction import instruction_for
 from .sheet import sheet_of
 
@@ -28,9 +28,9 @@ class Question:
     rejected: str = ""
 
 
-def question_of(intake: Intake) -> Question:
-    """Return the question about a loaded input."""
-    return Question(sheet_of(intake.mesh), instruction_for(intake.provenance.input))
+def question_of(mesh: Mesh, name: str) -> Question:
+    """Return the question about a mesh [m], z up, of a file of that name."""
+    return Question(sheet_of(mesh), instruction_for(name))
 
 
 def question_about(source: Path, config: BuildConfig) -> Question:
@@ -41,6 +41,7 @@ def question_about(source: Path, config: BuildConfig) -> Question:
         config: how to load it.
     """
     try:
-        return question_of(Source(source, config).load())
+        intake = Source(source, config).load()
+        return question_of(intake.mesh, intake.provenance.input)
     except InputRejected as rejection:
         return Question(rejected=f"{rejection.code}: {rejection.message}")

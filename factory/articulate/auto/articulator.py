@@ -11,7 +11,7 @@ from ...errors import ConfigError
 from ...geometry.components import connected_components
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import Mesh
 from ...models.particulate.inference import Network
 from ...models.weights.sources import SHIPPED
 from ...part import Proposer
@@ -71,7 +71,7 @@ class AutoArticulator:
         """
         if MeshOrigin.of(mesh).is_generated:
             return knobs_of(mesh, self.name)
-        decided = self.decide(mesh, self.proposals(mesh, face_areas(mesh)))
+        decided = self.decide(mesh, self.proposals(mesh))
         return replace(decided, weights=self.weights)
 
     def _least(self, rated: Sequence[Proposal]) -> float:
@@ -122,25 +122,22 @@ class AutoArticulator:
             return rigid_articulation(
                 mesh, self.name, notes or ("nothing in this mesh looks as if it moved",)
             )
+        # Handles and mouldings that touch only a mover go with it.
         made = assembled(
             mesh,
-            _with_loose(mesh, sharing.face_part),
+            settled(contacts_of(mesh, connected_components(mesh)), sharing.face_part),
             [sure[index] for index in sharing.chosen],
             self.name,
             sharing.hosts,
         )
         return replace(made, notes=(*made.notes, *notes))
 
-    def proposals(self, mesh: Mesh, areas: FloatArray) -> tuple[Proposal, ...]:
-        """Return everything that may move, by whoever says so.
-
-        Args:
-            mesh: metres, z up.
-            areas: of its faces [m2], shape [face_count].
-        """
-        contacts = contacts_of(mesh, connected_components(mesh), areas)
+    def proposals(self, mesh: Mesh) -> tuple[Proposal, ...]:
+        """Return everything of ``mesh`` [m], z up, that may move, by whoever says so."""
+        areas = face_areas(mesh)
+        contacts = contacts_of(mesh, connected_components(mesh))
         views = tuple(
-            replace(view, face_part=settled(contacts, view.face_part, areas))
+            replace(view, face_part=settled(contacts, view.face_part))
             for view in look_around(mesh, self.network, self.particulate, self.config.views)
         )
         ruled = GeometricArticulator().proposals(mesh)
@@ -195,10 +192,3 @@ def load_auto(
     return AutoArticulator(
         learned.network, learned.weights, trust or load_trust(), settings, config
     )
-
-
-def _with_loose(mesh: Mesh, face_part: IntArray) -> IntArray:
-    """Return labels in which handles and mouldings that touch only a mover go with it."""
-    areas = face_areas(mesh)
-    contacts = contacts_of(mesh, connected_components(mesh), areas)
-    return settled(contacts, face_part, areas)

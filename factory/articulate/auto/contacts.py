@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...geometry.edges import label_linked
+from ...geometry.triangles import areas_of
 from ...mesh import FloatArray, IntArray, Mesh
 from ..evidence.surfels import spread_owned
 
@@ -24,32 +25,34 @@ class Contacts:
 
     Attributes:
         components: of every face, shape [face_count].
+        face_areas: of every face [m2], shape [face_count].
         areas: of every component [m2], shape [component_count].
         pairs: of components that touch, the lower first, shape [pair_count, 2].
         weights: in how many places they do, shape [pair_count].
     """
 
     components: IntArray
+    face_areas: FloatArray
     areas: FloatArray
     pairs: IntArray
     weights: IntArray
 
 
-def contacts_of(mesh: Mesh, components: IntArray, face_areas: FloatArray) -> Contacts:
+def contacts_of(mesh: Mesh, components: IntArray) -> Contacts:
     """Return the contacts between points spread evenly over the mesh, the same every time.
 
     Args:
         mesh: metres.
         components: of its faces, shape [face_count].
-        face_areas: of its faces [m2], shape [face_count].
     """
     triangles = mesh.vertices[mesh.faces]
     surfels, owner = spread_owned(triangles, POINTS)
     points = np.concatenate([surfels.points, triangles.reshape(-1, 3)])
     of_point = np.concatenate([components[owner], np.repeat(components, 3)])
     pairs, weights = _touching(points, of_point, TOUCH * mesh.diagonal)
-    areas = np.asarray(np.bincount(components, weights=face_areas), dtype=np.float64)
-    return Contacts(components, areas, pairs, weights)
+    own = areas_of(triangles)
+    areas = np.asarray(np.bincount(components, weights=own), dtype=np.float64)
+    return Contacts(components, own, areas, pairs, weights)
 
 
 def _touching(points: FloatArray, owners: IntArray, reach: float) -> tuple[IntArray, IntArray]:
@@ -74,14 +77,13 @@ def _touching(points: FloatArray, owners: IntArray, reach: float) -> tuple[IntAr
     return np.unique(owners)[table[:, :2]], table[:, 2]
 
 
-def settled(contacts: Contacts, face_part: IntArray, face_areas: FloatArray) -> IntArray:
+def settled(contacts: Contacts, face_part: IntArray) -> IntArray:
     """Return labels in which small clusters apart from their part join what they touch most.
 
     Args:
         contacts: of the mesh.
         face_part: part of every face, shape [face_count]; components of several parts are left as
             they are.
-        face_areas: of its faces [m2], shape [face_count].
 
     Returns:
         Part of every face, shape [face_count].
@@ -89,7 +91,9 @@ def settled(contacts: Contacts, face_part: IntArray, face_areas: FloatArray) -> 
     count = len(contacts.areas)
     parts = int(face_part.max(initial=0)) + 1
     cover = np.bincount(
-        contacts.components * parts + face_part, weights=face_areas, minlength=count * parts
+        contacts.components * parts + face_part,
+        weights=contacts.face_areas,
+        minlength=count * parts,
     )
     cover = cover.reshape(count, parts)
     label = cover.argmax(axis=1)

@@ -18,7 +18,7 @@ from ...models.detector.canvas import Sort, look_at
 from ...models.detector.decode import Dense
 from ...part import Part, PartKind, Proposer
 from ...views.raster import Side
-from ..articulator import Articulator
+from ..articulator import Articulator, HypothesisMaker
 from ..closing import with_closed_hinges
 from ..origin import MeshOrigin
 from ..proposal import Hypothesis
@@ -29,7 +29,7 @@ from ..stated.articulator import StatedArticulator, seen_from
 from ..stated.placing import SeenMesh
 from ..straight import straightening
 from .agreement import Agreement
-from .merging import HINGE_OF, DetectedPart, likely_hinges, seen_parts
+from .merging import DetectedPart, likely_hinges, seen_parts
 from .panels import panels_of
 from .rating import CARRIED, CellParts, support_of_box
 from .screens import open_screen
@@ -62,7 +62,7 @@ ASKED = frozenset({PartKind.PART, PartKind.DOOR, PartKind.DRAWER, PartKind.FLAP,
 
 
 @dataclass(frozen=True)
-class DetectedArticulator:
+class DetectedArticulator(HypothesisMaker):
     """Asks somebody else, fixes what the detector does not see, and adds what it sees beside it.
 
     Attributes:
@@ -82,10 +82,6 @@ class DetectedArticulator:
         """Return how whoever is asked is called."""
         return self.guess.name
 
-    def articulate(self, mesh: Mesh) -> Articulation:
-        """Return the likeliest hypothesis of ``mesh`` [m], z up."""
-        return self.hypotheses(mesh)[0].articulation
-
     def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
         """Return what may open, the likeliest first; all that is seen together comes first."""
         straight = straightening(mesh)
@@ -94,7 +90,7 @@ class DetectedArticulator:
         else:
             turned = self._articulations(mesh.turned(straight))
             made = [rotated(each, straight.T) for each in turned]
-        return tuple(Hypothesis.of(each) for each in _different(made))
+        return tuple(Hypothesis(each) for each in _different(made))
 
     def _articulations(self, mesh: Mesh) -> list[Articulation]:
         """Return the articulations that a mesh may have whose sides look along the axes."""
@@ -152,7 +148,9 @@ class DetectedArticulator:
             chance = self.agreement.of_panel(signs)
             if chance >= LEAST_CHANCE:
                 panels.append(replace(found, score=chance))
-        lids = [each for each in detection.parts(self._least_score) if each.sort is Sort.LID]
+        # Where little is asked lids with a lower score are looked at, too.
+        lowest = LEAST_SCORE if self.least is None else min(LEAST_SCORE, self.least)
+        lids = [each for each in detection.parts(lowest) if each.sort is Sort.LID]
         rated = []
         for part in seen_parts([*panels, *lids], extents):
             stated = part.stated
@@ -218,13 +216,8 @@ class DetectedArticulator:
                 continue
         return []
 
-    @property
-    def _least_score(self) -> float:
-        """Return the score from which lids of a side are looked at: less where little is asked."""
-        return LEAST_SCORE if self.least is None else min(LEAST_SCORE, self.least)
-
     def _still(self, mesh: Mesh, guess: Articulation, detection: Detection) -> Articulation:
-        """Return an articulation that moves nothing, with notes on what was seen."""
+        """Return an articulation that moves nothing, with notes on all that was seen."""
         looks = f"it looks like a {detection.kind.replace('_', ' ')}"
         sure = f"with probability {detection.kinds.max():.2f}"
         opens = f"it has something to open with probability {detection.opens:.2f}"
@@ -255,8 +248,8 @@ def _hinged(part: DetectedPart, seen: SeenMesh) -> StatedPart:
     height = seen.mesh.bounds[0, 2] + box[1] * seen.mesh.extents[2]
     row = int((height - raster.low[1]) / raster.pixel)
     first, second, *_ = likely_hinges(part.found, lid_hinges(seen.around, row))
-    other = StatedAlternative(hinge=HINGE_OF[second])
-    return structs.replace(lid, hinge=HINGE_OF[first], alternatives=(other,))
+    other = StatedAlternative(hinge=Hinge(second))
+    return structs.replace(lid, hinge=Hinge(first), alternatives=(other,))
 
 
 def _without(guess: Articulation, gone: Collection[int]) -> Articulation:
@@ -267,21 +260,25 @@ def _without(guess: Articulation, gone: Collection[int]) -> Articulation:
 def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
     """Return the parts hinged elsewhere than all sides of a lid in their place agree on."""
     guess = cells.articulation
-    lids = [part for part in sure if part.stated.kind is StatedKind.LID and part.agreed]
+    lids = [
+        (part, Side(hinge))
+        for part in sure
+        if part.stated.kind is StatedKind.LID and part.agreed and (hinge := part.stated.hinge)
+    ]
     return [
         joint.child
         for joint in guess.joints
         if any(
-            cells.hides(joint.child, found) and not _hinged_at(guess, joint, part.stated.hinge)
-            for part in lids
+            cells.hides(joint.child, found) and not _hinged_at(guess, joint, side)
+            for part, side in lids
             for found in part.found
         )
     ]
 
 
-def _hinged_at(guess: Articulation, joint: Joint, hinge: Hinge | None) -> bool:
+def _hinged_at(guess: Articulation, joint: Joint, side: Side) -> bool:
     """Tell whether a joint turns a part about a line at one side of its box."""
-    outward = -next(side for side, name in HINGE_OF.items() if name is hinge).frame[2]
+    outward = -side.frame[2]
     low, high = guess.part_mesh(joint.child).bounds
     half = float(np.abs(outward) @ (high - low)) / 2.0
     off = float(outward @ (joint.origin - (low + high) / 2.0))

@@ -13,25 +13,10 @@ from ...models.detector.canvas import CANVAS, LONGEST, WAYS, PanelWay, Sort, sha
 from ...models.detector.decode import Found, shared_areas
 from ...views.raster import Side, side_facing
 from ..seams.fronts import OPPOSITE
+from ..stated.boxed import USUAL
 
-#: Sorts that close an upright side, and what they are called.
-PANELS = {
-    Sort.DOOR: (StatedKind.DOOR, (PanelWay.LEFT, PanelWay.RIGHT)),
-    Sort.FLAP: (StatedKind.FLAP, (PanelWay.BOTTOM, PanelWay.TOP)),
-    Sort.DRAWER: (StatedKind.DRAWER, (PanelWay.OUT,)),
-}
-_EDGES = {
-    PanelWay.LEFT: Hinge.LEFT,
-    PanelWay.RIGHT: Hinge.RIGHT,
-    PanelWay.BOTTOM: Hinge.BOTTOM,
-    PanelWay.TOP: Hinge.TOP,
-}
-HINGE_OF = {
-    Side.FRONT: Hinge.FRONT,
-    Side.BACK: Hinge.BACK,
-    Side.LEFT: Hinge.LEFT,
-    Side.RIGHT: Hinge.RIGHT,
-}
+#: Sorts that close an upright side.
+PANELS = (Sort.DOOR, Sort.FLAP, Sort.DRAWER)
 #: Two hinges are both tried where the likelier is not this sure.
 SURE_WAY = 0.8
 #: Sides agree on where a lid is hinged if the sum of what they say is so long, as a share of all
@@ -132,13 +117,14 @@ def _share_inside(one: Found, other: Found) -> float:
 
 
 def _panel(found: Found, sizes: FloatArray) -> StatedPart:
-    kind, allowed = PANELS[found.sort]
+    kind = StatedKind(found.sort)
     hinge = None
     if found.sort is not Sort.DRAWER:
-        chances = {way: float(found.ways[WAYS.index(way)]) for way in allowed}
+        ways = [PanelWay(way) for way in USUAL[kind.part]]
+        chances = {way: float(found.ways[WAYS.index(way)]) for way in ways}
         likely = max(chances, key=chances.__getitem__)
         if chances[likely] >= SURE_WAY * sum(chances.values()):
-            hinge = _EDGES[likely]
+            hinge = Hinge(likely)
     return StatedPart(kind, found.side, _box(found, sizes), hinge)
 
 
@@ -150,7 +136,7 @@ def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
     told = _hinges_told(lids)
     direction = told.sum(axis=0)
     agreed = float(np.linalg.norm(direction)) > AGREED * float(np.abs(told).sum())
-    hinge = HINGE_OF.get(side_facing(direction)) if agreed else None
+    hinge = Hinge(side_facing(direction)) if agreed else None
     upright = [each for each in lids if each.side is not Side.TOP]
     if not upright:
         above = max(lids, key=lambda each: each.score)

@@ -44,7 +44,9 @@ def panels_of(dense: Dense, seen: SeenMesh, *, closed: bool) -> Iterator[tuple[F
         extents = frame.size / seen.mesh.extents.max() * LONGEST
         # Of two that are as probable the first counts: seams are exact.
         for rectangle in front.rectangles()[:MOST_CLOSED] if closed else ():
-            panel = _panel_in(on_canvas(_shares(front, frame, rectangle), extents), side, dense)
+            corners = rectangle.corners(front.relief.raster)
+            shares = ((corners - frame.low) / frame.size).ravel()
+            panel = _panel_in(on_canvas(shares, extents), side, dense)
             if panel is not None:
                 yield panel, _signs(panel.score, front, rectangle)
         for found in own:
@@ -52,12 +54,6 @@ def panels_of(dense: Dense, seen: SeenMesh, *, closed: bool) -> Iterator[tuple[F
                 left, low, right, high = shares_of(found.box, extents).tolist()
                 meant = snap(front, frame, (left, low, right, high))
                 yield found, _signs(support_of_box(found, dense), front, meant)
-
-
-def _shares(front: Front, frame: StatedFrame, rectangle: Rectangle) -> FloatArray:
-    raster = front.relief.raster
-    corners = raster.low + np.stack([rectangle.low, rectangle.high])[:, ::-1] * raster.pixel
-    return np.asarray((corners - frame.low) / frame.size).ravel()
 
 
 def _panel_in(box: FloatArray, side: Side, dense: Dense) -> Found | None:
@@ -77,5 +73,5 @@ def _panel_in(box: FloatArray, side: Side, dense: Dense) -> Found | None:
 
 
 def _signs(support: float, front: Front, rectangle: Rectangle) -> FloatArray:
-    handle = bool(front.scene.handles_in(rectangle))
+    handle = bool(front.handles_in(rectangle))
     return np.array([support, np.sqrt(support), rectangle.relief.mean(), handle])

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...intake.stated import StatedKind, StatedPart
+from ...intake.stated import Hinge, StatedKind, StatedPart
 from ...mesh import FloatArray, Mesh
 from ...views.raster import side_facing
 from ..evidence.body import REST_SURFELS
 from ..evidence.surfels import spread
 from ..seams.fronts import OPPOSITE
-from .merging import HINGE_OF
 
 #: Levels that the surface is sorted into.
 LEVELS = 50
@@ -23,7 +22,7 @@ THICKEST = 0.2
 def open_screen(mesh: Mesh) -> StatedPart | None:
     """Return the screen of a laptop that is drawn open, as a person would state it.
 
-    That is what stands on the base if it is a plate; ``None`` where nothing is, as on a closed one.
+    It is the plate that stands on the base; ``None`` where there is none, as on a closed one.
     """
     points = spread(mesh.vertices[mesh.faces], REST_SURFELS).points
     low, high = mesh.bounds
@@ -46,7 +45,7 @@ def open_screen(mesh: Mesh) -> StatedPart | None:
     opened = float(np.degrees(np.arccos(up @ side.frame[2])))
     # From across, the base's top is a step in depth before the screen.
     box = (0.0, first / LEVELS, 1.0, 1.0)
-    return StatedPart(StatedKind.LID, OPPOSITE[side], box, HINGE_OF[side], drawn=opened)
+    return StatedPart(StatedKind.LID, OPPOSITE[side], box, Hinge(side), drawn=opened)
 
 
 def _rising(middle: FloatArray, normal: FloatArray, height: float) -> tuple[FloatArray, FloatArray]:

@@ -6,12 +6,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from ...geometry.components import connected_components
 from ...geometry.triangles import ends_of
-from ...mesh import FloatArray, IntArray, Mesh, read_only
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh, read_only
 from .frames import distinct, level_frame, own_frame
 from .grid import Grid, grid_around
 from .surfels import Surfels, spread, spread_owned
@@ -25,6 +24,8 @@ PROBES = 96
 REACH = 0.6
 #: A gap up to this share of the object's diagonal is contact.
 CONTACT = 0.01
+#: Share of the part's surface that lies in a plane before the plane is one of its faces.
+FLAT = 0.1
 
 
 @dataclass(frozen=True)
@@ -191,6 +192,21 @@ class Body:
         """Tell whether anything besides its holder is near: ``holder`` differs from ``grid``."""
         return self.holder is not self.grid
 
+    def heavy_planes(self, flat: FloatArray, low: float) -> list[float]:
+        """Return the first and the last plane across a direction with much of the surface [m].
+
+        Args:
+            flat: where surfels of the part that face the direction are along it [m], shape [n].
+            low: where planes are counted from [m].
+
+        Returns:
+            Two places along the direction; nothing where no plane is one of the part's faces.
+        """
+        least = FLAT * len(self.own)
+        bins = np.maximum((flat - low) / max(0.015 * self.diagonal, 1e-9), 0.0).astype(np.int64)
+        heavy = np.flatnonzero(np.bincount(bins) >= least)
+        return [float(np.median(flat[bins == at])) for at in heavy[[0, -1]]] if len(heavy) else []
+
     @cached_property
     def probes(self) -> Surfels:
         """Return few surfels of all that moves."""
@@ -231,7 +247,7 @@ def body_of(partition: Partition, part: int) -> Body | None:
 
 
 def _near(
-    partition: Partition, stays: npt.NDArray[np.bool_], low: FloatArray, high: FloatArray
+    partition: Partition, stays: BoolArray, low: FloatArray, high: FloatArray
 ) -> tuple[FloatArray, IntArray]:
     """Return the triangles that reach into a box, shape [n, 3, 3], and their parts, shape [n].
 

@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import IntEnum
 
 import numpy as np
 
-from ...articulation import JointKind
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
+from ..geometric.knobs import SECTORS, goes_round
 from .body import Body
-from .grid import BoolArray
 from .guess import Guess
 
 #: Corners along one direction of a box, nearer than this share of the part's diagonal, are one.
 SAME_PLACE = 0.004
-#: Share of the part's surface that lies in a plane before the plane is one of its faces.
-FLAT = 0.1
-ROUND_SECTORS = 12
 #: Components of a part looked at for roundness, largest first.
 MOST_COMPONENTS = 12
-#: How a line was found.
-EDGE = 0
-CONTACT = 1
-ROUND = 2
-GUESSED = 3
+
+
+class LineSource(IntEnum):
+    """How a line was found."""
+
+    EDGE = 0
+    CONTACT = 1
+    ROUND = 2
+    GUESSED = 3
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,7 @@ class Candidates:
         slides: whether it slides (else it turns), shape [n].
         axis: unit directions, positive values open, shape [n, 3].
         origin: points on the axes [m], shape [n, 3].
-        source: ``EDGE``, ``CONTACT``, ``ROUND`` or ``GUESSED``, shape [n].
+        source: a :class:`LineSource` each, shape [n].
         radius: of the round piece on the axis [m], 0 if there is none, shape [n].
     """
 
@@ -47,12 +49,18 @@ class Candidates:
     def __len__(self) -> int:
         return len(self.axis)
 
-    def kind(self, index: int) -> JointKind:
-        """Return revolute or prismatic."""
-        return JointKind.PRISMATIC if self.slides[index] else JointKind.REVOLUTE
+    def at(self, rows: IntArray | Sequence[int]) -> Candidates:
+        """Return some of them, in that order."""
+        return Candidates(
+            self.slides[rows],
+            self.axis[rows],
+            self.origin[rows],
+            self.source[rows],
+            self.radius[rows],
+        )
 
 
-Line = tuple[FloatArray, FloatArray, int, float]
+Line = tuple[FloatArray, FloatArray, LineSource, float]
 
 
 def find_candidates(body: Body, guess: Guess) -> Candidates:
@@ -64,10 +72,10 @@ def find_candidates(body: Body, guess: Guess) -> Candidates:
     lines += _round_lines(body)
     directions = [row for frame in body.frames for row in frame]
     center = body.own.points.mean(axis=0)
-    slides: list[Line] = [(row, center, EDGE, 0.0) for row in directions]
+    slides: list[Line] = [(row, center, LineSource.EDGE, 0.0) for row in directions]
     if guess.direction is not None:
         lines += _guessed_lines(body, guess.direction, guess.point, directions)
-        slides.append((guess.direction, center, GUESSED, 0.0))
+        slides.append((guess.direction, center, LineSource.GUESSED, 0.0))
     lines = _without_twins(lines, SAME_PLACE * body.diagonal)
     both = [(False, line) for line in lines] + [
         (True, line) for line in _without_twins(slides, np.inf)
@@ -89,13 +97,7 @@ def _places(body: Body, direction: FloatArray) -> list[float]:
     high = float(along.max())
     places = [low, high, (low + high) / 2.0]
     flat = np.abs(body.own.normals @ direction) > 0.9
-    if flat.sum() >= FLAT * len(body.own):
-        values = body.own.points[flat] @ direction
-        width = max(0.015 * body.diagonal, 1e-9)
-        bins = np.maximum((values - low) / width, 0.0).astype(np.int64)
-        heavy = np.flatnonzero(np.bincount(bins) >= FLAT * len(body.own))
-        for chosen in heavy[[0, -1]] if len(heavy) else ():
-            places.append(float(np.median(values[bins == chosen])))
+    places += body.heavy_planes(body.own.points[flat] @ direction, low)
     kept: list[float] = []
     for place in places:
         if all(abs(place - other) > SAME_PLACE * body.diagonal for other in kept):
@@ -111,7 +113,7 @@ def _box_lines(body: Body, frame: FloatArray) -> list[Line]:
         b = (k + 2) % 3
         middle = places[k][2] if len(places[k]) > 2 else places[k][0]
         lines += [
-            (frame[k], u * frame[a] + v * frame[b] + middle * frame[k], EDGE, 0.0)
+            (frame[k], u * frame[a] + v * frame[b] + middle * frame[k], LineSource.EDGE, 0.0)
             for u in places[a]
             for v in places[b]
         ]
@@ -127,13 +129,15 @@ def _contact_lines(body: Body) -> list[Line]:
     mean = points.mean(axis=0)
     _, directions = np.linalg.eigh(np.cov((points - mean).T))
     longest = directions[:, 2]
-    lines: list[Line] = [(row, center, CONTACT, 0.0) for frame in body.frames for row in frame]
+    lines: list[Line] = [
+        (row, center, LineSource.CONTACT, 0.0) for frame in body.frames for row in frame
+    ]
     offsets = body.own.points - body.own.points.mean(axis=0)
     _, own = np.linalg.eigh(offsets.T @ offsets)
     return [
         *lines,
-        (longest, mean, CONTACT, 0.0),
-        *((own[:, k], mean, CONTACT, 0.0) for k in range(3)),
+        (longest, mean, LineSource.CONTACT, 0.0),
+        *((own[:, k], mean, LineSource.CONTACT, 0.0) for k in range(3)),
     ]
 
 
@@ -145,7 +149,7 @@ def _round_lines(body: Body) -> list[Line]:
     lines: list[Line] = []
     for label in ids[np.argsort(-counts, kind="stable")][:MOST_COMPONENTS]:
         points = triangles[labels == label].reshape(-1, 3)
-        if len(points) < 3 * ROUND_SECTORS:
+        if len(points) < 3 * SECTORS:
             continue
         for frame in body.frames:
             for k in range(3):
@@ -155,7 +159,7 @@ def _round_lines(body: Body) -> list[Line]:
                         (
                             frame[k],
                             found[0] + float(points.mean(axis=0) @ frame[k]) * frame[k],
-                            ROUND,
+                            LineSource.ROUND,
                             found[1],
                         )
                     )
@@ -172,13 +176,7 @@ def _circle(points: FloatArray, u: FloatArray, v: FloatArray) -> tuple[FloatArra
         return None
     center = (low + high) / 2.0
     radius = float(sides.mean()) / 2.0
-    offset = plane - center
-    distance = np.linalg.norm(offset, axis=1)
-    rim = offset[distance > 0.92 * radius]
-    sectors = np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * ROUND_SECTORS).astype(
-        np.int64
-    )
-    if distance.max() > 1.06 * radius or len(np.unique(sectors % ROUND_SECTORS)) < ROUND_SECTORS:
+    if not goes_round(plane - center, 0.92 * radius, 1.06 * radius):
         return None
     return center[0] * u + center[1] * v, radius
 
@@ -188,12 +186,12 @@ def _guessed_lines(
 ) -> list[Line]:
     where = body.own.points.mean(axis=0) if point is None else point
     nearest = max(directions, key=lambda d: abs(float(d @ direction)))
-    return [(direction, where, GUESSED, 0.0), (nearest, where, GUESSED, 0.0)]
+    return [(direction, where, LineSource.GUESSED, 0.0), (nearest, where, LineSource.GUESSED, 0.0)]
 
 
 def _without_twins(lines: list[Line], tolerance: float) -> list[Line]:
     """Keep one line of several within the tolerance [m]; round ones stay round."""
-    order = sorted(range(len(lines)), key=lambda i: (lines[i][2] != ROUND, i))
+    order = sorted(range(len(lines)), key=lambda i: (lines[i][2] != LineSource.ROUND, i))
     axis = np.array([lines[i][0] for i in order]).reshape(-1, 3)
     origin = np.array([lines[i][1] for i in order]).reshape(-1, 3)
     parallel = np.abs(axis @ axis.T) > 0.9998

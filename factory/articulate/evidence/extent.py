@@ -103,20 +103,3 @@ def _front(body: Body, axis: FloatArray) -> float:
         along, along - near, "left"
     )
     return float(along[around >= 0.5 * around.max()][-1])
-
-
-def single(candidates: Candidates, index: int) -> Candidates:
-    """Return one of them, as candidates."""
-    at = slice(index, index + 1)
-    return Candidates(
-        candidates.slides[at],
-        candidates.axis[at],
-        candidates.origin[at],
-        candidates.source[at],
-        candidates.radius[at],
-    )
-
-
-def nearest_to(axis: FloatArray, origin: FloatArray, point: FloatArray) -> FloatArray:
-    """Return the point of a line nearest to another [m], shape [3]."""
-    return np.asarray(origin + axis * float(axis @ (point - origin)))

@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 from .surfels import Surfels
-
-BoolArray = npt.NDArray[np.bool_]
 
 #: Along the longest side.
 CELLS = 72

@@ -11,8 +11,6 @@ from .body import Body
 
 #: Steps of the walk that finds out which side is open.
 WALK = 14
-#: Share of the surface in a plane before it counts as the part's front.
-PLANE = 0.1
 #: A handle is at most, and at least, this share of the surface.
 HANDLE = (0.002, 0.35)
 
@@ -111,13 +109,5 @@ def _slab(body: Body, direction: FloatArray) -> tuple[float, float]:
     along = body.own.points @ direction
     low = float(along.min())
     high = float(along.max())
-    if flat.sum() < PLANE * len(flat):
-        return low, high
-    width = max(0.015 * body.diagonal, 1e-9)
-    bins = np.maximum((along[flat] - low) / width, 0.0).astype(np.int64)
-    heavy = np.flatnonzero(np.bincount(bins) >= PLANE * len(flat))
-    if not len(heavy):
-        return low, high
-    return float(np.median(along[flat][bins == heavy[0]])), float(
-        np.median(along[flat][bins == heavy[-1]])
-    )
+    first, last = body.heavy_planes(along[flat], low) or (low, high)
+    return first, last

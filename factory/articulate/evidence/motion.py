@@ -8,12 +8,11 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ...mesh import FloatArray, read_only
+from ...mesh import BoolArray, FloatArray, read_only
 from ..proposal import Motion
 from .body import Body, Partition, body_of
 from .candidates import Candidates, find_candidates
-from .extent import LEAST, Extent, extent_of, nearest_to, single
-from .grid import BoolArray
+from .extent import LEAST, Extent, extent_of
 from .guess import NOTHING, Guess
 from .numbers import NAMES, measure
 from .rating import Rating, load_rating
@@ -103,9 +102,9 @@ def _motion(
     chosen, extent = _right_way(body, candidates, chosen, numbers, guess)
     middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
     axis = candidates.axis[chosen]
-    origin = (
-        middle if candidates.slides[chosen] else nearest_to(axis, candidates.origin[chosen], middle)
-    )
+    origin = candidates.origin[chosen]
+    along = axis * float(axis @ (middle - origin))
+    origin = middle if candidates.slides[chosen] else origin + along
     return Motion(extent.kind, axis, origin, extent.lower, extent.upper)
 
 
@@ -116,12 +115,12 @@ def _right_way(
 
     Not so for buttons: they lie on the part that holds them.
     """
-    extent = extent_of(body, single(candidates, chosen), numbers[chosen], guess)
+    extent = extent_of(body, candidates.at([chosen]), numbers[chosen], guess)
     pressed = bool(candidates.slides[chosen]) and is_small(numbers[chosen])
     if extent.share >= LEAST or pressed:
         return chosen, extent
     twin = chosen ^ 1
-    other = extent_of(body, single(candidates, twin), numbers[twin], guess)
+    other = extent_of(body, candidates.at([twin]), numbers[twin], guess)
     return (twin, other) if other.share >= FREE else (chosen, extent)
 
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from .body import Body
-from .candidates import CONTACT, EDGE, GUESSED, ROUND, Candidates
-from .grid import BoolArray
+from .candidates import Candidates, LineSource
 from .guess import Guess
 from .look import Look, free_share, look_at, stands_out
 from .travel import Travel, travel
@@ -43,13 +42,7 @@ def measure(body: Body, candidates: Candidates, guess: Guess) -> FloatArray:
     column = {name: i for i, name in enumerate(NAMES)}
     for slides, found in ((False, _turning), (True, _sliding)):
         rows = np.flatnonzero(candidates.slides == slides)
-        some = Candidates(
-            candidates.slides[rows],
-            candidates.axis[rows],
-            candidates.origin[rows],
-            candidates.source[rows],
-            candidates.radius[rows],
-        )
+        some = candidates.at(rows)
         prefix = "slide" if slides else "turn"
         gone = travel(body, some)
         values = {
@@ -123,7 +116,7 @@ def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     values["lever"] = lever / farthest
     values["one_sided"] = (side > -0.03 * size).mean(axis=1)
     values["round"] = np.minimum(some.radius / farthest, 1.0)
-    values["is_round"] = (some.source == ROUND).astype(np.float64)
+    values["is_round"] = (some.source == LineSource.ROUND).astype(np.float64)
     contact = body.contact.points[None] - some.origin[:, None]
     contact = contact - np.einsum("nij,nj->ni", contact, some.axis)[..., None] * some.axis[:, None]
     reach = np.linalg.norm(contact, axis=2)
@@ -144,7 +137,7 @@ def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     flat = 1.0 - values["upright"]
     height = max(float(look.extents[2]), 1e-9)
     values["low_line"] = flat * _clip(2.0 * (some.origin[:, 2] - look.center[2]) / height)
-    values["contact"] = (some.source == CONTACT).astype(np.float64)
+    values["contact"] = (some.source == LineSource.CONTACT).astype(np.float64)
     values["big_radius"] = _clip(farthest / size)
     values["middle"] = (lever < 0.1 * farthest).astype(np.float64)
     width = float(look.extents[:2].max())
@@ -154,7 +147,9 @@ def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     whole = body.partition.mesh.diagonal
     values["small_round"] = float(np.exp(-size / (SMALL * whole))) * values["is_round"]
     values["free"] = _free_at_first(look, some)
-    values["corner"] = ((some.source == EDGE) & (values["one_sided"] > 0.97)).astype(np.float64)
+    values["corner"] = ((some.source == LineSource.EDGE) & (values["one_sided"] > 0.97)).astype(
+        np.float64
+    )
     return values
 
 
@@ -253,7 +248,9 @@ def _breadth(body: Body, axis: FloatArray, chosen: BoolArray) -> float:
 
 def _agreement(body: Body, some: Candidates, guess: Guess) -> dict[str, FloatArray]:
     """Return how far the candidates agree with the guess; 0 without one."""
-    values: dict[str, FloatArray] = {"guess_made": (some.source == GUESSED).astype(np.float64)}
+    values: dict[str, FloatArray] = {
+        "guess_made": (some.source == LineSource.GUESSED).astype(np.float64)
+    }
     slides = bool(len(some)) and bool(some.slides[0])
     if guess.turns is not None:
         values["guess_kind"] = np.full(

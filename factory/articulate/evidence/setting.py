@@ -124,14 +124,7 @@ def _about(body: Body) -> list[float]:
 def free_way(body: Body, chosen: Candidates, farthest: float) -> float:
     """Return the share of the way before more than a few points meet the part's holder."""
     values = np.arange(1, STEPS + 1) / STEPS * farthest
-    again = np.zeros(STEPS, dtype=np.int64)
-    tried = Candidates(
-        chosen.slides[again],
-        chosen.axis[again],
-        chosen.origin[again],
-        chosen.source[again],
-        chosen.radius[again],
-    )
+    tried = chosen.at(np.zeros(STEPS, dtype=np.int64))
     hits = body.holder.hits(*displaced(tried, body.probes.points, values))
     free = int(np.argmin(hits[:AT_REST].mean(axis=1)))
     met = np.logical_or.accumulate(hits[free:] & ~hits[free], axis=0).mean(axis=1)

@@ -15,11 +15,12 @@ DEEP = 0.25
 """A drawer's box reaches at least this share of the object's depth behind its panel."""
 
 
-@dataclass(frozen=True)
-class Behind:
-    """The space behind a panel.
+@dataclass(frozen=True, eq=False)
+class FrontFace:
+    """A panel that may move, and the space behind it.
 
     Attributes:
+        panel: the slab in the front.
         box_pieces: pieces of a drawer's box; empty if there is none.
         attached: other pieces that touch only the panel, e.g. racks in a fridge door.
         depth: free depth behind the panel, or the box's [m].
@@ -28,6 +29,7 @@ class Behind:
         roomy: whether the space is about as wide as the panel, not just the inside of some post.
     """
 
+    panel: FrontSlab
     box_pieces: IntArray
     attached: IntArray
     depth: float
@@ -36,47 +38,35 @@ class Behind:
     roomy: bool = True
 
 
-@dataclass(frozen=True)
-class FrontFace:
-    """A panel that is believed to move, and why."""
-
-    panel: FrontSlab
-    behind: Behind
-
-
-def look_behind(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> Behind:
-    """Find everything that :class:`Behind` says, for one panel among all."""
+def look_behind(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> FrontFace:
+    """Find everything that :class:`FrontFace` says, for one panel among all."""
+    nothing = np.zeros(0, dtype=np.int64)
     if panel.is_box:
         body = np.array(panel.slabs, dtype=np.int64)
-        return Behind(
-            body, body[:0], float(scene.extents[body[0], FRONT]), _walls_around(scene, panel), False
-        )
-    box = (
-        np.zeros(0, dtype=np.int64) if panel.has_side_handle else _drawer_box(scene, panel, panels)
-    )
+        depth = float(scene.extents[body[0], FRONT])
+        return FrontFace(panel, body, nothing, depth, _walls_around(scene, panel), False)
+    box = nothing if panel.has_side_handle else _drawer_box(scene, panel, panels)
     depth, walls, solid, roomy = _cavity(scene, panel, box)
     if len(box):
         reach = float(scene.high[box, FRONT].max() - panel.high[FRONT])
-        return Behind(box, np.zeros(0, dtype=np.int64), max(reach, 0.0), walls, solid, roomy)
-    return Behind(box, _attached(scene, panel, panels), depth, walls, solid, roomy)
+        return FrontFace(panel, box, nothing, max(reach, 0.0), walls, solid, roomy)
+    return FrontFace(panel, box, _attached(scene, panel, panels), depth, walls, solid, roomy)
 
 
 def _behind(
     scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...], slack: float
 ) -> IntArray:
     """Return the pieces behind the panel, inside its rectangle, and no other panel's."""
-    margin = slack * np.array([panel.width, panel.height])
-    inside = (scene.low[:, RECT] >= panel.low[RECT] - margin).all(axis=1)
-    inside &= (scene.high[:, RECT] <= panel.high[RECT] + margin).all(axis=1)
+    margin = slack * (panel.high - panel.low)
+    inside = scene.within(panel.low - margin, panel.high + margin, RECT)
     inside &= scene.low[:, FRONT] >= panel.low[FRONT] - scene.touch
     inside &= scene.high[:, FRONT] > panel.high[FRONT] + scene.touch
     for other in panels:
         inside[other.pieces] = False
         if other is panel or abs(other.low[FRONT] - panel.low[FRONT]) > 0.2 * scene.size[FRONT]:
             continue
-        margin = slack * np.array([other.width, other.height])
-        shared = (scene.low[:, RECT] >= other.low[RECT] - margin).all(axis=1)
-        inside &= ~(shared & (scene.high[:, RECT] <= other.high[RECT] + margin).all(axis=1))
+        margin = slack * (other.high - other.low)
+        inside &= ~scene.within(other.low - margin, other.high + margin, RECT)
     return np.flatnonzero(inside)
 
 
@@ -103,29 +93,12 @@ def _drawer_box(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -
         [b and is_open_box(scene, int(i)) for i, b in zip(index, body, strict=True)], dtype=bool
     )
     if body.any() or (left.any() and right.any() and bottom.any()):
-        return np.asarray(index[_connected_to(scene, index, body | left | right | bottom)])
+        return scene.linked_to(index, body | left | right | bottom)
     return np.zeros(0, dtype=np.int64)
 
 
-def _connected_to(scene: Scene, index: IntArray, start: IntArray) -> IntArray:
-    """Mark the pieces that touch a started one, directly or through others."""
-    reached = start.copy()
-    low = scene.low[index] - scene.touch
-    high = scene.high[index] + scene.touch
-    for _ in range(len(index)):
-        grown = reached.copy()
-        for k in np.flatnonzero(reached):
-            grown |= (low <= scene.high[index[k]]).all(axis=1) & (high >= scene.low[index[k]]).all(
-                axis=1
-            )
-        if (grown == reached).all():
-            break
-        reached = grown
-    return reached
-
-
 def _cavity(scene: Scene, panel: FrontSlab, box: IntArray) -> tuple[float, int, bool, bool]:
-    """Return the depth, walls, solid and roomy of :class:`Behind`."""
+    """Return the depth, walls, solid and roomy of :class:`FrontFace`."""
     ignored = np.union1d(panel.pieces, box)
     start = panel.center.copy()
     start[FRONT] = panel.high[FRONT] + scene.touch / 8.0
@@ -183,13 +156,11 @@ def _attached(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> 
     low = scene.low[index] - scene.touch / 2
     high = scene.high[index] + scene.touch / 2
     touching = (low <= panel.high).all(axis=1) & (high >= panel.low).all(axis=1)
-    reached = _connected_to(scene, index, touching)
-    group = index[reached]
+    group = scene.linked_to(index, touching)
     rest = np.setdiff1d(np.arange(len(scene.low)), np.union1d(group, panel.pieces))
     low = scene.low[group].min(axis=0, initial=np.inf)
     high = scene.high[group].max(axis=0, initial=-np.inf)
-    near = (scene.low[rest] <= high).all(axis=1) & (scene.high[rest] >= low).all(axis=1)
-    bulky = overlap_bulk(scene, rest[near])
+    bulky = overlap_bulk(scene, rest[scene.meeting(low, high)[rest]])
     return np.zeros(0, dtype=np.int64) if bulky else np.asarray(group)
 
 

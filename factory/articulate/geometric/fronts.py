@@ -12,19 +12,15 @@ from .behind import FrontFace, covers, look_behind
 from .hinge_sides import WIDE, handle_side, hinge_side
 from .knobs import find_knobs
 from .mounted import is_crowded
-from .movers import Mover
+from .movers import DOOR_LIMIT, DRAWER_SHARE, Mover
 from .panels import find_panels
 from .scene import FRONT, SIDEWAYS, UP, Scene
 from .slab import FrontSlab
 from .sweep import free_turn, surface_points
 
-DOOR_LIMIT = np.radians(90.0)
-"""The commonest limit by far of those that people give to doors."""
 THICK_DOOR_LIMIT = np.radians(180.0)
 """Of the upright doors of fridges, which stand in front of the body, hinge included."""
 LEAST_TURN = np.radians(20.0)
-DRAWER_SHARE = 0.92
-"""A drawer slides this share of its depth."""
 ALL_WALLS = 5
 MANY_BUTTONS = 6
 KNUCKLES = 0.08
@@ -34,7 +30,7 @@ KNUCKLES = 0.08
 def find_fronts(scene: Scene) -> tuple[Mover, ...]:
     """Find the doors and drawers seen from the front, top to bottom, left to right."""
     panels = find_panels(scene)
-    candidates = [FrontFace(panel, look_behind(scene, panel, panels)) for panel in panels]
+    candidates = [look_behind(scene, panel, panels) for panel in panels]
     sure = [c for c in candidates if _is_sure(scene, c)]
     sure += [c for c in candidates if c not in sure and _has_handled_peer(scene, c, candidates)]
     bare = [c for c in sure if c.panel.is_box and c.panel.handle is None]
@@ -60,19 +56,17 @@ def _is_sure(scene: Scene, front: FrontFace) -> bool:
     if is_crowded(scene, front.panel) and not _is_control_panel(scene, front.panel):
         return False
     if front.panel.is_box:
-        return front.behind.walls >= 3 and (
-            front.panel.handle is not None or front.behind.walls >= 4
-        )
-    if len(front.behind.box_pieces):
+        return front.walls >= 3 and (front.panel.handle is not None or front.walls >= 4)
+    if len(front.box_pieces):
         small = front.panel.area <= 0.8 * scene.size[SIDEWAYS] * scene.size[UP]
-        return front.panel.handle is not None or bool(small and front.behind.walls >= ALL_WALLS - 1)
+        return front.panel.handle is not None or bool(small and front.walls >= ALL_WALLS - 1)
     if front.panel.handle is None:
         return False
     if _is_control_panel(scene, front.panel) or _has_carrying_grip(scene, front.panel):
         return False
     deep = scene.size[FRONT] >= 2.0 * front.panel.depth
     wanted = ALL_WALLS - 1 if _covers_front_with_side_handle(scene, front.panel) else ALL_WALLS
-    closes = front.behind.solid or (front.behind.walls >= wanted and front.behind.roomy)
+    closes = front.solid or (front.walls >= wanted and front.roomy)
     return bool(deep and closes) or _in_frame(scene, front.panel)
 
 
@@ -83,12 +77,8 @@ def _covers_front_with_side_handle(scene: Scene, panel: FrontSlab) -> bool:
 
 def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace]) -> bool:
     """Tell whether another panel with a handle is beside one whose back may be open."""
-    open_backed = [
-        c for c in candidates if c.panel.handle is not None and c.behind.walls >= ALL_WALLS - 1
-    ]
-    open_backed = [
-        c for c in open_backed if c.behind.roomy and not _is_control_panel(scene, c.panel)
-    ]
+    open_backed = [c for c in candidates if c.panel.handle is not None and c.walls >= ALL_WALLS - 1]
+    open_backed = [c for c in open_backed if c.roomy and not _is_control_panel(scene, c.panel)]
     return front in open_backed and any(
         c is not front and _beside(c.panel, front.panel, scene) for c in open_backed
     )
@@ -133,10 +123,9 @@ def _is_plausible(
 ) -> bool:
     """Tell whether a panel without handle closes a real space, beside others or alone."""
     panel = front.panel
-    behind = front.behind
-    deep = behind.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
+    deep = front.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
     large = panel.area >= 0.04 * scene.size[SIDEWAYS] * scene.size[UP]
-    closes = behind.walls >= ALL_WALLS and behind.roomy and deep
+    closes = front.walls >= ALL_WALLS and front.roomy and deep
     if (
         panel.handle is not None
         or panel.is_box
@@ -152,7 +141,7 @@ def _is_plausible(
     peers = [
         c
         for c in candidates
-        if c is not front and c.behind.walls >= ALL_WALLS and _beside(c.panel, panel, scene)
+        if c is not front and c.walls >= ALL_WALLS and _beside(c.panel, panel, scene)
     ]
     return bool(peers) or _stands_alone(scene, panel)
 
@@ -175,8 +164,7 @@ def _stands_alone(scene: Scene, panel: FrontSlab) -> bool:
         & (depth >= 0.6 * scene.size[FRONT])
         & (scene.low[others, FRONT] > panel.low[FRONT] - 2.0 * scene.touch)
     )
-    inside = (scene.low[others] >= panel.low - scene.touch).all(axis=1)
-    inside &= (scene.high[others] <= panel.high + scene.touch).all(axis=1)
+    inside = scene.within(panel.low - scene.touch, panel.high + scene.touch)[others]
     if (ahead & ~flush & ~inside & (width * height >= 0.08 * panel.area)).any():
         return False
     thin = scene.extents[others, FRONT] <= max(2.0 * panel.depth, 4.0 * scene.touch)
@@ -212,12 +200,11 @@ def _mover(
     scene: Scene, front: FrontFace, fronts: list[FrontFace], points: FloatArray, owner: IntArray
 ) -> Mover | None:
     panel = front.panel
-    behind = front.behind
-    pieces = np.union1d(panel.pieces, np.union1d(behind.box_pieces, behind.attached))
+    pieces = np.union1d(panel.pieces, np.union1d(front.box_pieces, front.attached))
     weight = panel.area * (3.0 if panel.handle is not None else 1.0)
     side, guesses = hinge_side(scene, front, fronts)
     if side is OpensBy.OUT:
-        reach = behind.depth if not behind.solid else 0.5 * float(scene.size[FRONT])
+        reach = front.depth if not front.solid else 0.5 * float(scene.size[FRONT])
         travel = DRAWER_SHARE * min(reach, float(scene.box[1, FRONT] - panel.low[FRONT]))
         origin = np.array([panel.center[SIDEWAYS], panel.low[FRONT], panel.center[UP]])
         if travel < scene.touch:
@@ -247,19 +234,14 @@ def _hinge(
 
     The back corner, or the front one if it opens wider.
     """
-    across, at_low = {
-        OpensBy.LEFT: (SIDEWAYS, True),
-        OpensBy.RIGHT: (SIDEWAYS, False),
-        OpensBy.BOTTOM: (UP, True),
-        OpensBy.TOP: (UP, False),
+    across, edge, sign = {
+        OpensBy.LEFT: (SIDEWAYS, panel.low, -1.0),
+        OpensBy.RIGHT: (SIDEWAYS, panel.high, 1.0),
+        OpensBy.BOTTOM: (UP, panel.low, 1.0),
+        OpensBy.TOP: (UP, panel.high, -1.0),
     }[side]
     axis = np.zeros(3)
-    axis[UP if across == SIDEWAYS else SIDEWAYS] = {
-        OpensBy.LEFT: -1.0,
-        OpensBy.RIGHT: 1.0,
-        OpensBy.BOTTOM: 1.0,
-        OpensBy.TOP: -1.0,
-    }[side]
+    axis[UP if across == SIDEWAYS else SIDEWAYS] = sign
     margin = np.minimum(np.array([1.0, 0.5, 1.0]) * scene.touch, 0.2 * (panel.high - panel.low))
     box = np.stack([panel.low + margin, panel.high - margin])
     limit = THICK_DOOR_LIMIT if across == SIDEWAYS and _is_thick_door(scene, panel) else DOOR_LIMIT
@@ -267,7 +249,7 @@ def _hinge(
     best_turn = -1.0
     for depth in (panel.high[FRONT], panel.low[FRONT]):
         origin = panel.center.copy()
-        origin[across] = panel.low[across] if at_low else panel.high[across]
+        origin[across] = edge[across]
         origin[FRONT] = depth
         turn = free_turn(
             _without_knuckles(surroundings, origin, axis, panel), box, axis, origin, limit

@@ -8,7 +8,7 @@ from ...articulation import JointKind
 from ...mesh import IntArray
 from ...part import PartKind
 from ..proposal import Motion
-from .movers import Mover
+from .movers import DOOR_LIMIT, Mover
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
 
 FLAT = 0.3
@@ -17,7 +17,6 @@ LEAF = 0.2
 """Share of the front that a leaf covers at least."""
 FULL = 0.6
 """Share of its rectangle from which a piece is a leaf; below it is a frame."""
-LIMIT = np.radians(90.0)
 
 
 def find_house_doors(scene: Scene) -> tuple[Mover, ...]:
@@ -56,9 +55,8 @@ def _are_a_pair(scene: Scene, leaves: IntArray) -> bool:
 def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
     """Return the leaf and the small pieces on either face of it: handles, panes, bars, trims."""
     middle = (scene.low + scene.high) / 2.0
-    inside = (middle >= scene.low[leaf])[:, RECT].all(axis=1) & (middle <= scene.high[leaf])[
-        :, RECT
-    ].all(axis=1)
+    inside = (middle >= scene.low[leaf]) & (middle <= scene.high[leaf])
+    inside = inside[:, RECT].all(axis=1)
     overhang = np.maximum(scene.low[leaf] - scene.low, scene.high - scene.high[leaf])[:, RECT].max(
         axis=1
     )
@@ -68,13 +66,9 @@ def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
     )
     fitting = inside & (overhang <= scene.touch) & near
     reach = fitting.copy()
+    hair = scene.touch / 2.0
     for k in np.flatnonzero(fitting):
-        hair = scene.touch / 2.0
-        reach |= (
-            inside
-            & (scene.low <= scene.high[k] + hair).all(axis=1)
-            & (scene.high >= scene.low[k] - hair).all(axis=1)
-        )
+        reach |= inside & scene.meeting(scene.low[k] - hair, scene.high[k] + hair)
     small = scene.extents[:, RECT].max(axis=1) <= 0.6 * float(scene.extents[leaf, RECT].max())
     group = (fitting | (reach & small)) & ~np.isin(
         np.arange(len(inside)), np.setdiff1d(leaves, [leaf])
@@ -85,8 +79,7 @@ def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
 
 def _is_framed(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
     """Tell whether the frame stands at two opposite sides, with little in front of the leaves."""
-    low = scene.low[leaves].min(axis=0)
-    high = scene.high[leaves].max(axis=0)
+    low, high = scene.box_of(leaves)
     hair = scene.touch / 2.0
     for axis in (SIDEWAYS, UP):
         other = UP if axis == SIDEWAYS else SIDEWAYS
@@ -133,7 +126,7 @@ def _leaf(scene: Scene, leaf: int, leaves: IntArray, group: IntArray) -> Mover:
     axis = np.array([0.0, 0.0, -1.0 if at_left else 1.0])
     guesses = (*guesses, "hangs in a frame; which way and how far it opens is assumed")
     weight = float(np.prod((high - low)[RECT]))
-    motion = Motion(JointKind.REVOLUTE, axis, origin, 0.0, LIMIT)
+    motion = Motion(JointKind.REVOLUTE, axis, origin, 0.0, DOOR_LIMIT)
     return Mover(PartKind.DOOR, motion, group, guesses, weight)
 
 
@@ -146,7 +139,7 @@ def _handle_offset(scene: Scene, leaf: int, group: IntArray) -> float:
     if not len(fittings) or out.max() < scene.touch / 2.0:
         return 0.0
     handle = fittings[out >= 0.6 * out.max()]
-    middle = (scene.low[handle].min(axis=0) + scene.high[handle].max(axis=0))[SIDEWAYS] / 2.0
+    middle = scene.box_of(handle)[:, SIDEWAYS].sum() / 2.0
     return float(
         (middle - (scene.low[leaf] + scene.high[leaf])[SIDEWAYS] / 2.0)
         / scene.extents[leaf, SIDEWAYS]

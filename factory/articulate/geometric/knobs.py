@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 from ...part import PartKind
 from ..proposal import Motion
 from .movers import Mover
@@ -72,14 +71,22 @@ def is_round(scene: Scene, piece: int) -> bool:
     corners = scene.triangles[scene.labels == piece].reshape(-1, 3)[:, RECT]
     center = (scene.low[piece] + scene.high[piece])[RECT] / 2.0
     radius = float(scene.extents[piece, SIDEWAYS]) / 2.0
-    offset = corners - center
-    distance = np.linalg.norm(offset, axis=1)
-    rim = offset[distance >= 0.93 * radius]
-    sectors = (
-        np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * SECTORS).astype(np.int64)
-        % SECTORS
-    )
-    return bool(distance.max() <= 1.04 * radius and len(np.unique(sectors)) == SECTORS)
+    return goes_round(corners - center, 0.93 * radius, 1.04 * radius)
+
+
+def goes_round(offsets: FloatArray, inner: float, outer: float) -> bool:
+    """Tell whether points are within a circle, and near it in all directions.
+
+    Args:
+        offsets: of the points from its middle [m], shape [n, 2].
+        inner: radius from which a point is near the circle [m].
+        outer: radius that no point is beyond [m].
+    """
+    distance = np.linalg.norm(offsets, axis=1)
+    rim = offsets[distance >= inner]
+    sectors = np.floor(np.arctan2(rim[:, 1], rim[:, 0]) / (2.0 * np.pi) * SECTORS)
+    directions = np.unique(sectors.astype(np.int64) % SECTORS)
+    return bool(distance.max() <= outer and len(directions) == SECTORS)
 
 
 def _plate(scene: Scene, piece: int, stack: IntArray) -> int:
@@ -104,19 +111,17 @@ def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArra
     twins = sum(bool(abs(scene.extents[k, SIDEWAYS] - size) <= 0.05 * size) for k in same_plate)
     plate = plates[knob]
     strip = float(scene.extents[plate, UP]) <= STRIP * float(scene.size[UP])
-    close = (scene.low >= scene.low[plate] - scene.touch)[:, RECT].all(axis=1)
-    close &= (scene.high <= scene.high[plate] + scene.touch)[:, RECT].all(axis=1)
+    close = scene.within(scene.low[plate] - scene.touch, scene.high[plate] + scene.touch, RECT)
     front = np.abs(scene.high[:, FRONT] - scene.high[knob, FRONT]) <= 2.0 * scene.touch
     return twins >= (PAIR if strip else ROW) or int((small & close & front).sum()) > BUTTONS
 
 
-def _stack(scene: Scene, knob: int, free: npt.NDArray[np.bool_]) -> IntArray:
+def _stack(scene: Scene, knob: int, free: BoolArray) -> IntArray:
     """Return the knob and the pieces mounted on it, within its outline."""
     slack = 0.02 * scene.extents[knob]
-    inside = (scene.low >= scene.low[knob] - slack)[:, RECT].all(axis=1)
-    inside &= (scene.high <= scene.high[knob] + slack)[:, RECT].all(axis=1)
-    inside &= (
-        free
+    inside = (
+        scene.within(scene.low[knob] - slack, scene.high[knob] + slack, RECT)
+        & free
         & (scene.low[:, FRONT] < scene.high[knob, FRONT])
         & (scene.high[:, FRONT] <= scene.high[knob, FRONT] + scene.touch)
     )

@@ -48,7 +48,7 @@ def _stands_on(scene: Scene, piece: int, posts: list[int]) -> bool:
     """Return whether a piece is held by at least two of the others, as a bar by its posts."""
     low = scene.low[piece] - scene.touch / 4.0
     high = scene.high[piece] + scene.touch / 4.0
-    return int(((scene.low[posts] <= high) & (scene.high[posts] >= low)).all(axis=1).sum()) >= 2
+    return int(scene.meeting(low, high)[posts].sum()) >= 2
 
 
 def _own_grip(scene: Scene, seed: FrontSlab) -> FloatArray | None:
@@ -65,7 +65,7 @@ def handle_box(scene: Scene, seed: FrontSlab, mounted: IntArray) -> FloatArray |
     outer = protruding(scene, seed, mounted)
     if not len(outer) or _crowded(scene, seed, outer):
         return None
-    box = np.stack([scene.low[outer].min(axis=0), scene.high[outer].max(axis=0)])
+    box = scene.box_of(outer)
     sides = (box[1] - box[0])[RECT] / np.array([seed.width, seed.height])
     if float(np.prod(sides)) > HANDLE_AREA or sides.min() > 0.5:
         return None

@@ -10,6 +10,11 @@ from ...mesh import FloatArray, IntArray
 from ...part import Handle, Panel, PartKind
 from ..proposal import Motion
 
+#: The commonest limit by far of those that people give to doors [rad].
+DOOR_LIMIT = np.radians(90.0)
+#: A drawer, or a basket, slides this share of its depth.
+DRAWER_SHARE = 0.92
+
 
 @dataclass(frozen=True)
 class Mover:

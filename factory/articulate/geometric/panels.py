@@ -35,8 +35,7 @@ def find_panels(scene: Scene) -> tuple[FrontSlab, ...]:
 
 
 def _panel(scene: Scene, slabs: tuple[int, ...]) -> FrontSlab:
-    index = list(slabs)
-    return FrontSlab(slabs, scene.low[index].min(axis=0), scene.high[index].max(axis=0))
+    return FrontSlab(slabs, *scene.box_of(list(slabs)))
 
 
 def _seed_pieces(scene: Scene) -> IntArray:
@@ -142,9 +141,7 @@ def _with_frame(scene: Scene, seed: FrontSlab, seeds: list[FrontSlab]) -> FrontS
     taken = {p for s in seeds for p in s.slabs if s.area > 0.35 * seed.area}
     width, depth, height = scene.extents.T
     tight = scene.touch / 4.0
-    near = (scene.low <= seed.high + tight).all(axis=1) & (scene.high >= seed.low - tight).all(
-        axis=1
-    )
+    near = scene.meeting(seed.low - tight, seed.high + tight)
     thin = np.minimum(width, height) <= 0.35 * min(seed.width, seed.height)
     flush = np.minimum(scene.high[:, FRONT], seed.high[FRONT]) - np.maximum(
         scene.low[:, FRONT], seed.low[FRONT]

@@ -24,7 +24,6 @@ LIFT = 0.5
 """Share of its height by which a lid is lifted: visible, since a lid that comes off has no end."""
 LONGEST_LEVER = 2.5
 """How far off the axis a lever's middle is at most, over its hub's width."""
-HALF_TURN = np.radians(180.0)
 LARGEST_WHEEL = 0.5
 """Of the object's height."""
 
@@ -85,16 +84,9 @@ def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
     width = float(scene.extents[cap, SIDEWAYS])
     origin: FloatArray = (scene.low[cap] + scene.high[cap]) / 2.0
     up = np.array([0.0, 0.0, 1.0])
-    if (
-        float(
-            np.ptp(
-                np.stack([scene.low[group].min(axis=0), scene.high[group].max(axis=0)]), axis=0
-            ).max()
-        )
-        > 1.5 * width
-    ):
+    if float(np.ptp(scene.box_of(group), axis=0).max()) > 1.5 * width:
         guess = ("sticks out from the round top of a round body; assumed to turn by half a turn",)
-        motion = Motion(JointKind.REVOLUTE, up, origin, 0.0, HALF_TURN)
+        motion = Motion(JointKind.REVOLUTE, up, origin, 0.0, np.pi)
         return Mover(PartKind.LEVER, motion, group, guess)
     slim = float(scene.size[UP]) >= SLIM * width
     if not slim and _has_knob(scene, cap, group):
@@ -136,9 +128,7 @@ def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
         return ()
     plate = max(plates, key=lambda k: (float(width[k]), k))
     slack = np.array([scene.touch, scene.touch, float(width[plate]) * 0.1])
-    group = (scene.low >= scene.low[plate] - slack).all(axis=1) & (
-        scene.high <= scene.high[plate] + slack
-    ).all(axis=1)
+    group = scene.within(scene.low[plate] - slack, scene.high[plate] + slack)
     pieces = np.flatnonzero(group & free)
     if not set(plates) <= set(pieces.tolist()) or not _is_enclosed(scene, plate, pieces):
         return ()
@@ -199,9 +189,7 @@ def _wheels(scene: Scene, taken: IntArray) -> list[Mover]:
         if k in done:
             continue
         slack = 0.02 * height[k]
-        inside = (scene.low >= scene.low[k] - slack).all(axis=1) & (
-            scene.high <= scene.high[k] + slack
-        ).all(axis=1)
+        inside = scene.within(scene.low[k] - slack, scene.high[k] + slack)
         pieces = np.union1d(np.flatnonzero(inside & free), [k])
         done |= {int(p) for p in pieces}
         origin: FloatArray = (scene.low[k] + scene.high[k]) / 2.0

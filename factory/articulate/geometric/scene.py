@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
-from ...geometry.triangles import ends_of
-from ...mesh import FloatArray, IntArray
+from ...geometry.edges import label_linked
+from ...geometry.triangles import doubled_normals, ends_of
+from ...mesh import BoolArray, FloatArray, IntArray
 
 FRONT = 1
 SIDEWAYS = 0
@@ -17,6 +19,7 @@ UP = 2
 PLAN = [SIDEWAYS, FRONT]
 RECT = [SIDEWAYS, UP]
 """Axes of the front plane."""
+ALL = [SIDEWAYS, FRONT, UP]
 
 
 @dataclass(frozen=True)
@@ -70,10 +73,14 @@ class Scene:
         doubled = np.abs(_cross(sides[:, 0], sides[:, 1]))
         return np.asarray(np.bincount(self.labels, doubled / 2.0))
 
+    def box_of(self, pieces: IntArray | Sequence[int] | slice) -> FloatArray:
+        """Return the box around some pieces [m], shape [2, 3]."""
+        return np.stack([self.low[pieces].min(axis=0), self.high[pieces].max(axis=0)])
+
     @cached_property
     def box(self) -> FloatArray:
         """Return the box of everything [m], shape [2, 3]."""
-        return np.stack([self.low.min(axis=0), self.high.max(axis=0)])
+        return self.box_of(slice(None))
 
     @cached_property
     def size(self) -> FloatArray:
@@ -84,6 +91,29 @@ class Scene:
     def touch(self) -> float:
         """Return the gap below which pieces touch [m]: 0.4 % of the diagonal."""
         return 0.004 * float(np.linalg.norm(self.size))
+
+    def within(self, low: FloatArray, high: FloatArray, axes: Sequence[int] = ALL) -> BoolArray:
+        """Return which pieces are in a box [m] along some axes, shape [piece_count]."""
+        inside = (self.low >= low) & (self.high <= high)
+        return np.asarray(inside[:, axes].all(axis=1))
+
+    def meeting(self, low: FloatArray, high: FloatArray) -> BoolArray:
+        """Return which pieces' boxes meet a box [m], shape [piece_count]."""
+        return np.asarray((self.low <= high).all(axis=1) & (self.high >= low).all(axis=1))
+
+    def label_touching(self, pieces: IntArray, gap: float) -> IntArray:
+        """Return the group of each piece: boxes a gap [m] apart at most, or linked by others."""
+        low = self.low[pieces]
+        high = self.high[pieces] + gap
+        touching = np.ones((len(pieces), len(pieces)), dtype=bool)
+        for axis in range(3):
+            touching &= low[:, None, axis] <= high[None, :, axis]
+        return label_linked(len(pieces), np.argwhere(touching & touching.T))
+
+    def linked_to(self, pieces: IntArray, start: BoolArray) -> IntArray:
+        """Return those of some pieces that touch a started one, directly or through others."""
+        labels = self.label_touching(pieces, self.touch)
+        return np.asarray(pieces[np.isin(labels, labels[start])])
 
     def turned(self, rotation: FloatArray) -> Scene:
         """Return the same pieces after another rotation of the view, shape [3, 3]."""
@@ -150,8 +180,7 @@ def level_yaw(triangles: FloatArray) -> float:
     The area-weighted circular mean of four times the heading of upright faces: four, since walls
     meet at right angles. Zero when no heading dominates.
     """
-    sides = triangles[:, 1:] - triangles[:, :1]
-    normals = np.cross(sides[:, 0], sides[:, 1])
+    normals = doubled_normals(triangles)
     area = np.linalg.norm(normals, axis=1)
     upright = np.abs(normals[:, 2]) < 0.2 * area
     heading = np.arctan2(normals[upright, 1], normals[upright, 0])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import rotation_about
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
 from .scene import Scene
 
@@ -19,7 +20,7 @@ def surface_points(scene: Scene, most: int = 20000) -> tuple[FloatArray, IntArra
     """
     triangles = scene.triangles
     sides = triangles[:, 1:] - triangles[:, :1]
-    area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    area = np.linalg.norm(doubled_normals(triangles), axis=1)
     count = np.floor(area / max(float(area.sum()), 1e-300) * most).astype(np.int64)
     owner = np.repeat(np.arange(len(triangles)), count)
     rng = np.random.default_rng(0)

@@ -9,13 +9,11 @@ from itertools import pairwise
 import numpy as np
 
 from .handles import ALIKE, FEWEST, IN_ROW, LONGEST, Face, Protrusion
-from .rectangles import Lines
+from .rectangles import COVERED, Lines
 
 #: A strip ends above and below its knobs within so many times their size, along such a line.
 STRIP = 4.0
 EDGE = 0.7
-#: Two knobs are on one strip unless a line between them is covered so far.
-SEAM = 0.55
 
 
 def with_strips(face: Face, level: Lines, upright: Lines) -> Face:
@@ -60,13 +58,13 @@ def _on_strip(row: Sequence[Protrusion], level: Lines) -> bool:
 
 
 def _parted(row: Sequence[Protrusion], upright: Lines) -> bool:
-    """Return whether a seam passes between two of them."""
+    """Return whether a seam passes between two of them: then they are not on one strip."""
     size = max(float(knob.size.max()) for knob in row)
     last = upright.sums.shape[1] - 1
     for one, other in pairwise(row):
         between = np.flatnonzero((upright.at > one.high[1]) & (upright.at < other.low[1]))
         start = np.array([max(int(one.low[0] - size), 0)])
         stop = np.array([min(int(one.high[0] + size), last)])
-        if (upright.covered(between, start, stop) >= SEAM).any():
+        if (upright.covered(between, start, stop) >= COVERED).any():
             return True
     return False

@@ -83,6 +83,12 @@ def cut_around(cut: CutMesh, region: Region) -> CutMesh:
     return cut
 
 
+def centred_in(mesh: Mesh, region: Region) -> BoolArray:
+    """Return which triangles have their middle in a region, cut or not, shape [face_count]."""
+    middles = mesh.vertices[mesh.faces].mean(axis=1)
+    return np.asarray((middles @ region.normals.T <= region.offsets).all(axis=1))
+
+
 def inside(mesh: Mesh, region: Region) -> BoolArray:
     """Return which triangles lie in a region they were cut around, shape [face_count]."""
     within = np.ones(len(mesh.faces), dtype=np.bool_)

@@ -104,7 +104,7 @@ def _seams(front: Front, panel: FrontPanel, rim: float, beside: Front) -> FloatA
     """Return upright seams behind a panel: how far behind its rim [m], how far covered; [n, 2]."""
     own = front.relief.raster
     raster = beside.relief.raster
-    lines = beside.scene.upright
+    lines = beside.upright
     along = float(raster.side.frame[0] @ own.side.frame[2])
     behind = along * (raster.low[0] + lines.at * raster.pixel) - rim
     shorter = float(panel.rectangle.size.min()) * own.pixel

@@ -65,30 +65,6 @@ class Seams:
             1.0 - SHARES["color"] * self.color
         )
 
-    def only(self, where: BoolArray) -> Seams:
-        """Return the seams where they are, and nothing elsewhere."""
-        return Seams(
-            self.groove * where,
-            self.step * where,
-            self.crease * where,
-            self.dark * where,
-            self.color * where,
-            self.border * where,
-            self.known,
-        )
-
-    def turned(self) -> Seams:
-        """Return the rows and columns exchanged."""
-        return Seams(
-            self.groove.T,
-            self.step.T,
-            self.crease.T,
-            self.dark.T,
-            self.color.T,
-            self.border.T,
-            self.known.T,
-        )
-
 
 def level_seams(relief: Relief, face: Face) -> Seams:
     """Return the evidence for horizontal seams."""
@@ -96,8 +72,8 @@ def level_seams(relief: Relief, face: Face) -> Seams:
 
 
 def upright_seams(relief: Relief, face: Face) -> Seams:
-    """Return the evidence for vertical seams."""
-    turned = _seams(
+    """Return the evidence for vertical seams, rows and columns exchanged."""
+    return _seams(
         face.height.T,
         relief.facing.T,
         relief.lab.transpose(1, 0, 2),
@@ -105,7 +81,6 @@ def upright_seams(relief: Relief, face: Face) -> Seams:
         face.covered.T,
         relief.seen.T,
     )
-    return turned.turned()
 
 
 def _seams(

@@ -28,29 +28,6 @@ OPPOSITE = {
 }
 
 
-@dataclass(frozen=True, eq=False)
-class FrontScene:
-    """One side, ready to be searched for panels.
-
-    Attributes:
-        face: the side without handles.
-        level, upright: candidate lines.
-    """
-
-    face: Face
-    level: Lines
-    upright: Lines
-
-    def handles_in(self, rectangle: Rectangle) -> tuple[Protrusion, ...]:
-        """Return the pulls in a rectangle, the most prominent first."""
-        inside = [
-            handle
-            for handle in self.face.pulls
-            if rectangle.holds(handle.low, INSIDE) and rectangle.holds(handle.high, INSIDE)
-        ]
-        return tuple(sorted(inside, key=lambda h: -h.height * float(np.sqrt(h.size.prod()))))
-
-
 @dataclass(frozen=True)
 class Front:
     """One side and the space behind it.
@@ -66,25 +43,41 @@ class Front:
     behind: Relief
 
     @cached_property
-    def level(self) -> Seams:
+    def seams(self) -> Seams:
         """Return the evidence for horizontal seams."""
         return level_seams(self.relief, self.face)
 
     @cached_property
-    def scene(self) -> FrontScene:
-        """Return the side with its candidate lines."""
-        first_row, last_row, first_column, last_column = self.relief.box
-        rows = lines_of(self.level, first_row, last_row)
-        upright = upright_seams(self.relief, self.face)
-        columns = lines_of(upright.turned(), first_column, last_column)
-        face = with_strips(self.face, rows, columns)
-        return FrontScene(face, rows, columns)
+    def level(self) -> Lines:
+        """Return the candidates for horizontal lines."""
+        first, last, _, _ = self.relief.box
+        return lines_of(self.seams, first, last)
+
+    @cached_property
+    def upright(self) -> Lines:
+        """Return the candidates for vertical lines."""
+        _, _, first, last = self.relief.box
+        return lines_of(upright_seams(self.relief, self.face), first, last)
+
+    @cached_property
+    def pulls(self) -> tuple[Protrusion, ...]:
+        """Return the handles that are no controls, such as knobs on one strip."""
+        return with_strips(self.face, self.level, self.upright).pulls
+
+    def handles_in(self, rectangle: Rectangle) -> tuple[Protrusion, ...]:
+        """Return the pulls in a rectangle, the most prominent first."""
+        inside = [
+            handle
+            for handle in self.pulls
+            if rectangle.holds(handle.low, INSIDE) and rectangle.holds(handle.high, INSIDE)
+        ]
+        return tuple(sorted(inside, key=lambda h: -h.height * float(np.sqrt(h.size.prod()))))
 
     def rectangles(self) -> tuple[Rectangle, ...]:
         """Return those that are closed by seams, the best first."""
         first_row, last_row, first_column, last_column = self.relief.box
         shortest = SHORTEST * min(last_row - first_row, last_column - first_column)
-        return rectangles_of(self.scene.level, self.scene.upright, shortest)
+        return rectangles_of(self.level, self.upright, shortest)
 
 
 def fronts_of(reliefs: Mapping[Side, Relief]) -> dict[Side, Front]:

@@ -17,8 +17,7 @@ PROUD = 0.25
 #: More in a row are studs.
 MOST = 10
 #: Where a knob ends, before what carries it, and around it [pixels].
-FOOT = 1.0
-AROUND = 1.0
+MARGIN = 1.0
 #: Probability that small things in a row are knobs and turn.
 LIKELY = 0.63
 
@@ -46,9 +45,9 @@ def _mover(relief: Relief, face: Face, knob: Protrusion) -> OpeningPart:
     right, up, away = raster.side.frame
     rows, columns = (slice(int(a), int(b) + 1) for a, b in zip(knob.low, knob.high, strict=True))
     carrier = float(np.median(face.height[rows, columns]))
-    back = raster.near - (carrier + FOOT) * raster.pixel
-    low = raster.low[::-1] + (knob.low - AROUND) * raster.pixel
-    high = raster.low[::-1] + (knob.high + AROUND) * raster.pixel
+    back = raster.near - (carrier + MARGIN) * raster.pixel
+    low = raster.low[::-1] + (knob.low - MARGIN) * raster.pixel
+    high = raster.low[::-1] + (knob.high + MARGIN) * raster.pixel
     height, across = (low + high) / 2.0
     return OpeningPart(
         kind=PartKind.KNOB,

@@ -61,7 +61,7 @@ def lid_hinges(fronts: Mapping[Side, Front], row: int) -> tuple[Side, ...]:
 def _cover(front: Front, row: int) -> float:
     """Return the share of a row's length that shows a seam."""
     rows = slice(max(row - WANDER, 0), row + WANDER + 1)
-    seams = front.level
+    seams = front.seams
     wide = (seams.all * seams.known)[rows].max(axis=0)
     inner = ndimage.binary_erosion(front.relief.seen[row : row + 1], np.ones((1, 5), np.bool_))[0]
     known = inner & (seams.known[row] > 0.5)

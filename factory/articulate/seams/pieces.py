@@ -8,7 +8,6 @@ import numpy as np
 
 from ...mesh import BoolArray, FloatArray
 from ...part import OpensBy, Panel
-from ...views.crossings import Crossings, crossings
 from ...views.raster import Side
 from ...views.view import View, Views
 
@@ -16,8 +15,6 @@ from ...views.view import View, Views
 WHOLE = 0.9
 #: Pieces that are the panel's own show so much of it.
 OWN = 0.6
-#: Two faces of a sheet are no further apart than this [pixels].
-SHEET = 0.01
 #: What slides may reach so far back, what turns only so far, as shares of the object's depth.
 DEEPEST = {True: 0.97, False: 0.5}
 
@@ -28,14 +25,10 @@ class PieceOutlines:
 
     Attributes:
         view: of the side; its parts are the pieces.
-        through: from the first surface to the last [m], shape [rows, columns].
-        solid: share of that way that is inside of the mesh, shape [rows, columns].
         low, high: of each piece [m], shape [piece_count, 3].
     """
 
     view: View
-    through: FloatArray
-    solid: FloatArray
     low: FloatArray
     high: FloatArray
 
@@ -57,7 +50,7 @@ class PieceOutlines:
         for corner in range(3):
             np.minimum.at(low, pieces, local[mesh.faces[:, corner]])
             np.maximum.at(high, pieces, local[mesh.faces[:, corner]])
-        return cls(view, *_through(crossings(mesh, view.raster)), low, high)
+        return cls(view, low, high)
 
     def within(self, low: FloatArray, high: FloatArray) -> FloatArray:
         """Return the share of each piece's outline within a rectangle [m], shape [piece_count]."""
@@ -105,41 +98,6 @@ class PieceOutlines:
         seen = self.view.part[self.view.raster.window(low, high)]
         counts = np.bincount(seen[seen >= 0], minlength=len(self.low))
         return np.asarray(counts / max(seen.size, 1))
-
-    def behind(self, low: FloatArray, high: FloatArray) -> tuple[float, float]:
-        """Measure how deep the mesh is behind a rectangle [m], and how much of that is inside."""
-        window = self.view.raster.window(low, high)
-        seen = self.view.seen[window]
-        if not seen.any():
-            return 0.0, 0.0
-        return float(np.median(self.through[window][seen])), float(
-            np.median(self.solid[window][seen])
-        )
-
-
-def _through(crossed: Crossings) -> tuple[FloatArray, FloatArray]:
-    """Return each ray's length from first to last crossing [m], and the share inside.
-
-    Sheets of two faces, one each way, have no inside; the widest gap between two of them is one.
-    """
-    shape = (crossed.raster.rows, crossed.raster.columns)
-    pixel = crossed.pixel
-    turns = np.cumsum(np.where(crossed.inward, 1, -1))
-    first = np.diff(pixel, prepend=-1) != 0
-    before = np.concatenate([[0], turns[:-1]])[first]
-    winding = turns - before[np.cumsum(first) - 1]
-    same = np.diff(pixel, append=-1) == 0
-    length = np.where(same, np.append(np.diff(crossed.depth), 0.0), 0.0)
-    count = shape[0] * shape[1]
-    whole = np.asarray(np.bincount(pixel, weights=length, minlength=count), dtype=np.float64)
-    inner = np.bincount(pixel, weights=length * (winding > 0), minlength=count)
-    thin = SHEET * crossed.raster.pixel
-    twin = same & (length <= thin) & (crossed.inward != np.append(crossed.inward[1:], False))
-    sheet = twin | np.append(False, twin[:-1])
-    between = np.where(sheet & np.append(sheet[1:], False), length, 0.0)
-    np.maximum.at(inner, pixel, between)
-    share = np.divide(inner, whole, out=np.zeros(count), where=whole > 0.0)
-    return np.asarray(whole.reshape(shape)), np.asarray(share.reshape(shape))
 
 
 def own_pieces(outlines: PieceOutlines, panel: Panel, margin: float) -> BoolArray:

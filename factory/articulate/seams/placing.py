@@ -78,45 +78,41 @@ class OpeningPart:
         )
 
 
-def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Region:
-    """Return all of a rectangle of one side that is before a depth, in that side's frame [m].
+def box_behind(side: Side, low: FloatArray, high: FloatArray) -> Region:
+    """Return all of a rectangle of one side, however deep, in that side's frame [m].
 
     Args:
         side: that is looked at.
         low: up and to the right, shape [2].
         high: likewise.
-        back: that depth, away from the viewer.
     """
-    right, up, away = side.frame
+    right, up, _ = side.frame
     return Region(
-        np.stack([right, -right, up, -up, away]),
-        np.array([high[1], -low[1], high[0], -low[0], back]),
+        np.stack([right, -right, up, -up]), np.array([high[1], -low[1], high[0], -low[0]])
     )
+
+
+def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Region:
+    """Return what of :func:`box_behind` is before a depth, away from the viewer [m]."""
+    before = Region(side.frame[2:], np.array([back]))
+    return box_behind(side, low, high).within(before)
 
 
 def rim_depth(front: Front, panel: FrontPanel) -> float:
     """Return how far behind the nearest point the outer edge of a panel lies [pixels]."""
-    top, bottom, left, right = _borders(front, panel)
-    borders = (top, bottom, left, right)
-    return max((float(np.median(each)) for each in borders if len(each)), default=0.0)
-
-
-def _borders(front: Front, panel: FrontPanel) -> tuple[FloatArray, ...]:
-    low = panel.rectangle.low
-    high = panel.rectangle.high
-    depth = -front.face.height
     rows, columns = (
         slice(int(start) + inset, int(stop) - inset + 1)
-        for start, stop in zip(low, high, strict=True)
+        for start, stop in zip(panel.rectangle.low, panel.rectangle.high, strict=True)
         for inset in (min(INSET, int(stop - start) // 2),)
     )
-    lines = (
-        (depth[rows.stop - 1, columns], front.relief.seen[rows.stop - 1, columns]),
-        (depth[rows.start, columns], front.relief.seen[rows.start, columns]),
-        (depth[rows, columns.start], front.relief.seen[rows, columns.start]),
-        (depth[rows, columns.stop - 1], front.relief.seen[rows, columns.stop - 1]),
+    borders = (
+        (rows.stop - 1, columns),
+        (rows.start, columns),
+        (rows, columns.start),
+        (rows, columns.stop - 1),
     )
-    return tuple(values[seen] for values, seen in lines)
+    shown = (-front.face.height[border][front.relief.seen[border]] for border in borders)
+    return max((float(np.median(depth)) for depth in shown if len(depth)), default=0.0)
 
 
 def panel_mover(
@@ -144,19 +140,12 @@ def panel_mover(
     back = rim + thickness if leaf is None else raster.near + behind
     region = box_before(raster.side, low, high, back)
     middle = (low + high) / 2.0
-    across, height = {
-        OpensBy.LEFT: (low[1], middle[0]),
-        OpensBy.RIGHT: (high[1], middle[0]),
-        OpensBy.BOTTOM: (middle[1], low[0]),
-        OpensBy.TOP: (middle[1], high[0]),
-        OpensBy.OUT: (middle[1], middle[0]),
-    }[way]
-    axis = {
-        OpensBy.LEFT: -up,
-        OpensBy.RIGHT: up,
-        OpensBy.BOTTOM: right,
-        OpensBy.TOP: -right,
-        OpensBy.OUT: -away,
+    across, height, axis = {
+        OpensBy.LEFT: (low[1], middle[0], -up),
+        OpensBy.RIGHT: (high[1], middle[0], up),
+        OpensBy.BOTTOM: (middle[1], low[0], right),
+        OpensBy.TOP: (middle[1], high[0], -right),
+        OpensBy.OUT: (middle[1], middle[0], -away),
     }[way]
     slides = way is OpensBy.OUT
     motion = Motion(

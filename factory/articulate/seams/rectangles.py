@@ -8,6 +8,7 @@ import numpy as np
 from scipy import ndimage
 
 from ...mesh import FloatArray, IntArray
+from ...views.raster import Raster
 from .evidence import Seams
 from .handles import Protrusion
 
@@ -17,12 +18,11 @@ MOST_LINES = 26
 APART = 4
 #: Of the picture's size: the shortest piece of a line, and the shortest side of a rectangle.
 SHORTEST = 0.07
-#: A line counts where this share of it is covered.
+#: A line counts, and so does the side of a rectangle on it, where this share of it is covered.
 COVERED = 0.55
 #: At the rounded corners of a rectangle nothing is asked: share of its side.
 CORNER = 0.06
-#: A side is covered to at least this, all four together to at least that.
-LEAST_SIDE = 0.55
+#: All four sides together are covered to at least this.
 LEAST_MEAN = 0.72
 
 
@@ -142,6 +142,10 @@ class Rectangle:
         """Return how well all four sides are covered, 0 to 1."""
         return float(0.5 * self.sides.mean() + 0.5 * self.sides.min())
 
+    def corners(self, raster: Raster) -> FloatArray:
+        """Return its place in a picture: right and up [m], low and high, shape [2, 2]."""
+        return raster.low + np.stack([self.low, self.high])[:, ::-1] * raster.pixel
+
     def holds(self, point: FloatArray | IntArray, margin: float = 0.0) -> bool:
         """Return whether a place (row, column) lies inside."""
         return bool((point >= self.low + margin).all() and (point <= self.high - margin).all())
@@ -188,7 +192,7 @@ def rectangles_of(level: Lines, upright: Lines, shortest: float) -> tuple[Rectan
     if not len(rows) or not len(columns):
         return ()
     sides = _sides(level, upright, rows, columns, shape=False)
-    good = (sides.min(axis=0) >= LEAST_SIDE) & (sides.mean(axis=0) >= LEAST_MEAN)
+    good = (sides.min(axis=0) >= COVERED) & (sides.mean(axis=0) >= LEAST_MEAN)
     shape = _sides(level, upright, rows, columns, shape=True)
     found = [
         Rectangle(

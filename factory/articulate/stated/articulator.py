@@ -18,7 +18,7 @@ from ...intake.intake import Intake
 from ...intake.stated import Stated, StatedPart
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import PartKind, Proposer
-from ..articulator import Articulator, make_hypotheses
+from ..articulator import Articulator, HypothesisMaker, make_hypotheses
 from ..assembly import JOINT_SUFFIX, assembled
 from ..proposal import Hypothesis, Motion, Proposal
 from ..rigid import rigid_articulation
@@ -41,7 +41,7 @@ SAME_SHAPE = 0.05
 _TURNS: Mapping[str, int] = {"-y": 0, "-x": 1, "y": 2, "x": 3}
 
 
-class StatedArticulator:
+class StatedArticulator(HypothesisMaker):
     """Finds on a mesh the parts that somebody stated.
 
     Args:
@@ -68,10 +68,6 @@ class StatedArticulator:
         self._chances = tuple(chances)
         self._seen = seen
 
-    def articulate(self, mesh: Mesh) -> Articulation:
-        """Return the likeliest hypothesis of ``mesh`` [m], z up."""
-        return self.hypotheses(mesh)[0].articulation
-
     def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
         """Return the articulations that fit the statement, the likeliest first.
 
@@ -83,14 +79,14 @@ class StatedArticulator:
         _refuse_other_size(mesh, self.stated)
         if not self.stated.opens:
             note = "its sidecar says that nothing opens"
-            return (Hypothesis.of(rigid_articulation(mesh, self.name, (note,))),)
+            return (Hypothesis(rigid_articulation(mesh, self.name, (note,))),)
         wanted = count_expected(self.stated.parts)
         if wanted:
             return self._filled(mesh, wanted)
         placed = _placed(self._seen or seen_from(mesh, self.stated.front), self.stated)
         chosen = list(islice(_with_cut(_choices(placed)), MOST_HYPOTHESES))
         cut = cut_along(mesh, [_to_cut(ways) for ways in chosen])
-        return tuple(Hypothesis.of(self._articulation(cut, placed, ways)) for ways in chosen)
+        return tuple(Hypothesis(self._articulation(cut, placed, ways)) for ways in chosen)
 
     def beside(self, guess: Articulation) -> tuple[Hypothesis, ...]:
         """Return the stated parts beside all that moves in a guess, the likeliest first.
@@ -110,7 +106,7 @@ class StatedArticulator:
         for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
             cut = cut_along(each.guess.mesh, [_to_cut(ways)])
             filled = self._articulation(cut, each.placed, ways, each.proposals(cut), each.hosts)
-            made.append(Hypothesis.of(replace(filled, weights=each.guess.weights)))
+            made.append(Hypothesis(replace(filled, weights=each.guess.weights)))
         return tuple(made)
 
     def _filled(self, mesh: Mesh, wanted: Counter[PartKind]) -> tuple[Hypothesis, ...]:
@@ -131,7 +127,7 @@ class StatedArticulator:
         ]
         made: list[Hypothesis] = []
         for each in require_some(found, wanted):
-            made += (Hypothesis.of(each.guess),) if each.is_whole else self._beside(each)
+            made += (Hypothesis(each.guess),) if each.is_whole else self._beside(each)
         return tuple(made[:MOST_HYPOTHESES])
 
     def _articulation(

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from ...errors import InputRejected
 from ...intake.stated import StatedPart, StatedView
 from ...mesh import FloatArray
@@ -63,9 +61,7 @@ class StatedBox:
     @property
     def corners(self) -> FloatArray:
         """Return its rectangle: right and up [m], low and high, shape [2, 2]."""
-        raster = self.front.relief.raster
-        rectangle = np.stack([self.panel.rectangle.low, self.panel.rectangle.high])
-        return np.asarray(raster.low + rectangle[:, ::-1] * raster.pixel)
+        return self.panel.rectangle.corners(self.front.relief.raster)
 
     @property
     def label(self) -> str:
@@ -114,5 +110,5 @@ def boxed_in(front: Front, part: StatedPart, place: int, box: Rectangle) -> Stat
             unit="of its area",
             limit=LEAST_SHOWN,
         )
-    panel = FrontPanel(box, front.scene.handles_in(box))
+    panel = FrontPanel(box, front.handles_in(box))
     return StatedBox(part, place, part.view, front, panel)

@@ -14,8 +14,8 @@ from ...views.raster import Side
 from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import thickness
-from ..seams.knobs import knobs_on
-from ..seams.placing import TURN, OpeningPart, box_before
+from ..seams.knobs import MARGIN, knobs_on
+from ..seams.placing import TURN, OpeningPart, box_before, box_behind
 from .boxed import StatedBox
 from .snapping import AT_OUTLINE
 
@@ -64,14 +64,14 @@ def _control(part: StatedBox) -> OpeningPart:
                 return knob
     right, up, away = raster.side.frame
     carrier, standing = _standing(part)
-    back = raster.near - (carrier + 1.0) * raster.pixel
-    low = raster.low[::-1] + (box.low - 1.0) * raster.pixel
-    high = raster.low[::-1] + (box.high + 1.0) * raster.pixel
+    back = raster.near - (carrier + MARGIN) * raster.pixel
+    low = raster.low[::-1] + (box.low - MARGIN) * raster.pixel
+    high = raster.low[::-1] + (box.high + MARGIN) * raster.pixel
     height, across = (low + high) / 2.0
     if kind is PartKind.WHEEL and standing.any():
         rows, columns = np.nonzero(standing)
-        height = low[0] + (rows.mean() + 1.0) * raster.pixel
-        across = low[1] + (columns.mean() + 1.0) * raster.pixel
+        height = low[0] + (rows.mean() + MARGIN) * raster.pixel
+        across = low[1] + (columns.mean() + MARGIN) * raster.pixel
     if kind is PartKind.LEVER and part.stated.hinge is not None:
         if part.stated.hinge not in _ENDS:
             raise part.opposed(_ENDS, "for a lever")
@@ -82,9 +82,10 @@ def _control(part: StatedBox) -> OpeningPart:
     ends = np.array(part.view.box).reshape(2, 2)[:, ::-1]
     low = np.where(ends[0] <= AT_OUTLINE, -np.inf, low)
     high = np.where(ends[1] >= 1.0 - AT_OUTLINE, np.inf, high)
-    region = box_before(raster.side, low, high, back)
     if _depth_is_bounded(part):
-        region = Region(region.normals[:-1], region.offsets[:-1])
+        region = box_behind(raster.side, low, high)
+    else:
+        region = box_before(raster.side, low, high, back)
     return OpeningPart(kind, region, _motion(kind, away, origin))
 
 
@@ -116,10 +117,10 @@ def _standing(part: StatedBox) -> tuple[float, BoolArray]:
     if part.kind in (PartKind.WHEEL, PartKind.LEVER):
         deeper = height[seen & (height <= _parting(height[seen]))]
         carrier = float(np.percentile(deeper, 95))
-    if float((height[seen] > carrier + 1.0).mean()) < LEAST_STANDING:
+    if float((height[seen] > carrier + MARGIN).mean()) < LEAST_STANDING:
         own = thickness(part.front.relief, part.front.behind)[slices][seen]
         carrier = float(np.median(height[seen])) - float(np.percentile(own, 25))
-    return carrier, seen & (height > carrier + 1.0)
+    return carrier, seen & (height > carrier + MARGIN)
 
 
 def _parting(values: FloatArray) -> float:

@@ -12,10 +12,9 @@ from ...articulation import Articulation, Joint
 from ...errors import InputRejected
 from ...geometry.triangles import face_areas
 from ...intake.stated import StatedPart
-from ...mesh import BoolArray, Mesh
 from ...part import PartKind, Proposer
 from ..proposal import Motion, Proposal
-from ..seams.cutting import CutMesh
+from ..seams.cutting import CutMesh, centred_in
 from .boxed import NOT_FOUND
 from .placing import Placed
 
@@ -113,7 +112,9 @@ def find_expected(
         wanted: kinds of parts.
         placed: the stated parts that have a place, found on the guess's mesh.
     """
-    taken = _within(guess.mesh, placed)
+    taken = np.zeros(len(guess.mesh.faces), dtype=np.bool_)
+    for each in placed:
+        taken |= centred_in(guess.mesh, each.ways[0].mover.region)
     areas = face_areas(guess.mesh)
     joints = []
     for joint in guess.movable_joints:
@@ -123,13 +124,3 @@ def find_expected(
         if part.kind in wanted and own > 0.0 and shared < SAME_PART * own:
             joints.append(joint)
     return Expected(guess, placed, tuple(joints))
-
-
-def _within(mesh: Mesh, placed: Sequence[Placed]) -> BoolArray:
-    """Return which faces have their middle in the region of a placed part, shape [face_count]."""
-    middles = mesh.vertices[mesh.faces].mean(axis=1)
-    taken = np.zeros(len(mesh.faces), dtype=np.bool_)
-    for part in placed:
-        region = part.ways[0].mover.region
-        taken |= (middles @ region.normals.T <= region.offsets).all(axis=1)
-    return taken

@@ -18,12 +18,8 @@ from .snapping import OFF
 
 #: Rows beside a lid's seam that show where the lid, or the body below it, ends [pixels].
 BESIDE = 8
-HINGE_SIDES = {
-    Hinge.FRONT: Side.FRONT,
-    Hinge.BACK: Side.BACK,
-    Hinge.LEFT: Side.LEFT,
-    Hinge.RIGHT: Side.RIGHT,
-}
+#: Sides of the object at which a lid may be hinged.
+HINGE_SIDES = {Hinge(side): side for side in OPPOSITE}
 
 
 def lid_openings(fronts: Mapping[Side, Front], part: StatedBox) -> list[OpeningPart]:

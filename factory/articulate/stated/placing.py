@@ -16,10 +16,9 @@ from ...part import OpensBy, PartKind
 from ...views.raster import Side
 from ...views.view import Views
 from ..proposal import Motion
-from ..seams.cutting import Region
 from ..seams.fronts import Front, fronts_of
 from ..seams.motions import likely_ways
-from ..seams.placing import OpeningPart, panel_mover
+from ..seams.placing import OpeningPart, box_behind, panel_mover
 from ..seams.rectangles import Rectangle
 from ..seams.relief import reliefs_of
 from .boxed import MOST_WAYS, NOT_FOUND, USUAL, StatedBox, boxed_in
@@ -33,12 +32,7 @@ from .wholes import SeenPieces, StatedWay
 MOST_SHARED = 0.25
 MM = 1000.0
 
-_WAYS = {
-    Hinge.LEFT: OpensBy.LEFT,
-    Hinge.RIGHT: OpensBy.RIGHT,
-    Hinge.TOP: OpensBy.TOP,
-    Hinge.BOTTOM: OpensBy.BOTTOM,
-}
+_WAYS = {edge: OpensBy(edge) for edge in (Hinge.LEFT, Hinge.RIGHT, Hinge.TOP, Hinge.BOTTOM)}
 #: From above the back is at the top of the picture.
 _WAYS_ABOVE = {**_WAYS, Hinge.BACK: OpensBy.TOP, Hinge.FRONT: OpensBy.BOTTOM}
 #: Turns the top of an object to where its front is.
@@ -73,7 +67,7 @@ class SeenMesh:
     def look(self) -> SeenMesh:
         """Look at its upright sides now; returns itself."""
         for front in self.around.values():
-            _ = front.scene
+            _ = front.pulls
         return self
 
 
@@ -232,11 +226,8 @@ def _likeliest_first(
 def _as_stated(mover: OpeningPart, part: StatedBox, mesh: Mesh) -> OpeningPart:
     """Return a part with the limits and depth that were stated, in the mesh's frame."""
     for view in part.stated.also:
-        right, up, _ = view.side.frame
         low, high = StatedFrame.of(mesh, view.side).place(view.box)
-        bounds = Region(
-            np.stack([right, -right, up, -up]), np.array([high[0], -low[0], high[1], -low[1]])
-        )
+        bounds = box_behind(view.side, low[::-1], high[::-1])
         mover = replace(mover, region=mover.region.within(bounds))
     if mover.kind in (PartKind.LID, PartKind.SCREEN) and mover.panel is None:
         mover = hinged_inside(mover)

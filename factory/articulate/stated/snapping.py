@@ -62,7 +62,7 @@ def snap(front: Front, frame: StatedFrame, box: Box) -> Rectangle:
     first_row, last_row, first_column, last_column = front.relief.box
     outline = np.array([[first_row, first_column], [last_row, last_column]])
     stated = np.clip(stated, outline[0], outline[1])
-    lines = (front.scene.level, front.scene.upright)
+    lines = (front.level, front.upright)
     ends = np.array(box).reshape(2, 2)[:, ::-1]
     placed = stated.copy()
     for axis in (0, 1):

@@ -13,7 +13,7 @@ from ...mesh import FloatArray, IntArray, Mesh
 from ...part import OpensBy, PartKind
 from ...views.raster import Side, side_facing
 from ...views.view import Views
-from ..seams.cutting import Region
+from ..seams.cutting import Region, centred_in
 from ..seams.pieces import OWN, WHOLE, PieceOutlines, own_pieces
 from ..seams.placing import OpeningPart
 from .boxed import StatedBox
@@ -145,8 +145,7 @@ class SeenPieces:
 
     def _share_within(self, region: Region) -> FloatArray:
         """Return the share of each piece's surface in a region, shape [piece_count]."""
-        middles = self._mesh.vertices[self._mesh.faces].mean(axis=1)
-        within = (middles @ region.normals.T <= region.offsets).all(axis=1)
+        within = centred_in(self._mesh, region)
         whole = np.bincount(self.of_faces, weights=self._areas)
         inner = np.bincount(self.of_faces, weights=self._areas * within, minlength=len(whole))
         return np.asarray(inner / np.maximum(whole, 1e-12))

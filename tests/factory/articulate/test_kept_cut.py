@@ -47,7 +47,7 @@ def test_what_an_object_looks_like_comes_back_too(tmp_path, monkeypatch):
     trimesh.creation.box().export(file)
     intake = load(file, IntakeConfig(up="z"))
     seen = replace(rigid_articulation(intake.mesh, "auto", ()), looks_like="fridge")
-    monkeypatch.setattr(stage, "hypotheses_of", lambda *_: (Hypothesis.of(seen),))
+    monkeypatch.setattr(stage, "hypotheses_of", lambda *_: (Hypothesis(seen),))
     for _ in range(2):
         (found,) = hypotheses(intake, "key", Stages(CONFIG, Store(tmp_path / "cache")))
         assert found.articulation.looks_like == "fridge"

@@ -77,7 +77,7 @@ def _reading_as(monkeypatch, *changes):
 
     def hypotheses(*asked):
         right, *_ = likeliest(*asked)
-        return tuple(Hypothesis.of(change(right.articulation)) for change in changes)
+        return tuple(Hypothesis(change(right.articulation)) for change in changes)
 
     monkeypatch.setattr(standing, "hypotheses", hypotheses)
 

@@ -33,7 +33,7 @@ def guessed(monkeypatch):
             for number, joint in enumerate(right.joints)
         )
         names[:] = [joint.name for joint in joints]
-        return (Hypothesis.of(replace(right, joints=joints)),)
+        return (Hypothesis(replace(right, joints=joints)),)
 
     monkeypatch.setattr(standing, "hypotheses", hypotheses)
     return names

@@ -9,7 +9,7 @@ import pytest
 from one_piece import fridge
 from refusing import refusal
 
-from asset_factory.factory.articulate.asking import articulator, endpoint
+from asset_factory.factory.articulate.asking import endpoint, question
 from asset_factory.factory.articulate.asking.articulator import VlmArticulator
 from asset_factory.factory.articulate.asking.endpoint import require_endpoint
 from asset_factory.factory.articulate.asking.sheet import sheet_of
@@ -80,7 +80,7 @@ def drawn():
 @pytest.fixture
 def ask(server, drawn, tmp_path, monkeypatch):
     sheets = {id(drawn[0]): drawn[1]}
-    monkeypatch.setattr(articulator, "sheet_of", lambda mesh: sheets[id(mesh)])
+    monkeypatch.setattr(question, "sheet_of", lambda mesh: sheets[id(mesh)])
 
     def asked(*answers, model="eyes-1", **settings):
         server.answers = list(answers)

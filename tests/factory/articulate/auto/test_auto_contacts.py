@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from asset_factory.factory.articulate.auto.contacts import _touching, contacts_of, settled
-from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import Mesh, concatenate
 
 FACES = 12
@@ -35,8 +34,7 @@ COMPONENTS = np.repeat(np.arange(5), FACES)
 
 
 def after(labels):
-    areas = face_areas(SCENE)
-    found = settled(contacts_of(SCENE, COMPONENTS, areas), np.repeat(labels, FACES), areas)
+    found = settled(contacts_of(SCENE, COMPONENTS), np.repeat(labels, FACES))
     return found.reshape(5, FACES)
 
 
@@ -58,17 +56,15 @@ def test_a_large_piece_is_no_loose_one():
 def test_a_component_of_several_parts_is_left_as_it_is():
     labels = np.repeat([0, 1, 0, 0, 0], FACES)
     labels[HANDLE * FACES] = 1
-    areas = face_areas(SCENE)
-    assert np.array_equal(settled(contacts_of(SCENE, COMPONENTS, areas), labels, areas), labels)
+    assert np.array_equal(settled(contacts_of(SCENE, COMPONENTS), labels), labels)
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_contacts_do_not_depend_on_the_order_of_faces(seed):
     order = np.random.default_rng(seed).permutation(len(SCENE.faces))
     shuffled = SCENE.submesh(order)
-    areas = face_areas(SCENE)
-    there = contacts_of(shuffled, COMPONENTS[order], areas[order])
-    here = contacts_of(SCENE, COMPONENTS, areas)
+    there = contacts_of(shuffled, COMPONENTS[order])
+    here = contacts_of(SCENE, COMPONENTS)
     assert there.pairs.tolist() == here.pairs.tolist() == [[BODY, SHELF], [DOOR, HANDLE]]
 
 
@@ -94,7 +90,7 @@ def test_dense_boards_that_lie_in_one_another_take_no_memory():
     mesh = Mesh.from_triangles(both.vertices, both.faces)
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     components = np.repeat(np.arange(3), len(board.faces))
-    contacts = contacts_of(mesh, components, face_areas(mesh))
+    contacts = contacts_of(mesh, components)
     assert contacts.pairs.tolist() == [[0, 1], [0, 2], [1, 2]]
     assert contacts.weights.sum() > 1_000_000
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 1_000_000

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from asset_factory.factory.articulate.evidence import NOTHING, Guess
 from asset_factory.factory.articulate.evidence.body import body_of
-from asset_factory.factory.articulate.evidence.candidates import GUESSED, ROUND, find_candidates
+from asset_factory.factory.articulate.evidence.candidates import LineSource, find_candidates
 from asset_factory.factory.articulation import rotation_about
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -36,7 +36,9 @@ def test_the_way_out_of_a_drawer_is_a_candidate():
 def test_a_knob_turns_about_its_middle():
     world = oven()
     found = find_candidates(body_of(partition(world), 2), NOTHING)
-    round_ones = np.flatnonzero((found.source == ROUND) & (np.abs(found.axis[:, 1]) > 0.999))
+    round_ones = np.flatnonzero(
+        (found.source == LineSource.ROUND) & (np.abs(found.axis[:, 1]) > 0.999)
+    )
     assert len(round_ones) >= 2
     hinge = world.joints[1].origin
     assert min(apart(found.origin[k], found.axis[k], hinge) for k in round_ones) < 1e-3
@@ -53,7 +55,7 @@ def test_a_guess_adds_its_own_line():
     point = np.array([0.0, 0.0, 0.3])
     found = find_candidates(body_of(partition(cupboard()), 1), Guess(0.9, direction, point))
     along = found.axis @ direction > 0.9999 * np.linalg.norm(direction)
-    mine = (found.source == GUESSED) & ~found.slides & along
+    mine = (found.source == LineSource.GUESSED) & ~found.slides & along
     assert mine.sum() == 1
     assert np.allclose(found.origin[mine], point)
 

@@ -8,7 +8,6 @@ from plain_solids import box
 from asset_factory.factory.articulate.evidence import NOTHING, Partition
 from asset_factory.factory.articulate.evidence.body import body_of
 from asset_factory.factory.articulate.evidence.candidates import find_candidates
-from asset_factory.factory.articulate.evidence.extent import single
 from asset_factory.factory.articulate.evidence.numbers import NAMES, measure
 from asset_factory.factory.articulate.evidence.setting import (
     SLIDE_SETTING,
@@ -32,7 +31,7 @@ def _tried(whole, part, axis):
     body = body_of(whole, part)
     found = find_candidates(body, NOTHING)
     best = int(np.argmax(found.slides * (found.axis @ axis)))
-    return body, single(found, best), measure(body, found, NOTHING)[best]
+    return body, found.at([best]), measure(body, found, NOTHING)[best]
 
 
 def test_a_closed_door_is_in_the_way_but_does_not_hold():
@@ -75,7 +74,7 @@ def test_settings_are_named_finite_numbers():
     assert setting_of(body, chosen, evidence).numbers.shape == (len(SLIDE_SETTING),)
     found = find_candidates(body, NOTHING)
     turn = int(np.flatnonzero(~found.slides)[0])
-    setting = setting_of(body, single(found, turn), measure(body, found, NOTHING)[turn])
+    setting = setting_of(body, found.at([turn]), measure(body, found, NOTHING)[turn])
     assert setting.numbers.shape == (len(TURN_SETTING),)
     assert np.isfinite(setting.numbers).all()
     with pytest.raises(ValueError, match="read-only"):

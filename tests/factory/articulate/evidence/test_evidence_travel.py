@@ -3,14 +3,16 @@
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.evidence.candidates import EDGE, Candidates
+from asset_factory.factory.articulate.evidence.candidates import Candidates, LineSource
 from asset_factory.factory.articulate.evidence.travel import displaced
 from asset_factory.factory.articulation import Joint, JointKind
 
 
 def _candidates(slides, axis, origin):
     count = len(axis)
-    return Candidates(np.full(count, slides), axis, origin, np.full(count, EDGE), np.zeros(count))
+    return Candidates(
+        np.full(count, slides), axis, origin, np.full(count, LineSource.EDGE), np.zeros(count)
+    )
 
 
 @pytest.mark.parametrize("slides", [False, True])
