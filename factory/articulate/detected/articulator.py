@@ -29,6 +29,7 @@ from ..stated.articulator import StatedArticulator, seen_from
 from ..stated.placing import SeenMesh
 from ..straight import straightening
 from .agreement import Agreement
+from .boxes import with_whole_drawers
 from .merging import DetectedPart, likely_hinges, seen_parts
 from .panels import panels_of
 from .rating import CARRIED, CellParts, support_of_box
@@ -118,7 +119,8 @@ class DetectedArticulator(HypothesisMaker):
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if len(sure) > len(guess.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
-        open_ = [with_closed_hinges(each) for each in made if each.movable_joints] or [
+        made = [with_closed_hinges(with_whole_drawers(each)) for each in made]
+        open_ = [each for each in made if each.movable_joints] or [
             self._still(mesh, guess, detection)
         ]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])

@@ -15,8 +15,9 @@ from ..seams.fronts import OPPOSITE
 LEVELS = 50
 #: A level of the screen is narrower than this share of the base, along one axis.
 NARROW = 0.5
-#: A screen is at most so thick beside its height.
+#: A screen is at most so thick beside its height, and its normal points up by less than this.
 THICKEST = 0.2
+LYING = 0.9
 
 
 def open_screen(mesh: Mesh) -> StatedPart | None:
@@ -26,19 +27,21 @@ def open_screen(mesh: Mesh) -> StatedPart | None:
     """
     points = spread(mesh.vertices[mesh.faces], REST_SURFELS).points
     low, high = mesh.bounds
+    if not high[2] > low[2]:
+        return None
     shares = (points[:, 2] - low[2]) / (high[2] - low[2])
     level = np.minimum((shares * LEVELS).astype(np.int64), LEVELS - 1)
     widths = np.zeros((LEVELS, 2))
     for each in np.unique(level):
         widths[each] = np.ptp(points[level == each, :2], axis=0)
     base = widths[: LEVELS // 2].max(axis=0)
-    first = int(np.flatnonzero((widths >= NARROW * base).all(axis=1)).max()) + 1
+    first = int(np.flatnonzero((widths >= NARROW * base).all(axis=1)).max(initial=-1)) + 1
     screen = points[level >= first]
-    if first > LEVELS // 2 or not len(screen):
+    if not 0 < first <= LEVELS // 2 or not len(screen):
         return None
     middle = screen.mean(axis=0)
     _, spans, axes = np.linalg.svd(screen - middle, full_matrices=False)
-    if spans[2] > THICKEST * spans[1]:
+    if spans[2] > THICKEST * spans[1] or abs(axes[2, 2]) > LYING:
         return None
     foot, up = _rising(middle, axes[2], float(low[2] + first / LEVELS * (high[2] - low[2])))
     side = side_facing((foot - points[level < first].mean(axis=0)) * [1.0, 1.0, 0.0])

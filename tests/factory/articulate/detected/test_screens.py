@@ -5,12 +5,14 @@ import pytest
 
 pytest.importorskip("torch")
 
+from plain_solids import box_between
 from tests.factory.articulate.detected.test_detected_articulator import detected
 
 from asset_factory.factory.articulate.detected.screens import open_screen
 from asset_factory.factory.articulate.rigid import rigid_articulation
 from asset_factory.factory.geometry.posing import posed, turned
 from asset_factory.factory.intake.stated import Hinge
+from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.part import PartKind
 from asset_factory.learn.objects import make_object
 
@@ -37,6 +39,14 @@ def test_the_hinge_is_where_the_screen_stands():
 def test_nothing_stands_on_a_closed_laptop_or_is_a_plate_on_a_fridge():
     assert open_screen(make_object("laptop", 1).mesh) is None
     assert open_screen(make_object("fridge", 4).mesh) is None
+
+
+def test_a_lying_plate_a_sheet_and_a_tower_have_no_screen():
+    base = box_between((0.0, 0.0, 0.0), (0.3, 0.2, 0.02))
+    shelf = box_between((0.0, 0.15, 0.15), (0.3, 0.2, 0.155))
+    assert open_screen(concatenate([base, shelf])) is None
+    assert open_screen(Mesh.from_triangles(np.eye(3) * [1.0, 1.0, 0.0], [[0, 1, 2]])) is None
+    assert open_screen(box_between((0.0, 0.0, 0.0), (0.1, 0.1, 2.0))) is None
 
 
 def test_an_open_laptop_stays_as_drawn_and_its_joint_closes_it():
