@@ -6,7 +6,7 @@ from pathlib import Path
 import defusedxml.ElementTree
 import jsonschema
 import pytest
-from test_check_command import write
+from box_world import write_drawer
 
 import asset_factory
 from asset_factory.factory.cli.check_formats import FORMATS, as_github, page_of
@@ -19,7 +19,7 @@ HOSTILE = "a|b::error::%\n</failure>]]>\x1b\x00 `<b>`"
 
 @pytest.fixture
 def checked(tmp_path):
-    path = write(tmp_path / "asset.urdf", -0.004)
+    path = write_drawer(tmp_path / "asset.urdf", -0.004)
     found = (
         Finding("friction_ignored", Severity.NOTE, "note", "sapien", joints=("slide",)),
         Finding("oblong_hull", Severity.WARNING, HOSTILE, parts=("drawer",), value=9.0, limit=6.0),
@@ -70,7 +70,7 @@ def test_markdown_is_a_table_that_nobody_breaks(checked):
 
 
 def test_every_format_is_printed_alone(tmp_path, capsys):
-    path = write(tmp_path / "asset.urdf", -0.004)
+    path = write_drawer(tmp_path / "asset.urdf", -0.004)
     for form in FORMATS:
         assert run(["check", str(path), "--sim", "", "--strict", "--format", form]) == 1
         out = capsys.readouterr().out
@@ -89,7 +89,7 @@ def test_reports_keep_to_their_schema_and_codes_have_their_place(tmp_path):
     schema = json.loads((DOCS / "report.schema.json").read_text())
     validator = jsonschema.Draft202012Validator(schema)
     validator.check_schema(schema)
-    report = asset_factory.check(write(tmp_path / "asset.urdf", -0.004), simulators=())
+    report = asset_factory.check(write_drawer(tmp_path / "asset.urdf", -0.004), simulators=())
     data = json.loads(report.to_json())
     validator.validate(data)
     assert Report.from_dict(data) == report

@@ -185,7 +185,8 @@ def test_a_message_is_plain_arrays_with_a_kind():
         b"",
         b"\x01\x00\x00",
         b"\xff" * 8,
-        pack(Message("kind", {"x": "y"}))[:-1],
+        # The library writes texts in any order: an id of bytes would differ between workers.
+        pytest.param(pack(Message("kind", {"x": "y"}))[:-1], id="cut off"),
         pack(Message("kind", {}, {"a": np.zeros(9)}))[:-1],
         header(b"{}"),
         header(b"not json"),
