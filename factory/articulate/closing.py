@@ -49,12 +49,16 @@ def with_closed_hinges(articulation: Articulation) -> Articulation:
     )
     joints = tuple(_closed(articulation, partition, joint) for joint in articulation.joints)
     notes = tuple(
-        f"{articulation.parts[after.child].name!r} stands open by {np.degrees(-after.lower):.0f} "
-        "degrees in the mesh: its joint closes it"
+        note_open(repr(articulation.parts[after.child].name), np.degrees(-after.lower))
         for before, after in zip(articulation.joints, joints, strict=True)
         if after is not before
     )
     return replace(articulation, joints=joints, notes=(*articulation.notes, *notes))
+
+
+def note_open(what: str, degrees: float) -> str:
+    """Return a sentence about a part that stands open."""
+    return f"{what} stands open by {degrees:.0f} degrees in the mesh: its joint closes it"
 
 
 def _closed(articulation: Articulation, partition: Partition, joint: Joint) -> Joint:

@@ -19,7 +19,7 @@ from ...models.detector.decode import Dense
 from ...part import Part, PartKind, Proposer
 from ...views.raster import Side
 from ..articulator import Articulator, HypothesisMaker
-from ..closing import with_closed_hinges
+from ..closing import note_open, with_closed_hinges
 from ..origin import MeshOrigin
 from ..proposal import Hypothesis
 from ..pruning import keep_parts
@@ -119,8 +119,8 @@ class DetectedArticulator(HypothesisMaker):
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if len(sure) > len(guess.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
-        made = [with_closed_hinges(with_whole_drawers(each)) for each in made]
-        open_ = [each for each in made if each.movable_joints] or [
+        moving = [with_whole_drawers(each) for each in made if each.movable_joints]
+        open_ = [with_closed_hinges(each) for each in moving] or [
             self._still(mesh, guess, detection)
         ]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])
@@ -237,9 +237,14 @@ def _with_screen(mesh: Mesh, chance: float) -> list[Articulation]:
         hypotheses = stated.hypotheses(mesh)
     except InputRejected:
         return []
-    note = f"its screen stands open by {screen.drawn:.0f} degrees in the mesh: its joint closes it"
-    made = [replace(each.articulation, notes=(note,)) for each in hypotheses]
-    return [posed(each, {joint.name: joint.upper for joint in each.joints}) for each in made]
+    assert isinstance(screen.drawn, float), "its angle is measured"  # noqa: S101
+    notes = (note_open("its screen", screen.drawn),)
+    made = []
+    for each in hypotheses:
+        (joint,) = each.articulation.joints
+        drawn = {joint.name: min(float(np.radians(screen.drawn)), joint.upper)}
+        made.append(replace(posed(each.articulation, drawn), notes=notes))
+    return made
 
 
 def _hinged(part: DetectedPart, seen: SeenMesh) -> StatedPart:
