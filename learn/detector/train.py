@@ -97,8 +97,8 @@ def train(options: Any) -> None:
     for each in makers:
         each.stop()
     if options.start:
-        # Weights part of the way are as good, and surer of meshes unlike all that they learned
-        # from (Wortsman et al., Robust fine-tuning of zero-shot models, CVPR 2022).
+        # Weights part of the way are as accurate, and more so on meshes unlike the training data
+        # (Wortsman et al., Robust fine-tuning of zero-shot models, CVPR 2022).
         follow(kept, _begun(options).to(device), options.share)
     _keep(kept, options.out)
     figures: dict[str, Any] = {"steps": steps, "batch": options.batch, "made": made.made}

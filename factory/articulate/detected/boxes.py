@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
-from ...mesh import FloatArray
+from ...models.detector.decode import shared_areas
 from ...part import PartKind
 from ..pruning import keep_parts
 
@@ -19,34 +19,36 @@ LARGER = 2.0
 
 def with_whole_drawers(articulation: Articulation) -> Articulation:
     """Return an articulation in which what slides in line with a drawer is part of it."""
-    drawers = [
-        joint
-        for joint in articulation.joints
-        if articulation.parts[joint.child].kind is PartKind.DRAWER
-    ]
+    kinds = {joint.child: articulation.parts[joint.child].kind for joint in articulation.joints}
     carrying = {joint.parent for joint in articulation.joints}
-    into: dict[int, int] = {}
-    for joint in articulation.joints:
-        if articulation.parts[joint.child].kind is PartKind.PART and joint.child not in carrying:
-            for drawer in drawers:
-                if _is_of(articulation, joint, drawer):
-                    into.setdefault(joint.child, drawer.child)
-    kept = {joint.child for joint in articulation.joints} - into.keys()
-    return keep_parts(articulation, kept, into=into) if into else articulation
+    drawers = [j for j in articulation.joints if kinds[j.child] is PartKind.DRAWER]
+    loose = [
+        j
+        for j in articulation.joints
+        if kinds[j.child] is PartKind.PART and j.child not in carrying
+    ]
+    # Of several drawers the first one counts.
+    into = {
+        joint.child: drawer.child
+        for drawer in reversed(drawers)
+        for joint in loose
+        if _slides_along(joint, drawer) and _is_in_line(articulation, joint, drawer)
+    }
+    return keep_parts(articulation, kinds.keys() - into.keys(), into=into) if into else articulation
 
 
-def _is_of(articulation: Articulation, joint: Joint, drawer: Joint) -> bool:
-    """Tell whether a part slides with a drawer and covers it, or is covered, along its way."""
+def _slides_along(joint: Joint, drawer: Joint) -> bool:
+    """Tell whether a part slides as a drawer does that holds it, or hangs on the same part."""
     along = joint.kind is JointKind.PRISMATIC and abs(float(joint.axis @ drawer.axis)) >= ALONG
-    if not along or joint.parent not in (drawer.parent, drawer.child):
-        return False
+    return along and joint.parent in (drawer.parent, drawer.child)
+
+
+def _is_in_line(articulation: Articulation, joint: Joint, drawer: Joint) -> bool:
+    """Tell whether a part covers a drawer, or is covered by it, seen along the drawer's way."""
     across = np.abs(drawer.axis) < np.abs(drawer.axis).max()
-    one, other = (articulation.part_mesh(j.child).bounds[:, across] for j in (joint, drawer))
-    shared = np.minimum(one[1], other[1]) - np.maximum(one[0], other[0])
-    part = _area(one[1] - one[0])
-    whole = _area(other[1] - other[0])
-    return part <= LARGER * whole and _area(shared) >= IN_LINE * min(part, whole)
-
-
-def _area(sides: FloatArray) -> float:
-    return float(np.prod(np.maximum(sides, 0.0)))
+    part, whole = (
+        articulation.part_mesh(j.child).bounds[:, across].ravel() for j in (joint, drawer)
+    )
+    own, shared = shared_areas(part, np.stack([part, whole]))
+    (size,) = shared_areas(whole, whole[None])
+    return bool(own <= LARGER * size and shared >= IN_LINE * min(own, size))
