@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
 import numpy as np
 from scipy import ndimage
@@ -51,14 +50,6 @@ FEWEST_BUMPS = 5
 HARDLY = 1.2
 
 
-class GripShape(StrEnum):
-    """The shape of a handle."""
-
-    KNOB = "knob"
-    UPRIGHT = "upright"
-    LEVEL = "level"
-
-
 @dataclass(frozen=True, eq=False)
 class Protrusion:
     """Something small in front of a face, in pixels of one side.
@@ -89,14 +80,6 @@ class Protrusion:
     def holds(self, other: Protrusion) -> bool:
         """Return whether another stands on it: then it is a panel in front of its frame."""
         return bool((other.low > self.low).all() and (other.high < self.high).all())
-
-    @property
-    def grip(self) -> GripShape:
-        """Return its shape."""
-        rows, columns = self.size
-        if rows >= 1.8 * columns:
-            return GripShape.UPRIGHT
-        return GripShape.LEVEL if columns >= 1.8 * rows else GripShape.KNOB
 
 
 @dataclass(frozen=True, eq=False)

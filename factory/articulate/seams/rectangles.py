@@ -173,11 +173,6 @@ class FrontPanel:
         """Return the one that it is pulled by."""
         return self.handles[0] if self.handles else None
 
-    @property
-    def aspect(self) -> float:
-        """Return the width over height."""
-        return float(self.rectangle.size[1] / max(self.rectangle.size[0], 1))
-
 
 def rectangles_of(level: Lines, upright: Lines, shortest: float) -> tuple[Rectangle, ...]:
     """Return every rectangle of these lines that is closed well enough, the best first.

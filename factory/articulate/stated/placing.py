@@ -17,12 +17,12 @@ from ...views.raster import Side
 from ...views.view import Views
 from ..proposal import Motion
 from ..seams.fronts import Front, fronts_of
-from ..seams.motions import likely_ways
 from ..seams.placing import OpeningPart, box_behind, panel_mover
 from ..seams.rectangles import Rectangle
 from ..seams.relief import reliefs_of
 from .boxed import MOST_WAYS, NOT_FOUND, USUAL, StatedBox, boxed_in
 from .controls import control_openings
+from .hinging import level_edge, upright_edge
 from .lids import hinged_inside, lid_openings
 from .snapping import LEAST_OFF, OFF, StatedFrame, snap
 from .tilting import tilted
@@ -212,15 +212,13 @@ def _wanted_ways(part: StatedBox, ways: Mapping[Hinge, OpensBy]) -> tuple[OpensB
 def _likeliest_first(
     wanted: Sequence[OpensBy], part: StatedBox, boxed: Sequence[StatedBox]
 ) -> tuple[OpensBy, ...]:
-    """Return ways in which a panel may open as its handle, its shape and its neighbours have it."""
-    beside = [each.panel for each in boxed if each.is_panel and each.front is part.front]
-    if not any(panel is part.panel for panel in beside):
-        beside.append(part.panel)
-    likely = likely_ways(part.front.relief, part.panel, beside)
-    return (
-        *(way for way in likely if way in wanted),
-        *(way for way in wanted if way not in likely),
-    )
+    """Return ways in which a panel may open, first the one that its handle speaks for."""
+    if part.kind is PartKind.DOOR:
+        beside = [each.panel for each in boxed if each.is_panel and each.front is part.front]
+        likely: OpensBy | None = upright_edge(part.front.relief, part.panel, beside)
+    else:
+        likely = level_edge(part.panel)
+    return tuple(sorted(wanted, key=lambda way: way is not likely))
 
 
 def _as_stated(mover: OpeningPart, part: StatedBox, mesh: Mesh) -> OpeningPart:
