@@ -112,7 +112,8 @@ class DetectedArticulator(HypothesisMaker):
             cells = CellParts.of(guess, faces)
             guess, moves = self._agreed(guess, cells, detection.dense, least, sure)
         left = [part for part in rated if part not in sure]
-        guess = _without(guess, _misplaced(CellParts.of(guess, faces), sure))
+        cells = CellParts.of(guess, faces)
+        guess = _without(guess, {*_misplaced(cells, sure), *_several_in_one(cells, sure)})
         cells = CellParts.of(guess, faces)
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
         guess = _without(guess, _pulls(cells, beside))
@@ -280,6 +281,16 @@ def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
             for part, side in lids
             for found in part.found
         )
+    ]
+
+
+def _several_in_one(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
+    """Return the parts in whose place several panels are seen."""
+    panels = [part.found[0] for part in sure if part.stated.kind is not StatedKind.LID]
+    return [
+        joint.child
+        for joint in cells.articulation.joints
+        if sum(cells.hides(joint.child, found) for found in panels) > 1
     ]
 
 
