@@ -9,7 +9,7 @@ from ...mesh import FloatArray, IntArray
 from ...part import OpensBy, PartKind
 from ..proposal import Motion
 from .behind import FrontFace, covers, look_behind
-from .hinge_sides import WIDE, handle_side, hinge_side
+from .hinge_sides import WIDE, hinge_side
 from .knobs import find_knobs
 from .mounted import is_crowded
 from .movers import DOOR_LIMIT, DRAWER_SHARE, Mover
@@ -53,7 +53,7 @@ def find_fronts(scene: Scene) -> tuple[Mover, ...]:
 
 def _is_sure(scene: Scene, front: FrontFace) -> bool:
     """Return a drawer's box, or a handle on something that closes a space."""
-    if is_crowded(scene, front.panel) and not _is_control_panel(scene, front.panel):
+    if is_crowded(scene, front.panel):
         return False
     if front.panel.is_box:
         return front.walls >= 3 and (front.panel.handle is not None or front.walls >= 4)
@@ -64,10 +64,8 @@ def _is_sure(scene: Scene, front: FrontFace) -> bool:
         return False
     if _is_control_panel(scene, front.panel) or _has_carrying_grip(scene, front.panel):
         return False
-    deep = scene.size[FRONT] >= 2.0 * front.panel.depth
     wanted = ALL_WALLS - 1 if _covers_front_with_side_handle(scene, front.panel) else ALL_WALLS
-    closes = front.solid or (front.walls >= wanted and front.roomy)
-    return bool(deep and closes) or _in_frame(scene, front.panel)
+    return front.solid or front.walls >= wanted
 
 
 def _covers_front_with_side_handle(scene: Scene, panel: FrontSlab) -> bool:
@@ -78,7 +76,6 @@ def _covers_front_with_side_handle(scene: Scene, panel: FrontSlab) -> bool:
 def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace]) -> bool:
     """Tell whether another panel with a handle is beside one whose back may be open."""
     open_backed = [c for c in candidates if c.panel.handle is not None and c.walls >= ALL_WALLS - 1]
-    open_backed = [c for c in open_backed if c.roomy and not _is_control_panel(scene, c.panel)]
     return front in open_backed and any(
         c is not front and _beside(c.panel, front.panel, scene) for c in open_backed
     )
@@ -108,16 +105,6 @@ def _has_carrying_grip(scene: Scene, panel: FrontSlab) -> bool:
     return central and (all_front or panel.width < WIDE * panel.height)
 
 
-def _in_frame(scene: Scene, panel: FrontSlab) -> bool:
-    """Return a house door: a flat object, mostly one tall panel with a side handle, in a frame."""
-    flat = scene.size[FRONT] <= 0.25 * min(scene.size[SIDEWAYS], scene.size[UP])
-    tall = panel.height >= 0.7 * scene.size[UP] and panel.height >= 1.2 * panel.width
-    frame = (
-        panel.width <= 0.97 * scene.size[SIDEWAYS] and panel.width >= 0.35 * scene.size[SIDEWAYS]
-    )
-    return bool(flat and tall and frame and panel.handle is not None and handle_side(panel) != 0)
-
-
 def _is_plausible(
     scene: Scene, front: FrontFace, sure: list[FrontFace], candidates: list[FrontFace]
 ) -> bool:
@@ -125,7 +112,7 @@ def _is_plausible(
     panel = front.panel
     deep = front.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
     large = panel.area >= 0.04 * scene.size[SIDEWAYS] * scene.size[UP]
-    closes = front.walls >= ALL_WALLS and front.roomy and deep
+    closes = front.walls >= ALL_WALLS and deep
     if (
         panel.handle is not None
         or panel.is_box
