@@ -78,10 +78,15 @@ def front_of(mesh, share):
     return np.flatnonzero(middles < low + share * (high - low))
 
 
-def test_a_part_that_a_network_believes_gives_way_to_drawers_that_are_seen_there():
+@pytest.mark.parametrize(
+    ("kind", "proposer"),
+    [(PartKind.PART, Proposer.NETWORK), (PartKind.DOOR, Proposer.RULES)],
+)
+def test_one_part_that_others_are_sure_of_gives_way_to_drawers_seen_there(kind, proposer):
     said = unmoving("dresser", 1)
-    believed = with_part(said, front_of(said.mesh, 0.1), confidence=0.9)
-    made = detected(believed)[0].articulation
+    proposed = with_part(said, front_of(said.mesh, 0.1), confidence=0.9)
+    part = replace(proposed.parts[1], kind=kind, source=PartSource("0", proposer, 0.9, {}))
+    made = detected(replace(proposed, parts=(proposed.parts[0], part)))[0].articulation
     drawers = len(make_object("dresser", 1).movable_joints)
     assert [part.kind for part in made.parts[1:]] == [PartKind.DRAWER] * drawers
 
