@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from msgspec import structs
 
-from ...articulation import Articulation, Joint, JointKind, Weights
+from ...articulation import Articulation, Joint, Weights
 from ...errors import InputRejected
 from ...geometry.posing import posed, rotated
 from ...intake.stated import Hinge, Stated, StatedAlternative, StatedKind, StatedPart
@@ -24,7 +24,6 @@ from ..origin import MeshOrigin
 from ..proposal import Hypothesis
 from ..pruning import keep_parts
 from ..rigid import rigid_articulation
-from ..seams.lids import lid_hinges
 from ..stated.articulator import StatedArticulator, seen_from
 from ..stated.placing import SeenMesh
 from ..straight import straightening
@@ -49,9 +48,8 @@ LEAST_CHANCE = 0.05
 BELIEVED = 0.85
 #: Kinds of object of which the detector learned too little to fix anything.
 STRANGE = frozenset({"gadget", "window", "box", "door"})
-#: The line that a lid turns about is this far from its middle to its side, and so square to it.
+#: The line that a lid turns about is this far from its middle to its side.
 AT_SIDE = 0.5
-LEVEL = 0.3
 #: Of this kind the screen is looked for where it stands open.
 LAPTOP = "laptop"
 #: From this probability on the kind of the object is believed: of 102 held-out meshes 85 are.
@@ -161,7 +159,7 @@ class DetectedArticulator(HypothesisMaker):
             if stated.kind is StatedKind.LID:
                 support = max(support_of_box(each, dense) for each in part.found)
                 probability = self.agreement.of_lid(support)
-                stated = stated if stated.hinge is not None else _hinged(part, seen)
+                stated = stated if stated.hinge is not None else _hinged(part)
             rated.append(replace(part, stated=stated, probability=probability))
         return sorted(rated, key=lambda part: -part.probability)
 
@@ -189,7 +187,7 @@ class DetectedArticulator(HypothesisMaker):
             ruled = _is_ruled(part)
             if support is None:
                 kept.append(joint.child)
-                alone |= part.kind not in ASKED | CARRIED or ruled or confidence >= BELIEVED
+                alone |= ruled
                 continue
             chance = self.agreement.of_proposed(support)
             if ruled or (
@@ -248,16 +246,11 @@ def _with_screen(mesh: Mesh, chance: float) -> list[Articulation]:
     return made
 
 
-def _hinged(part: DetectedPart, seen: SeenMesh) -> StatedPart:
-    """Return a lid hinged where hinges, latch and wheels are seen, or at the next likely side."""
-    lid = part.stated
-    box = (0.0, 0.0, 1.0, 1.0) if lid.view is None else lid.view.box
-    raster = seen.around[Side.FRONT].relief.raster
-    height = seen.mesh.bounds[0, 2] + box[1] * seen.mesh.extents[2]
-    row = int((height - raster.low[1]) / raster.pixel)
-    first, second, *_ = likely_hinges(part.found, lid_hinges(seen.around, row))
+def _hinged(part: DetectedPart) -> StatedPart:
+    """Return a lid hinged at the likeliest side, or at the next."""
+    first, second, *_ = likely_hinges(part.found)
     other = StatedAlternative(hinge=Hinge(second))
-    return structs.replace(lid, hinge=Hinge(first), alternatives=(other,))
+    return structs.replace(part.stated, hinge=Hinge(first), alternatives=(other,))
 
 
 def _without(guess: Articulation, gone: Collection[int]) -> Articulation:
@@ -295,13 +288,11 @@ def _several_in_one(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]
 
 
 def _hinged_at(guess: Articulation, joint: Joint, side: Side) -> bool:
-    """Tell whether a joint turns a part about a line at one side of its box."""
+    """Tell whether the place of a part's joint is at one side of its box."""
     outward = -side.frame[2]
     low, high = guess.part_mesh(joint.child).bounds
     half = float(np.abs(outward) @ (high - low)) / 2.0
-    off = float(outward @ (joint.origin - (low + high) / 2.0))
-    turns = joint.kind is not JointKind.PRISMATIC
-    return turns and abs(float(joint.axis @ outward)) < LEVEL and off > AT_SIDE * half
+    return float(outward @ (joint.origin - (low + high) / 2.0)) > AT_SIDE * half
 
 
 def _pulls(cells: CellParts, beside: Sequence[DetectedPart]) -> list[int]:

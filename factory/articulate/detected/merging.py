@@ -23,10 +23,10 @@ SURE_WAY = 0.8
 #: that they say. Of 27 lids no labelled hinge lies elsewhere where they do, and where they do not
 #: it is 0.23 at most.
 AGREED = 0.4
+#: Fronts mostly face -Y or +X, so that lids are mostly hinged across from there.
+USUAL_HINGES = (Side.BACK, Side.LEFT, Side.FRONT, Side.RIGHT)
 #: A panel of which this much is in a likelier one is no part of its own.
 INSIDE = 0.5
-#: One that is cut short by surer ones must keep so much of itself.
-LEFT = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,10 +77,7 @@ def _apart(found: Sequence[Found]) -> list[Found]:
         cut = each
         for other in kept:
             cut = _cut_short(cut, other)
-        if all(_share_inside(cut, other) < INSIDE for other in kept) and (
-            _area(cut) >= LEFT * _area(each)
-        ):
-            kept.append(cut)
+        kept.append(cut)
     return kept
 
 
@@ -161,10 +158,10 @@ def _hinges_told(lids: Sequence[Found]) -> FloatArray:
     return np.array(told)
 
 
-def likely_hinges(lids: Sequence[Found], sides: Sequence[Side]) -> list[Side]:
-    """Return sides at which a lid may be hinged, those first on whose axis its sides agree."""
+def likely_hinges(lids: Sequence[Found]) -> list[Side]:
+    """Return the sides at which a lid may be hinged, those first on whose axis its sides agree."""
     weight = np.abs(_hinges_told(lids)).sum(axis=0)
-    return sorted(sides, key=lambda side: -float(weight @ np.abs(side.frame[2])))
+    return sorted(USUAL_HINGES, key=lambda side: -float(weight @ np.abs(side.frame[2])))
 
 
 def _shows(box: Box) -> bool:

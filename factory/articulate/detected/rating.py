@@ -80,10 +80,8 @@ class CellParts:
             kind = self.articulation.parts[joint.child].kind
             if kind in CARRIED and found.sort is not Sort.LID:
                 continue
-            shown = self.shown(joint.child)
-            here = shown[view].sum()
-            faces_side = here >= SAME_PLACE * shown.sum(axis=(1, 2)).max()
-            if faces_side and (shown[view] & box).sum() > SAME_PLACE * max(here, 1):
+            shown = self.shown(joint.child)[view]
+            if (shown & box).sum() > SAME_PLACE * max(shown.sum(), 1):
                 return True
         return False
 

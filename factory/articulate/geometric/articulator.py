@@ -16,10 +16,8 @@ from ..assembly import assembled
 from ..proposal import Proposal
 from ..rigid import rigid_articulation
 from .fronts import find_fronts
-from .house_doors import find_house_doors
 from .knobs import find_top_knobs
 from .movers import Mover
-from .racks import find_racks
 from .rounds import FROM_ABOVE, find_cap, find_turntables, find_wheels
 from .scene import FRONT, SIDEWAYS, UP, Scene, level_yaw, quarter_turn
 
@@ -29,7 +27,7 @@ MOST_PIECES = 5000
 class GeometricArticulator:
     """Finds what opens, turns and slides among the separate pieces of a closed, upright object.
 
-    Doors with the baskets behind them, drawers; knobs, caps, levers, turntables and wheels.
+    Doors and drawers; knobs, caps, levers, turntables and wheels.
 
     It prefers to leave something fixed over moving what does not move; notes say what it assumed.
     """
@@ -94,9 +92,7 @@ def _best_view(scene: Scene) -> tuple[Mover, ...]:
     best_weight = 0.0
     for turns in range(4):
         view = scene.turned(quarter_turn(turns)) if turns else scene
-        movers = find_fronts(view) or find_house_doors(view)
-        doors = tuple(m for m in movers if m.kind is PartKind.DOOR)
-        movers += find_racks(view, doors, _pieces_of(movers))
+        movers = find_fronts(view)
         weight = sum(m.weight for m in movers)
         if weight > best_weight * (1.0 + 1e-9):
             best = tuple(m.seen_from(view.rotation) for m in movers)

@@ -56,7 +56,7 @@ def _is_sure(scene: Scene, front: FrontFace) -> bool:
     if is_crowded(scene, front.panel):
         return False
     if front.panel.is_box:
-        return front.walls >= 3 and (front.panel.handle is not None or front.walls >= 4)
+        return front.walls >= 3
     if len(front.box_pieces):
         small = front.panel.area <= 0.8 * scene.size[SIDEWAYS] * scene.size[UP]
         return front.panel.handle is not None or bool(small and front.walls >= ALL_WALLS - 1)
@@ -75,7 +75,13 @@ def _covers_front_with_side_handle(scene: Scene, panel: FrontSlab) -> bool:
 
 def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace]) -> bool:
     """Tell whether another panel with a handle is beside one whose back may be open."""
-    open_backed = [c for c in candidates if c.panel.handle is not None and c.walls >= ALL_WALLS - 1]
+    open_backed = [
+        c
+        for c in candidates
+        if c.panel.handle is not None
+        and c.walls >= ALL_WALLS - 1
+        and not _is_control_panel(scene, c.panel)
+    ]
     return front in open_backed and any(
         c is not front and _beside(c.panel, front.panel, scene) for c in open_backed
     )
@@ -93,16 +99,12 @@ def _is_control_panel(scene: Scene, panel: FrontSlab) -> bool:
 
 
 def _has_carrying_grip(scene: Scene, panel: FrontSlab) -> bool:
-    """Return a grip in the middle of a panel that is no drawer: a crate's side.
-
-    The panel is all of the front, or too narrow for a drawer.
-    """
+    """Return a grip in the middle of a panel that is too narrow for a drawer: a crate's side."""
     if panel.handle is None:
         return False
-    all_front = panel.area >= 0.65 * scene.size[SIDEWAYS] * scene.size[UP]
     offset = np.abs(panel.handle.mean(axis=0) - panel.center)
     central = bool(offset[SIDEWAYS] <= 0.1 * panel.width and offset[UP] <= 0.15 * panel.height)
-    return central and (all_front or panel.width < WIDE * panel.height)
+    return central and panel.width < WIDE * panel.height
 
 
 def _is_plausible(
@@ -111,15 +113,8 @@ def _is_plausible(
     """Tell whether a panel without handle closes a real space, beside others or alone."""
     panel = front.panel
     deep = front.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
-    large = panel.area >= 0.04 * scene.size[SIDEWAYS] * scene.size[UP]
     closes = front.walls >= ALL_WALLS and deep
-    if (
-        panel.handle is not None
-        or panel.is_box
-        or is_crowded(scene, panel)
-        or not closes
-        or not large
-    ):
+    if panel.handle is not None or not closes:
         return False
     if max(panel.width, panel.height) > 6.0 * min(panel.width, panel.height):
         return False
@@ -160,15 +155,10 @@ def _stands_alone(scene: Scene, panel: FrontSlab) -> bool:
 
 
 def _beside(a: FrontSlab, b: FrontSlab, scene: Scene) -> bool:
-    """Return two panels of one plane that line up in a row or a column, a hair apart."""
-    if min(abs(a.low[FRONT] - b.low[FRONT]), abs(a.high[FRONT] - b.high[FRONT])) > scene.touch:
-        return False
+    """Tell whether two panels line up in a row or a column, a hair apart."""
     for along, across in ((SIDEWAYS, UP), (UP, SIDEWAYS)):
         gap = max(a.low[along] - b.high[along], b.low[along] - a.high[along])
         level = abs(a.low[across] - b.low[across]) + abs(a.high[across] - b.high[across])
-        sides = sorted((a.high[along] - a.low[along], b.high[along] - b.low[along]))
-        if sides[0] < 0.85 * sides[1]:
-            continue
         if -scene.touch <= gap <= 0.08 * scene.size[along] and level <= 4.0 * scene.touch:
             return True
     return False

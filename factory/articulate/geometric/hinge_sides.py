@@ -49,14 +49,10 @@ def _by_centred_handle(
     panel = front.panel
     aspect = panel.width / panel.height
     rise = (handle[:, UP].mean() - panel.center[UP]) / panel.height
-    spans = panel.width >= 0.6 * scene.size[SIDEWAYS] and panel.height >= 0.3 * scene.size[UP]
+    spans = panel.width >= 0.6 * scene.size[SIDEWAYS]
     width, _, height = handle[1] - handle[0]
     narrowest = 0.55 if width >= max(3.0 * height, 0.4 * panel.width) else 0.65
-    if _in_stack(panel, fronts):
-        return OpensBy.OUT, (
-            "has no box behind its front; assumed to be a drawer, as one of a stack",
-        )
-    if spans and narrowest <= aspect <= 1.9 and rise > 0.2:
+    if spans and narrowest <= aspect <= 1.9:
         return OpensBy.BOTTOM, ()
     if aspect >= 1.2 and rise < -0.3:
         return OpensBy.TOP, ()
@@ -68,20 +64,6 @@ def _by_centred_handle(
             ),
         )
     return _side_by_neighbours(front, fronts)
-
-
-def _in_stack(panel: FrontSlab, fronts: list[FrontFace]) -> bool:
-    """Tell whether three or more panels of one width are stacked: a chest of drawers."""
-    tolerance = 0.05 * panel.width
-    stack = [
-        f
-        for f in fronts
-        if f.panel.handle is not None
-        and handle_side(f.panel) == 0
-        and abs(f.panel.low[SIDEWAYS] - panel.low[SIDEWAYS]) <= tolerance
-        and abs(f.panel.high[SIDEWAYS] - panel.high[SIDEWAYS]) <= tolerance
-    ]
-    return len(stack) >= 3 and panel.height <= 1.2 * panel.width
 
 
 def _side_by_neighbours(

@@ -16,8 +16,7 @@ SECTORS = 12
 BUTTONS = 8
 PAIR = 2
 ROW = 3
-"""Equal knobs wanted on a low strip, and on any other plate."""
-STRIP = 0.25
+"""Equal knobs wanted on a plate, and on a cooktop."""
 
 
 def find_top_knobs(above: Scene, taken: IntArray) -> tuple[Mover, ...]:
@@ -110,10 +109,9 @@ def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArra
     same_plate = [k for k, plate in plates.items() if plate == plates[knob]]
     twins = sum(bool(abs(scene.extents[k, SIDEWAYS] - size) <= 0.05 * size) for k in same_plate)
     plate = plates[knob]
-    strip = float(scene.extents[plate, UP]) <= STRIP * float(scene.size[UP])
     close = scene.within(scene.low[plate] - scene.touch, scene.high[plate] + scene.touch, RECT)
     front = np.abs(scene.high[:, FRONT] - scene.high[knob, FRONT]) <= 2.0 * scene.touch
-    return twins >= (PAIR if strip else ROW) or int((small & close & front).sum()) > BUTTONS
+    return twins >= PAIR or int((small & close & front).sum()) > BUTTONS
 
 
 def _stack(scene: Scene, knob: int, free: BoolArray) -> IntArray:

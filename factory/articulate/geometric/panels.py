@@ -156,27 +156,13 @@ def _with_frame(scene: Scene, seed: FrontSlab, seeds: list[FrontSlab]) -> FrontS
     top_bottom = [i for i in strips if height[i] <= width[i]]
     if len(left_right) < 2 or len(top_bottom) < 2:
         return seed
-    grown = _panel(scene, seed.slabs + tuple(strips))
-    for other in seeds:
-        outside = set(other.slabs).isdisjoint(grown.slabs) and other.area > 0.35 * seed.area
-        outside = outside and bool(grown.low[FRONT] <= other.center[FRONT] <= grown.high[FRONT])
-        if (
-            outside
-            and overlap_area(grown.low, grown.high, other.low, other.high) > 0.05 * other.area
-        ):
-            inside = overlap_area(seed.low, seed.high, other.low, other.high) > 0.9 * other.area
-            if not inside:
-                return seed
-    return grown
+    return _panel(scene, seed.slabs + tuple(strips))
 
 
 def _without_frame_strips(seeds: list[FrontSlab]) -> list[FrontSlab]:
     """Drop the seeds that have become part of a larger one."""
     kept: list[FrontSlab] = []
     for seed in seeds:
-        if not any(
-            set(seed.slabs) < set(other.slabs) or set(seed.slabs) == set(other.slabs)
-            for other in kept
-        ):
+        if not any(set(seed.slabs) <= set(other.slabs) for other in kept):
             kept.append(seed)
     return kept

@@ -16,14 +16,10 @@ FROM_ABOVE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """The view whose front is the top of the scene: its y points down, its z to the back."""
 HIGHEST_CAP = 0.5
 """Of the object's height."""
-SLIM = 1.8
-"""Height over width from which a cap with a narrow top is a grinder's head, not a pot's lid."""
 NARROW = 0.5
 """A knob's radius is at most this share of its lid's."""
 LIFT = 0.5
 """Share of its height by which a lid is lifted: visible, since a lid that comes off has no end."""
-LONGEST_LEVER = 2.5
-"""How far off the axis a lever's middle is at most, over its hub's width."""
 LARGEST_WHEEL = 0.5
 """Of the object's height."""
 
@@ -59,11 +55,6 @@ def _tops_a_body(scene: Scene, cap: int, group: IntArray) -> bool:
         return False
     width = float(scene.extents[cap, SIDEWAYS])
     middle = (scene.low + scene.high)[:, PLAN] / 2.0
-    if (
-        np.abs(middle[group] - middle[cap]).max() > LONGEST_LEVER * width
-        or len(group) > len(scene.low) / 2 + 1
-    ):
-        return False
     coaxial = np.linalg.norm(middle[rest] - middle[cap], axis=1) <= 0.05 * width
     near = scene.high[rest, UP] >= scene.low[cap, UP] - scene.touch
     below = scene.low[rest, UP] < scene.low[cap, UP] - 0.5 * scene.extents[cap, UP]
@@ -88,8 +79,7 @@ def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
         guess = ("sticks out from the round top of a round body; assumed to turn by half a turn",)
         motion = Motion(JointKind.REVOLUTE, up, origin, 0.0, np.pi)
         return Mover(PartKind.LEVER, motion, group, guess)
-    slim = float(scene.size[UP]) >= SLIM * width
-    if not slim and _has_knob(scene, cap, group):
+    if _has_knob(scene, cap, group):
         lift = LIFT * float(scene.high[group, UP].max() - scene.low[cap, UP])
         guess = ("lies on a round body and is lifted off; how far is assumed",)
         motion = Motion(JointKind.PRISMATIC, up, origin, 0.0, lift)
@@ -139,15 +129,13 @@ def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
 
 
 def _is_enclosed(scene: Scene, plate: int, pieces: IntArray) -> bool:
-    """Tell whether something stands on all six sides of a plate, with room above."""
+    """Tell whether something stands on all six sides of a plate."""
     start = (scene.low[plate] + scene.high[plate]) / 2.0
     start[UP] = scene.high[pieces, UP].max() + scene.touch
     half = 0.5 * float(scene.extents[plate, SIDEWAYS])
     for axis, sign in ((SIDEWAYS, -1), (SIDEWAYS, 1), (FRONT, -1), (FRONT, 1), (UP, 1), (UP, -1)):
         distance, _ = scene.first_hit(start, axis, sign, pieces)
         if not np.isfinite(distance) or (axis != UP and distance < half):
-            return False
-        if axis == UP and sign > 0 and distance < 0.25 * half:
             return False
     return True
 
