@@ -125,7 +125,7 @@ class DecomposeConfig:
         shell_m: thickness given to surfaces that enclose nothing, towards their inside [m].
         max_faces: simplify to this many triangles before CoACD; meshes too intricate for that go
             to V-HACD, whose work is bounded by its voxels.
-        max_hulls: a part that needs more is tried with two and four times the error, then rejected.
+        max_hulls: a part that needs more, once hulls are joined as ``hulls`` says, is rejected.
         max_vertices: corners of one hull; simulators on the GPU take at most 64.
         resolution: CoACD's surface samples for its measure of concavity.
         iterations, nodes, search_depth: of CoACD's Monte Carlo tree search.

@@ -43,7 +43,8 @@ class Plan:
         given_up: guessed joints whose parts cannot be parts of their own, made one with what they
             lie on.
         hollow: parts whose open surfaces are never closed or filled, whatever stands in them.
-        closely: hulls stay as close to the surfaces as they were decomposed, however many.
+        closely: hulls stay as close to the surfaces as they were decomposed, as long as they are
+            no more than one part may have.
         fewer: the asset has too many hulls: they are joined, further off the surfaces, until so
             few are left.
         repairs: the changes, oldest first.

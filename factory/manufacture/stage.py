@@ -11,6 +11,7 @@ from asset_factory.sim_checks import Finding, Severity
 from ..articulation import Articulation
 from ..asset import Asset, Inertial, PartBody, Target
 from ..config import BuildConfig, HullsConfig
+from ..errors import InputRejected
 from ..geometry.posing import closed
 from ..intake.categories import UNKNOWN, Category, usual_of
 from ..intake.intake import Intake
@@ -81,15 +82,21 @@ def _hulls(
     planned: Articulation, known: Sequence[SolidPieces | None], plan: Plan, stages: Stages
 ) -> tuple[tuple[SolidPieces, ...], list[Finding]]:
     """Decompose every part, joined where the asset has many hulls; and say which were joined."""
-    config = stages.config
+    config = replace(stages.config, hulls=_wanted(plan, stages.config))
     rooms = Rooms(planned)
     plain = decompose(planned, config.decompose, stages.store, known, plan.hollow, rooms)
-    found = plain
-    errors_m: dict[int, float] = {}
-    for most, coarsest in _aims(plan, config.hulls):
-        if sum(len(piece.hulls) for piece in found) <= most:
-            break
-        found, errors_m = fewer(plain, most, coarsest, config, stages.store, rooms)
+    found, errors_m = fewer(plain, config, stages.store, rooms)
+    limit = config.decompose.max_hulls
+    for part, piece in zip(planned.parts, found, strict=True):
+        if len(piece.hulls) > limit:
+            raise InputRejected(
+                "too_many_hulls",
+                f"part {part.name!r}: needs {len(piece.hulls)} convex pieces; want at most "
+                f"{limit}: split the part or simplify its mesh",
+                value=float(len(piece.hulls)),
+                unit="hulls",
+                limit=float(limit),
+            )
     return found, [
         Finding(
             "hulls_joined",
@@ -102,11 +109,12 @@ def _hulls(
     ]
 
 
-def _aims(plan: Plan, hulls: HullsConfig) -> list[tuple[int, float]]:
-    """Return how many hulls there may be, joined with how many times the error, in order."""
-    if plan.fewer is not None:
-        return [(plan.fewer, hulls.coarsest)]
-    return [] if plan.closely else [(hulls.wanted, hulls.coarse), (hulls.most, hulls.coarsest)]
+def _wanted(plan: Plan, config: BuildConfig) -> HullsConfig:
+    """Return how many hulls there may be, as a plan says."""
+    if plan.fewer is None and not plan.closely:
+        return config.hulls
+    most = config.decompose.max_hulls if plan.fewer is None else plan.fewer
+    return replace(config.hulls, wanted=most, most=most)
 
 
 def with_targets(asset: Asset, stages: Stages) -> Asset:

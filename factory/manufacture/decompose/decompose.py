@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import replace
 from functools import partial
 
 from ...articulation import Articulation
@@ -23,8 +22,6 @@ DECOMPOSE = Stage(
     settings=("decompose",),
     libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
 )
-#: When a part needs too many hulls, the error is doubled this often before it is given up.
-COARSER_ROUNDS = 2
 
 
 def decompose(
@@ -47,8 +44,7 @@ def decompose(
         rooms: of that articulation, where somebody else asks them, too.
 
     Raises:
-        InputRejected: ``too_many_hulls``, or ``decomposition_failed`` where no body can be made of
-            a part.
+        InputRejected: ``decomposition_failed`` where no body can be made of a part.
         Unjudged: an engine hung, or somebody ended it.
     """
     rooms = rooms or Rooms(articulation)
@@ -60,7 +56,7 @@ def decompose(
             results.append(given)
             continue
         if not len(part.faces):
-            results.append(SolidPieces((), "none", (), True))
+            results.append(SolidPieces((), "none"))
             continue
         mesh = articulation.part_mesh(index)
         room = rooms.around(index)
@@ -91,34 +87,13 @@ def error_for(mesh: Mesh, config: DecomposeConfig) -> float:
 def _decompose_part(
     name: str, mesh: Mesh, config: DecomposeConfig, room: Room, hollow: bool
 ) -> SolidPieces:
-    """Return the hulls of one part, with growing error until they are few enough."""
-    degraded: list[str] = []
+    """Return the hulls of one part."""
     error_m = error_for(mesh, config)
-    count = 0
-    for attempt in range(COARSER_ROUNDS + 1):
-        pieces = split_part(mesh.vertices, mesh.faces, error_m, config, room, hollow)
-        if pieces is None:
-            raise InputRejected(
-                "decomposition_failed",
-                f"part {name!r}: none of its {len(mesh.faces)} faces makes a body to collide with; "
-                "want a closed solid or a surface larger than a grain",
-            )
-        count = len(pieces.hulls)
-        if count <= config.max_hulls:
-            exact = pieces.exact and not degraded
-            return replace(pieces, degraded=(*degraded, *pieces.degraded), exact=exact)
-        if attempt < COARSER_ROUNDS:
-            degraded.append(
-                f"{count} hulls at an error of {1000 * error_m:g} mm, more than "
-                f"{config.max_hulls}: decomposed with {2000 * error_m:g} mm"
-            )
-            error_m *= 2.0
-            config = replace(config, error_m=2.0 * config.error_m)
-    raise InputRejected(
-        "too_many_hulls",
-        f"part {name!r}: needs {count} convex pieces even with an error of {1000 * error_m:g} mm; "
-        f"want at most {config.max_hulls}: split the part or simplify its mesh",
-        value=float(count),
-        unit="hulls",
-        limit=float(config.max_hulls),
-    )
+    pieces = split_part(mesh.vertices, mesh.faces, error_m, config, room, hollow)
+    if pieces is None:
+        raise InputRejected(
+            "decomposition_failed",
+            f"part {name!r}: none of its {len(mesh.faces)} faces makes a body to collide with; "
+            "want a closed solid or a surface larger than a grain",
+        )
+    return pieces

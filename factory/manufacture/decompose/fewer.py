@@ -32,8 +32,6 @@ FEW = 8
 
 def fewer(
     pieces: tuple[SolidPieces, ...],
-    most: int,
-    coarsest: float,
     config: BuildConfig,
     store: Store | None = None,
     rooms: Rooms | None = None,
@@ -44,9 +42,7 @@ def fewer(
 
     Args:
         pieces: hulls per part.
-        most: how many there may be.
-        coarsest: largest error, in multiples of the decomposition's.
-        config: of the decomposition.
+        config: how many there may be, and of the decomposition.
         store: results are kept here by content; without it everything is computed anew.
         rooms: what others take of each part's: no joined hull takes more of it.
 
@@ -56,7 +52,8 @@ def fewer(
     joined = list(pieces)
     errors_m: dict[int, float] = {}
     many = sorted(range(len(pieces)), key=lambda part: -len(pieces[part].hulls))
-    for times in (each for each in COARSER if each <= coarsest):
+    for times in (each for each in COARSER if each <= config.hulls.coarsest):
+        most = config.hulls.wanted if times <= config.hulls.coarse else config.hulls.most
         for part in many:
             if sum(len(piece.hulls) for piece in joined) <= most:
                 return tuple(joined), errors_m
@@ -78,4 +75,4 @@ def _joined(piece: SolidPieces, error_m: float, config: BuildConfig, room: Room)
     if len(merged) == len(piece.hulls):
         return piece
     hulls = tuple(limit_vertices(hull, config.decompose.max_vertices) for hull in merged)
-    return replace(piece, hulls=hulls, exact=False)
+    return replace(piece, hulls=hulls)

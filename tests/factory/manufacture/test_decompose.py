@@ -191,12 +191,6 @@ def test_a_part_of_dust_is_rejected():
     assert (found.code, "body" in found.message) == ("decomposition_failed", True)
 
 
-def test_too_many_hulls_reject_with_the_numbers():
-    pegs = [((0.01, 0.01, 0.1), (0.1 * i, 0.0, 0.0)) for i in range(6)]
-    found = refusal(only, *boxes(*pegs), replace(CONFIG, max_hulls=4))
-    assert (found.code, found.value, found.limit) == ("too_many_hulls", 6.0, 4.0)
-
-
 def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(monkeypatch):
     asked = []
 

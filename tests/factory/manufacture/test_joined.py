@@ -3,8 +3,9 @@
 from dataclasses import replace
 
 from manufactured import manufactured
+from refusing import refusal
 
-from asset_factory.factory.config import BuildConfig, HullsConfig
+from asset_factory.factory.config import BuildConfig, DecomposeConfig, HullsConfig
 from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.learn.objects import make_object
 
@@ -38,3 +39,10 @@ def test_an_asset_that_still_has_too_many_is_joined_further_at_once(kept):
     further, told = made(kept, 8, Plan(), most=8)
     assert further.hull_count < gently.hull_count
     assert max(float(each.message.split()[-2]) for each in told) > 10.0
+
+
+def test_a_part_that_still_needs_too_many_hulls_rejects_with_the_numbers(kept):
+    config = BuildConfig(decompose=DecomposeConfig(max_hulls=4))
+    found = refusal(manufactured, make_object("fan", seed=3), kept, Plan(), config)
+    assert (found.code, found.limit) == ("too_many_hulls", 4.0)
+    assert found.value > 4.0
