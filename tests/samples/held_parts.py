@@ -46,7 +46,7 @@ def cut(
 ) -> tuple[Articulation, tuple[SolidPieces, ...], Separation]:
     """The object, its hulls before, and what became of them."""
     tree = held(body, mover, joint)
-    before = tuple(SolidPieces(hulls_of(solids), "exact", (), True) for solids in (body, mover))
+    before = tuple(SolidPieces(hulls_of(solids), "exact") for solids in (body, mover))
     return tree, before, separate(tree, before, [PAIR], CONFIG, 64)
 
 

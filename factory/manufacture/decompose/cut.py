@@ -39,7 +39,7 @@ def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> Soli
     # As far off a plane rounding may leave a vertex.
     flat_m = THINNEST_M + 1e-5 * float(np.ptp(vertices, axis=0).max())
     if dent <= flat_m and solid.volume() >= CONVEX_SHARE * hull.volume:
-        return SolidPieces((hull,), "exact", exact=True)
+        return SolidPieces((hull,), "exact")
     return SolidPieces((hull,), "single") if fills_little(hull, solid, error_m, slot_m) else None
 
 
@@ -67,7 +67,7 @@ def cut_along_faces(
         if halves is None or len(found.hulls) + len(waiting) + len(halves) > most:
             return None
         waiting += halves
-    several = not found.exact and len(found.hulls) > 1
+    several = found.method != "exact" and len(found.hulls) > 1
     return replace(found, method="cut") if several else found
 
 
@@ -75,28 +75,17 @@ def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
     """Return a solid without a cavity, in pieces that are each one connected surface.
 
     An enclosed cavity has a surface of its own, which no step after this one would tell from a
-    second body: the solid is cut along one of the cavity's largest faces, or through its middle.
+    second body: the solid is cut through the cavity's middle, along one of its faces.
     """
     hollow = solid - cavity
     pieces = list(hollow.decompose())
     if all(piece.volume() > 0.0 for piece in pieces):
         return pieces
     vertices, faces = triangles_of(cavity)
-    corners = vertices[faces]
-    normals = doubled_normals(corners)
+    normals = doubled_normals(vertices[faces])
     area = np.linalg.norm(normals, axis=1)
-    kept = area > 1e-12 * area.max()
-    offsets = np.einsum("ij,ij->i", normals, corners[:, 0])[kept] / area[kept]
-    normals = normals[kept] / area[kept, None]
-    middle = float(vertices.mean(axis=0) @ normals[0])
-    for normal, offset in [
-        *_heaviest(normals, offsets, area[kept], float(np.ptp(vertices, axis=0).max())),
-        (normals[0], middle),
-    ]:
-        pieces = _halves(hollow, normal, offset)
-        if all(piece.volume() > 0.0 for piece in pieces):
-            return pieces
-    return [solid]
+    normal = normals[area.argmax()] / area.max()
+    return _halves(hollow, normal, float(vertices.mean(axis=0) @ normal))
 
 
 def _best_cut(piece: Manifold) -> list[Manifold] | None:

@@ -1,4 +1,4 @@
-"""The fallbacks of an exact split: CoACD, coarser CoACD, V-HACD, one hull; each is reported."""
+"""The fallbacks of an exact split: CoACD, V-HACD, one hull; each is reported."""
 
 from __future__ import annotations
 
@@ -63,23 +63,21 @@ def search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPie
     it; a clock makes no hulls coarser.
     """
     degraded: tuple[str, ...] = ()
-    searched = 0
     for attempt in _attempts(solid, error_m, config):
         found: list[Triangles] = []
         fault: str | None = attempt.too_much
         if not fault:
             found, fault = _answer(attempt)
-        searched += len(found)
         hulls = [hull for vertices, _ in found if (hull := hull_of(vertices)) is not None]
         fault = fault or complaint(solid, hulls, attempt.outside_m)
         if fault is None:
-            return SolidPieces(tuple(hulls), attempt.method, degraded, searched=searched)
+            return SolidPieces(tuple(hulls), attempt.method, degraded)
         degraded += (f"{attempt.name}: {fault}",)
     whole = hull_of(triangles_of(solid)[0])
     if whole is None:
         return NOTHING
     degraded += ("one convex hull stands for a solid that is not convex",)
-    return SolidPieces((whole,), "hull", degraded, searched=searched)
+    return SolidPieces((whole,), "hull", degraded)
 
 
 def _answer(attempt: _Attempt) -> tuple[list[Triangles], str | None]:
@@ -106,30 +104,9 @@ def _answer(attempt: _Attempt) -> tuple[list[Triangles], str | None]:
 
 
 def _attempts(solid: Manifold, error_m: float, config: DecomposeConfig) -> Iterator[_Attempt]:
-    """Yield every engine, the most faithful first."""
+    """Yield every engine, the more faithful first; CoACD is not asked of what is intricate."""
     limits = Limits(wall_s=config.wall_s, memory_bytes=config.memory_bytes)
-    fine = simplified(solid, config.max_faces, 0.1 * error_m)
-    yield _by_coacd("CoACD", solid, fine, error_m, config, limits)
-    coarse = simplified(solid, config.max_faces // 4, 0.5 * error_m)
-    name = "CoACD on a coarser mesh with twice the error"
-    yield _by_coacd(name, solid, coarse, 2.0 * error_m, config, limits)
-    most = min(config.max_hulls, 64)
-    run = partial(run_isolated, vhacd_pieces, triangles_of(fine), most, limits=limits)
-    yield _Attempt("V-HACD", "vhacd", run, VOXEL_FACTOR * error_m)
-
-
-def _by_coacd(
-    name: str,
-    solid: Manifold,
-    light: Manifold,
-    error_m: float,
-    config: DecomposeConfig,
-    limits: Limits,
-) -> _Attempt:
-    """Return CoACD on a solid as light as it stays closed, unless that is intricate.
-
-    No concavity larger than ``error_m`` is to be left [m].
-    """
+    light = simplified(solid, config.max_faces, 0.1 * error_m)
     # One pass leaves what the next one takes away.
     within = solid.simplify(0.5 * error_m).simplify(0.5 * error_m)
     given = light if light.num_tri() <= config.max_faces else within
@@ -140,7 +117,10 @@ def _by_coacd(
             f"want at most {INTRICATE}"
         )
     run = partial(run_isolated, coacd_pieces, triangles_of(given), error_m, config, limits=limits)
-    return _Attempt(name, "coacd", run, error_m, too_much)
+    yield _Attempt("CoACD", "coacd", run, error_m, too_much)
+    most = min(config.max_hulls, 64)
+    run = partial(run_isolated, vhacd_pieces, triangles_of(light), most, limits=limits)
+    yield _Attempt("V-HACD", "vhacd", run, VOXEL_FACTOR * error_m)
 
 
 def complaint(solid: Manifold, hulls: list[Hull], outside_m: float) -> str | None:

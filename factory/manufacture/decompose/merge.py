@@ -20,7 +20,7 @@ from .solids import manifold_of_hull
 TOGETHER = 24
 #: Pairs that might be joined, before the rest stay as they are: a count, not a clock, so that the
 #: same hulls always end the same.
-MOST_LOOKS = 2000
+MOST_LOOKS = 6000
 
 
 @dataclass
@@ -79,25 +79,17 @@ def _join_greedily(
     for i in range(len(left)):
         others = range(len(left), len(clusters)) if right else range(i + 1, len(left))
         _offer(queue, clusters, i, list(others), yardstick)
-    given = len(clusters)
-    fresh = given
+    fresh = len(clusters)
     while queue:
         _, i, j = heapq.heappop(queue)
         if i not in clusters or j not in clusters:
             continue
-        first = clusters[i]
-        second = clusters[j]
         # Only now: most pairs that might be joined never are, since one of them is joined before.
-        # In the order in which they were offered: a hull of the same points otherwise may be off
-        # by rounding.
-        offered = (second, first) if j >= given else (first, second)
-        if not _allowed(*offered, yardstick):
-            continue
-        hull = _joined(first, second)
-        if hull is None:
+        joined = _joined_as_allowed(clusters[i], clusters[j], yardstick)
+        if joined is None:
             continue
         del clusters[i], clusters[j]
-        clusters[fresh] = _Cluster.of(hull, first.sources + second.sources)
+        clusters[fresh] = joined
         _offer(queue, clusters, fresh, [k for k in clusters if k != fresh], yardstick)
         fresh += 1
     return list(clusters.values())
@@ -142,13 +134,15 @@ def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
     return max(filled, 0.0)
 
 
-def _allowed(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> bool:
-    """Return whether two clusters may be one hull: it fills nothing that must stay open."""
+def _joined_as_allowed(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> _Cluster | None:
+    """Return two clusters as one; ``None`` if its hull fills what must stay open."""
     hull = _joined(first, second)
     if hull is None or yardstick.room.entered(hull, (first.hull, second.hull)):
-        return False
+        return None
     sources = first.sources + second.sources
-    return fills_little(hull, sources, yardstick.error_m, yardstick.slot_m)
+    if not fills_little(hull, sources, yardstick.error_m, yardstick.slot_m):
+        return None
+    return _Cluster.of(hull, sources)
 
 
 def _gap(first: _Cluster, second: _Cluster, points: FloatArray) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -11,14 +12,13 @@ from ...asset import Hull
 from ...config import DecomposeConfig
 from .cut import as_one, cut_along_faces
 from .ladder import search
-from .merge import merge
-from .pieces import SolidPieces
+from .pieces import NOTHING, SolidPieces
 from .pockets import fills_little
 from .room import Room
 from .simplify import simplified
 from .solids import LEAST_VOLUME_M3, inside, manifold_of_hull
 
-__all__ = ["METHODS", "SolidPieces", "refined", "slot_of", "split_solid"]
+__all__ = ["METHODS", "SolidPieces", "slot_of", "split_closely", "split_solid"]
 
 #: Exact pieces that are kept as they are; more are joined where that fills little.
 FEW_PIECES = 32
@@ -28,10 +28,8 @@ MOST_CUTS = 96
 SMOOTHING_SHARE = 0.1
 #: No solid is split more finely than to this share of the least error.
 FINEST_SHARE = 0.5
-#: Hulls of one solid that are split again at most, in each round.
-MOST_REFINED = 16
-#: And none once CoACD and V-HACD made so many pieces of the solid: each takes them 0.1 to 0.3 s.
-MOST_SEARCHED = 64
+#: Hulls of one solid that are split again at most: a search for pieces of one takes seconds.
+MOST_AGAIN = 32
 
 Method = Callable[[Manifold, float, DecomposeConfig], SolidPieces | None]
 
@@ -54,22 +52,14 @@ def along_faces(solid: Manifold, error_m: float, config: DecomposeConfig) -> Sol
 def along_simplified_faces(
     solid: Manifold, error_m: float, config: DecomposeConfig
 ) -> SolidPieces | None:
-    """Return more pieces, cut along the faces of a smoother solid and joined again."""
+    """Return more pieces, cut along the faces of a smoother solid."""
     light = simplified(solid, config.max_faces, SMOOTHING_SHARE * error_m)
     cut = cut_along_faces(light, error_m, MOST_CUTS, slot_of(config))
-    if cut is None:
-        return None
-    return SolidPieces(tuple(merge(list(cut.hulls), error_m, slot_of(config))), "cut")
-
-
-def by_search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
-    """Return the pieces of CoACD, else V-HACD, else one hull, joined; see :mod:`.ladder`."""
-    found = search(solid, error_m, config)
-    return replace(found, hulls=tuple(merge(list(found.hulls), error_m, slot_of(config))))
+    return None if cut is None else replace(cut, method="cut")
 
 
 #: Every method, in the order in which they are tried; the last always has an answer.
-METHODS: tuple[Method, ...] = (whole, along_faces, along_simplified_faces, by_search)
+METHODS: tuple[Method, ...] = (whole, along_faces, along_simplified_faces, search)
 
 
 def split_solid(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
@@ -81,31 +71,31 @@ def split_solid(solid: Manifold, error_m: float, config: DecomposeConfig) -> Sol
     return next(split for split in found if split is not None)
 
 
-def refined(
-    solid: Manifold, split: SolidPieces, error_m: float, config: DecomposeConfig, room: Room
+def split_closely(
+    solid: Manifold, error_m: float, config: DecomposeConfig, room: Room
 ) -> SolidPieces:
-    """Return the same pieces, with those that cannot stay split again with half the error.
+    """Return the convex pieces of a closed manifold, those that cannot stay split again.
 
-    Those take other parts' room, or fill more than the least error where slots are; where the solid
-    itself lies in that room, nothing helps.
+    Those take other parts' room, or fill more than the least error where slots are: they are split
+    with half the error, and so on. Where the solid itself lies in that room, nothing helps.
     """
-    finer = error_m / 2.0
-    if split.exact or finer < FINEST_SHARE * config.error_m:
-        return split
-    bad = [hull for hull in split.hulls if not _may_stay(hull, solid, error_m, config, room)]
-    again = {id(hull) for hull in bad[:MOST_REFINED]}
-    found = replace(split, hulls=())
-    for hull in split.hulls:
-        if id(hull) not in again or found.searched >= MOST_SEARCHED:
-            found = replace(found, hulls=(*found.hulls, hull))
-            continue
-        for piece in (solid ^ manifold_of_hull(hull)).decompose():
-            if piece.volume() <= LEAST_VOLUME_M3:
+    found = NOTHING
+    waiting = deque([(solid, error_m)])
+    again = 0
+    while waiting:
+        piece, error_m = waiting.popleft()
+        split = split_solid(piece, error_m, config)
+        finer = error_m / 2.0
+        final = split.method == "exact" or finer < FINEST_SHARE * config.error_m
+        kept = []
+        for hull in split.hulls:
+            if final or again >= MOST_AGAIN or _may_stay(hull, piece, error_m, config, room):
+                kept.append(hull)
                 continue
-            part = split_solid(piece, finer, config)
-            part = replace(part, searched=found.searched + part.searched)
-            part = refined(piece, part, finer, config, room)
-            found = replace(found + part, searched=part.searched)
+            again += 1
+            within = (piece ^ manifold_of_hull(hull)).decompose()
+            waiting += [(part, finer) for part in within if part.volume() > LEAST_VOLUME_M3]
+        found += replace(split, hulls=tuple(kept))
     return found
 
 

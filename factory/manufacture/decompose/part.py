@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from manifold3d import Manifold
@@ -13,7 +14,7 @@ from ...mesh import FloatArray, IntArray
 from .convex import concavity, depth_below, hull_of, limit_vertices, surface_points
 from .cut import opened
 from .merge import merge
-from .methods import refined, slot_of, split_solid
+from .methods import slot_of, split_closely
 from .openings import as_shell, closed
 from .outside import uncovered
 from .pieces import NOTHING, SolidPieces
@@ -22,7 +23,7 @@ from .sheets import slabs
 from .simplify import lighter
 from .solids import Gated, OpenSurface, contains, gate, union
 
-#: A part of more hulls than this has them joined where that fills little, even exact ones.
+#: Of more hulls than this even exact ones are joined where that fills little.
 MANY_HULLS = 24
 #: How far a simplified open surface may leave the original bare, as a share of the error.
 COVER_SHARE = 0.6
@@ -62,17 +63,15 @@ def split_part(
         if shell is not None:
             found += SolidPieces((shell,), "single")
         elif solid is not None:
-            found += SolidPieces((), "exact")
             solids += solid.decompose()
         else:
             walls += _cover(sheet, vertices.mean(axis=0), config)
     for solid in solids:
-        found += refined(solid, split_solid(solid, error_m, config), error_m, config, room)
+        found += split_closely(solid, error_m, config, room)
     if walls:
         proud = _not_inside_others([*found.hulls, *walls], PROUD_SHARE * config.error_m)
         solid_ones = {id(hull) for hull in found.hulls}
         walls = [hull for hull in proud if id(hull) not in solid_ones]
-        walls = merge(walls, error_m, slot_of(config), room)
         found += SolidPieces(tuple(walls), "sheets")
     return _finished(found, error_m, config, room) if found.hulls else None
 
@@ -80,14 +79,12 @@ def split_part(
 def _finished(
     found: SolidPieces, error_m: float, config: DecomposeConfig, room: Room
 ) -> SolidPieces:
-    """Return pieces of one part joined where they are many, none in another, none too fine."""
+    """Return pieces of one part joined where that fills little, none in another, none too fine."""
     hulls = list(found.hulls)
-    if len(hulls) > MANY_HULLS:
+    if found.method != "exact" or len(hulls) > MANY_HULLS:
         hulls = merge(hulls, error_m, slot_of(config), room)
-    exact = found.exact and len(hulls) == len(found.hulls)
-    exact = exact and all(len(hull.vertices) <= config.max_vertices for hull in hulls)
     limited = [limit_vertices(each, config.max_vertices) for each in _not_inside_others(hulls)]
-    return SolidPieces(tuple(limited), found.method, found.degraded, exact)
+    return replace(found, hulls=tuple(limited))
 
 
 def _single(
@@ -98,8 +95,6 @@ def _single(
         return None
     hull = hull_of(vertices[np.unique(faces)])
     if hull is None or concavity(vertices, faces, hull) > error_m:
-        return None
-    if sum(solid.volume() for solid in gated.solids) < config.near_convex * hull.volume:
         return None
     if union(list(gated.solids)).volume() < config.near_convex * hull.volume:
         return None

@@ -22,16 +22,11 @@ class SolidPieces:
             (slabs over open surfaces), ``coacd``, ``vhacd``, ``hull`` (one hull, convex or not
             ); ``built`` (made from a one-piece mesh).
         degraded: one sentence for each thing given up on the way; empty when all went well.
-        exact: the hulls' union is the solid's own volume, no more and no less.
-        searched: pieces that CoACD and V-HACD made of it, failed attempts included: what their
-            time goes by.
     """
 
     hulls: tuple[Hull, ...]
     method: str
     degraded: tuple[str, ...] = ()
-    exact: bool = False
-    searched: int = 0
 
     def __add__(self, other: SolidPieces) -> SolidPieces:
         """Return the pieces of both, named after the less faithful."""
@@ -39,10 +34,8 @@ class SolidPieces:
             self.hulls + other.hulls,
             max(self.method, other.method, key=FAITHFUL.index),
             self.degraded + other.degraded,
-            self.exact and other.exact,
-            self.searched + other.searched,
         )
 
 
 #: Pieces of nothing.
-NOTHING = SolidPieces((), "exact", exact=True)
+NOTHING = SolidPieces((), "exact")

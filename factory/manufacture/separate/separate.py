@@ -130,7 +130,7 @@ def with_hulls(piece: SolidPieces, hulls: list[Hull], max_vertices: int) -> Soli
     if len(hulls) > len(piece.hulls):
         hulls = merge(hulls, EXACT_M)
     limited = tuple(limit_vertices(hull, max_vertices) for hull in hulls)
-    return replace(piece, hulls=limited, exact=False)
+    return replace(piece, hulls=limited)
 
 
 @dataclass(frozen=True)

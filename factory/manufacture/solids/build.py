@@ -208,7 +208,7 @@ def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:
 
 def _piece(hulls: tuple[Hull, ...], faces: int) -> SolidPieces | None:
     if not faces:
-        return SolidPieces((), "none", (), True)
+        return SolidPieces((), "none")
     if not hulls:
         return None
     return SolidPieces(hulls, "built")

@@ -16,10 +16,15 @@ from asset_factory.factory.errors import Unjudged
 from asset_factory.factory.manufacture.decompose import ladder, methods
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of, surface_points
 from asset_factory.factory.manufacture.decompose.decompose import decompose
-from asset_factory.factory.manufacture.decompose.methods import MOST_SEARCHED, SolidPieces, refined
+from asset_factory.factory.manufacture.decompose.methods import SolidPieces, split_closely
 from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.room import NOWHERE
-from asset_factory.factory.manufacture.decompose.solids import manifold_of, manifold_of_hull, union
+from asset_factory.factory.manufacture.decompose.solids import (
+    manifold_of,
+    manifold_of_hull,
+    triangles_of,
+    union,
+)
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.runtime.store import Store
 from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome, run_isolated
@@ -59,8 +64,7 @@ def torus_solid():
 
 def test_a_box_is_one_exact_hull():
     result = only(*boxes(((0.4, 0.3, 0.2), (1, 2, 3))))
-    wanted = ("exact", True, 1, ())
-    assert (result.method, result.exact, len(result.hulls), result.degraded) == wanted
+    assert (result.method, len(result.hulls), result.degraded) == ("exact", 1, ())
     assert result.hulls[0].volume == pytest.approx(0.024)
 
 
@@ -68,7 +72,7 @@ def test_boards_that_touch_are_one_hull_each_and_keep_their_cavity():
     sides = [((0.02, 0.4, 0.8), (x, 0, 0)) for x in (-0.29, 0.29)]
     back, top = ((0.6, 0.02, 0.8), (0, 0.2, 0)), ((0.56, 0.38, 0.02), (0, 0, 0.39))
     result = only(*boxes(back, *sides, top))
-    assert (result.method, result.exact, len(result.hulls)) == ("exact", True, 4)
+    assert (result.method, len(result.hulls)) == ("exact", 4)
     inside = np.random.default_rng(0).uniform(-1, 1, (500, 3)) * [0.27, 0.18, 0.37]
     assert max(depth_below(hull, inside).max() for hull in result.hulls) < 0.0
 
@@ -78,13 +82,13 @@ def test_a_hollow_body_keeps_its_cavity():
     inner = boxes(((0.36, 0.36, 0.36), (0, 0, 0)))
     faces = np.concatenate([outer[1], inner[1][:, ::-1] + len(outer[0])])
     result = only(np.concatenate([outer[0], inner[0]]), faces)
-    assert result.exact
+    assert result.method == "exact"
     assert cover_volume(result) == pytest.approx(0.4**3 - 0.36**3)
 
 
 def test_a_part_that_is_nearly_convex_is_one_hull():
     result = only(*boxes(((0.4, 0.3, 0.2), (0, 0, 0)), ((0.4, 0.3, 0.2), (0.002, 0.002, 0.0))))
-    assert (result.method, len(result.hulls), result.exact) == ("single", 1, False)
+    assert (result.method, len(result.hulls)) == ("single", 1)
 
 
 def test_a_carrier_has_no_hulls():
@@ -92,7 +96,7 @@ def test_a_carrier_has_no_hulls():
     mesh = Mesh.from_triangles(vertices, faces)
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, np.array([0, 0, 1.0]), np.zeros(3), 0.0, 0.1)
     results = decompose(parted({"body": [mesh], "carrier": []}, joint), CONFIG)
-    assert results[1] == SolidPieces((), "none", (), True)
+    assert results[1] == SolidPieces((), "none")
 
 
 def test_coacd_covers_a_curved_solid_keeps_its_hole_and_repeats_itself():
@@ -113,8 +117,7 @@ def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path):
     assert all(len(hull.vertices) <= config.max_vertices for hull in first.hulls)
     assert uncovered(first.hulls, surface_points(*torus())) < 0.003
     for other in (kept, anew):
-        wanted = (first.method, first.degraded, first.exact)
-        assert (other.method, other.degraded, other.exact) == wanted
+        assert (other.method, other.degraded) == (first.method, first.degraded)
         for a, b in zip(first.hulls, other.hulls, strict=True):
             assert a.vertices.tobytes() == b.vertices.tobytes()
             assert a.faces.tobytes() == b.faces.tobytes()
@@ -147,7 +150,7 @@ CUBE = boxes(((0.2, 0.2, 0.2), (0, 0, 0)))
 )
 def test_inputs_that_break_coacd_come_out_exact(name, vertices, faces, volume):
     result = only(vertices, faces)
-    assert result.exact, name
+    assert result.method == "exact", name
     assert cover_volume(result) == pytest.approx(volume, rel=1e-6)
 
 
@@ -163,7 +166,7 @@ def test_open_surfaces_become_thin_slabs(vertices, faces):
     vertices = np.asarray(vertices, dtype=float)
     faces = np.asarray(faces)
     result = only(vertices, faces)
-    assert (result.method, result.exact) == ("sheets", False)
+    assert result.method == "sheets"
     assert uncovered(result.hulls, surface_points(vertices, faces)) < 1e-9
     area = trimesh.Trimesh(vertices, faces, process=False).area
     assert cover_volume(result) <= 1.01 * area * CONFIG.shell_m
@@ -204,9 +207,9 @@ def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(monkeypatch):
     found = ladder.search(torus_solid(), 0.01, CONFIG)
     assert (found.method, len(found.hulls)) == ("hull", 1)
     # A crash is believed when it comes again.
-    assert asked == [ladder.coacd_pieces] * 4 + [ladder.vhacd_pieces]
+    assert asked == [ladder.coacd_pieces] * 2 + [ladder.vhacd_pieces]
     assert "SIGSEGV" in found.degraded[0]
-    assert len(found.degraded) == 4
+    assert len(found.degraded) == 3
 
 
 @pytest.mark.parametrize(
@@ -261,20 +264,25 @@ def test_coacd_is_asked_of_what_is_simple_within_the_error_only(monkeypatch):
     smooth = torus_solid().refine(8)
     assert smooth.num_tri() > 30_000
     ladder.search(smooth, 0.01, DecomposeConfig())
-    assert [function for function, _ in asked] == [ladder.coacd_pieces] * 2 + [ladder.vhacd_pieces]
+    assert [function for function, _ in asked] == [ladder.coacd_pieces, ladder.vhacd_pieces]
     assert all(faces <= 2000 for _, faces in asked)
 
 
-def test_pieces_are_split_again_up_to_a_count():
-    solid = torus_solid()
-    whole = hull_of(torus()[0])
-    assert whole is not None
-    few, many = (
-        refined(solid, SolidPieces((whole,), "coacd", searched=searched), 0.01, CONFIG, NOWHERE)
-        for searched in (0, MOST_SEARCHED)
-    )
-    assert len(few.hulls) > 1
-    assert many.hulls == (whole,)
+def test_pieces_are_split_again_up_to_a_count(monkeypatch):
+    def halved(solid, error_m, config):
+        """Two hulls, whatever they fill."""
+        low, high = np.array(solid.bounding_box()).reshape(2, 3)
+        axis = int((high - low).argmax())
+        halves = solid.split_by_plane(np.eye(3)[axis], float(low[axis] + high[axis]) / 2.0)
+        return SolidPieces(tuple(hull_of(triangles_of(half)[0]) for half in halves), "cut")
+
+    monkeypatch.setattr(methods, "METHODS", (halved,))
+    monkeypatch.setattr(methods, "MOST_AGAIN", 1)
+    once = split_closely(torus_solid(), 0.01, CONFIG, NOWHERE)
+    assert len(once.hulls) == 3
+    monkeypatch.undo()
+    monkeypatch.setattr(methods, "METHODS", (halved,))
+    assert len(split_closely(torus_solid(), 0.01, CONFIG, NOWHERE).hulls) == 4
 
 
 @pytest.mark.full
@@ -327,5 +335,5 @@ def test_any_pile_of_boxes_is_covered_and_nothing_reaches_farther_than_the_error
     extra = cover_volume(result) - solid.volume()
     assert extra >= -1e-9
     assert extra <= 0.005 * solid.surface_area()
-    if result.exact:
+    if result.method == "exact":
         assert extra == pytest.approx(0.0, abs=1e-9)

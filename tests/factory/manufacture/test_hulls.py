@@ -80,10 +80,10 @@ def test_a_hull_may_fill_dents_and_slots_within_the_error_and_nothing_wider():
 
 def test_boxes_are_exact_and_boards_are_cut_exactly():
     whole = as_one(solid_box((0.4, 0.3, 0.1)), 0.005)
-    assert whole.exact
+    assert whole.method == "exact"
     shape = solid_box((0.4, 0.3, 0.02)) + solid_box((0.02, 0.3, 0.4))
     cut = cut_along_faces(shape, 0.005, 8)
-    assert cut.exact
+    assert cut.method == "exact"
     assert len(cut.hulls) == 2
     assert sum(hull.volume for hull in cut.hulls) == pytest.approx(shape.volume(), rel=1e-9)
 
@@ -91,7 +91,7 @@ def test_boxes_are_exact_and_boards_are_cut_exactly():
 def test_a_ring_is_cut_into_its_four_bars():
     frame = solid_box((1.0, 0.05, 2.0)) - solid_box((0.8, 0.05, 1.8), (0.1, 0.0, 0.1))
     cut = cut_along_faces(frame, 0.005, 16)
-    assert cut.exact
+    assert cut.method == "exact"
     assert len(cut.hulls) == 4
     assert sum(hull.volume for hull in cut.hulls) == pytest.approx(frame.volume(), rel=1e-9)
 

@@ -91,7 +91,7 @@ def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not
         joints = (Joint("one", "prismatic", 0, 1, *way), Joint("two", "prismatic", 0, 2, *way))
         boxes = {"back": [back], "left": [left], "right": [right]}
         tree = parted({name: [mesh_of(own)] for name, own in boxes.items()}, *joints)
-        pieces = tuple(SolidPieces(hulls_of(own), "exact", (), True) for own in boxes.values())
+        pieces = tuple(SolidPieces(hulls_of(own), "exact") for own in boxes.values())
         result = separate(tree, pieces, [("left", "right")], CONFIG, 64)
         assert (("left", "right") in result.refused) == refused
 
@@ -112,7 +112,7 @@ def test_a_cap_that_turns_and_lifts_is_held_by_its_bottle():
     turn = Joint("turn", "continuous", 1, 2, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
     parts = (apart.parts[0], Part("carrier", np.arange(0)), apart.parts[1])
     tree = replace(apart, parts=parts, joints=(lift, turn))
-    pieces = (before[0], SolidPieces((), "none", (), True), before[1])
+    pieces = (before[0], SolidPieces((), "none"), before[1])
     result = separate(tree, pieces, [PAIR], CONFIG, 64)
     assert result.refused == {}
     assert result.hidden[PAIR] == pytest.approx(0.007)

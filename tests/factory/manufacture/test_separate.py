@@ -44,7 +44,7 @@ def object_of(base, mover, joint=None, third=None):
 
 
 def pieces_of(*hulls):
-    return tuple(SolidPieces((one,), "exact", (), True) for one in hulls)
+    return tuple(SolidPieces((one,), "exact") for one in hulls)
 
 
 def gap(result, pose=None):
@@ -61,7 +61,6 @@ def test_what_decomposition_added_is_taken_off():
     assert gap(result) == pytest.approx(CONFIG.clearance_m, abs=1e-9)
     assert result.refused == {}
     assert result.hidden == {}
-    assert not all(piece.exact for piece in result.pieces[:2])
 
 
 def test_hulls_that_are_apart_are_not_touched():
@@ -132,7 +131,7 @@ def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.4)
     tree = parted({"base": solids[:2], "mover": solids[2:]}, slide)
     left, right, mover = (Hull(mesh.vertices, mesh.faces) for mesh in solids)
-    pieces = (SolidPieces((left, right), "exact", (), True), *pieces_of(mover))
+    pieces = (SolidPieces((left, right), "exact"), *pieces_of(mover))
     result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
     assert result.refused == {}
     assert result.pieces[1].hulls[0].volume == pytest.approx(mover.volume, rel=1e-6)

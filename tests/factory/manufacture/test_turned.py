@@ -45,7 +45,7 @@ RING = [turned(BOARD.copy(), angle) for angle in ANGLES]
 FLOOR = [trimesh.creation.box(bounds=[(-0.3, -0.3, -0.2), (0.3, 0.3, -0.06)])]
 
 
-PIECES = tuple(SolidPieces(hulls_of(each), "exact", (), True) for each in ([*RING, *FLOOR], KNOB))
+PIECES = tuple(SolidPieces(hulls_of(each), "exact") for each in ([*RING, *FLOOR], KNOB))
 
 
 def object_of(joint):
