@@ -51,10 +51,6 @@ class Box:
         """Return the box with every side moved out by ``margin`` [m], one or shape [3]."""
         return Box(self.low - np.asarray(margin), self.high + np.asarray(margin))
 
-    def within(self, other: Box) -> Box:
-        """Return what both hold."""
-        return Box(np.maximum(self.low, other.low), np.minimum(self.high, other.high))
-
     def turned(self, rows: FloatArray) -> Box:
         """Return the same box in a frame whose axes are ``rows``, quarter turns of this one's."""
         which = np.abs(rows).argmax(axis=1)

@@ -2,39 +2,28 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ...articulation import Articulation, rotation_about
 from ...asset import Hull
-from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
 
-#: Smaller angles are those of faces, not of the object [rad].
+#: Smaller angles are those of panels, not of the object [rad].
 LEAST_TURN = np.radians(1.5)
-#: Normals count that are at least this level.
-LEVEL = 0.3
 
 
 def working_frame(articulation: Articulation, parts: tuple[int, ...]) -> FloatArray:
-    """Return the frame (rows) along whose axes most upright faces of some parts look, [3, 3]."""
-    mesh = articulation.mesh
-    faces = np.concatenate([articulation.parts[part].faces for part in parts])
-    corners = mesh.vertices[mesh.faces[faces]]
-    normals = doubled_normals(corners)
-    area = np.linalg.norm(normals, axis=1)
-    upright = np.abs(normals[:, 2]) < LEVEL * area
-    normals = normals[upright]
-    # Four times the angle is one for faces a quarter turn apart; large faces count squared.
-    angle = np.arctan2(normals[:, 1], normals[:, 0]) * 4.0
-    weight = area[upright]
-    if not weight.sum() > 0.0:
+    """Return the frame (rows) along whose axes the largest panel among some parts lies, [3, 3]."""
+    given = (articulation.parts[part].panel for part in parts)
+    panels = [panel for panel in given if panel is not None]
+    if not panels:
         return np.eye(3)
-    total = np.sum(weight * np.exp(1j * angle))
-    turn = float(np.angle(total)) / 4.0
-    strength = float(np.abs(total)) / float(weight.sum())
-    if abs(turn) < LEAST_TURN or strength < 0.5:
-        return np.eye(3)
-    return rotation_about([0.0, 0.0, 1.0], -turn)
+    right = max(panels, key=lambda panel: float(panel.size.prod())).frame[0]
+    # Sides are a quarter turn apart.
+    turn = math.remainder(math.atan2(right[1], right[0]), math.pi / 2.0)
+    return np.eye(3) if abs(turn) < LEAST_TURN else rotation_about([0.0, 0.0, 1.0], -turn)
 
 
 def turned_hull(hull: Hull, rotation: FloatArray) -> Hull:

@@ -25,6 +25,7 @@ VOTES = 2
 SHUT_IN = 5
 #: Cells along each axis.
 Span = tuple[slice, ...]
+#: Seen from these sides each axis points away.
 _SIDES = (Side.LEFT, Side.FRONT, Side.BOTTOM)
 
 
@@ -166,15 +167,11 @@ def _wound(mesh: Mesh, lattice: Lattice, axis: int, side: Side) -> BoolArray:
     step = min(float(np.median(np.diff(each))) for each in lattice.lines) * FINER
     raster = Raster.around(mesh, side, int(np.clip(longest / step, 64, 400)))
     crossed = crossings(mesh, raster)
-    along = lattice.middles[axis] * side.frame[2, axis]
-    backwards = side.frame[2, axis] < 0.0
-    steps = along[::-1] if backwards else along
-    place = np.searchsorted(steps, crossed.depth + raster.near)
-    count = np.zeros((raster.rows * raster.columns, len(steps) + 1), dtype=np.int16)
+    along = lattice.middles[axis]
+    place = np.searchsorted(along, crossed.depth + raster.near)
+    count = np.zeros((raster.rows * raster.columns, len(along) + 1), dtype=np.int16)
     np.add.at(count, (crossed.pixel, place), np.where(crossed.inward, 1, -1).astype(np.int16))
     inside = (np.cumsum(count, axis=1)[:, :-1] > 0).reshape(raster.rows, raster.columns, -1)
-    if backwards:
-        inside = inside[..., ::-1]
     right, right_index = _nearest(
         lattice, side.frame[0], raster.low[0], raster.pixel, raster.columns
     )

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...articulation import Articulation, Joint, JointKind
+from ...articulation import Articulation
 from ...geometry.posing import face_parts
 from ...geometry.triangles import doubled_normals
 from ...mesh import BoolArray, FloatArray
@@ -167,7 +167,7 @@ def recognize_bumps(
     for index in parts:
         points = mesh.vertices[np.unique(mesh.faces[articulation.parts[index].faces])]
         rim = mesh.vertices[np.unique(edges[(both == index).any(axis=1)])]
-        bump = find_bump(points, rim, _about(articulation, index))
+        bump = find_bump(points, rim, articulation.joints[index - 1])
         if bump is None:
             rest.append(index)
         else:
@@ -186,14 +186,3 @@ def cut_bases(skin: CutSkin, bumps: dict[int, Bump], hosts: dict[int, int]) -> C
         if not below.all():
             skin = replace(skin, part=np.where(below, hosts[index], skin.part))
     return skin
-
-
-def _about(articulation: Articulation, part: int) -> Joint:
-    """Return the joint of a part; of one on a carrier that turns, the turning one."""
-    joint = articulation.joints[part - 1]
-    above = joint.parent
-    if above and not len(articulation.parts[above].faces):
-        carrying = articulation.joints[above - 1]
-        if carrying.kind is JointKind.CONTINUOUS:
-            return carrying
-    return joint

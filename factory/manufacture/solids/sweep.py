@@ -13,7 +13,7 @@ from ...mesh import BoolArray, FloatArray
 from ..poses import moved
 from .box import Box
 from .lattice import Lattice
-from .panel import FlatPanel
+from .panel import FlatPanel, hinge_edge
 
 #: Poses along a joint.
 POSES = 40
@@ -76,12 +76,9 @@ def hung(
 
 def _lines(panel: FlatPanel, joint: Joint) -> list[tuple[Joint, str]]:
     frame = panel.side.frame
-    axis = frame @ joint.axis
     at = frame @ joint.origin
-    along = int(np.abs(axis[:2]).argmax())
-    across = 1 - along
-    ends = (panel.low[across], panel.high[across])
-    edge = 2 * across + int(abs(at[across] - ends[1]) < abs(at[across] - ends[0]))
+    edge = hinge_edge(panel, joint)
+    across, above = divmod(edge, 2)
     depths = {"slab back": panel.back + BEHIND_M, "slab front": panel.front}
     # What stands further before a panel is no frame, but a cistern behind a seat.
     if panel.front - panel.thickness <= panel.frame[edge] < np.inf:
@@ -89,7 +86,7 @@ def _lines(panel: FlatPanel, joint: Joint) -> list[tuple[Joint, str]]:
     lines = []
     for rule, depth in depths.items():
         there = at.copy()
-        there[across] = ends[edge % 2]
+        there[across] = panel.high[across] if above else panel.low[across]
         there[2] = depth
         lines.append((replace(joint, origin=there @ frame), rule))
     return lines
