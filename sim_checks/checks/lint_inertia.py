@@ -9,7 +9,7 @@ import numpy as np
 from ..config import LintConfig
 from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, sensible
 from ..geometry.hull import FlatHull, convex_hull
-from ..geometry.kinematics import find_tree
+from ..geometry.kinematics import Tree
 from ..geometry.placing import box_around, diagonal
 from .result import Findings, error, graded, in_mm, measured, rounded, significant, warning
 
@@ -17,14 +17,13 @@ from .result import Findings, error, graded, in_mm, measured, rounded, significa
 TRIANGLE_SLACK = 1e-3
 
 
-def missing_inertia_findings(description: Description) -> Findings:
+def missing_inertia_findings(description: Description, tree: Tree | None) -> Findings:
     """Yield an error where a moving link has no inertia, a warning where a still one has none.
 
     MuJoCo's compiler makes up what an MJCF leaves out, by a rule of the format.
     """
     if description.format != "urdf":
         return
-    tree = find_tree(description)
     every = tuple(link.name for link in description.links)
     parts = (every,) if tree is None else tree.parts
     bare = {link.name for link in description.links if link.inertia is None}
