@@ -11,6 +11,7 @@ from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, se
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import Tree
 from ..geometry.placing import box_around, diagonal
+from ..geometry.surfaces import VisibleSurface
 from .result import Findings, error, graded, in_mm, measured, rounded, significant, warning
 
 #: Relative slack of the triangle inequality: files are written with few digits.
@@ -175,8 +176,7 @@ def _visible_volume(link: Link, sheet: float) -> float:
     """
     enclosed = area = 0.0
     for shape in link.visuals:
-        corners = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        enclosed += abs(float((corners[:, 0] * normals).sum())) / 6.0
-        area += float(np.linalg.norm(normals, axis=1).sum()) / 2.0
+        surface = VisibleSurface(shape.vertices, shape.faces)
+        enclosed += abs(surface.volume)
+        area += float(surface.areas.sum())
     return max(enclosed, 0.5 * area * sheet)
