@@ -117,7 +117,7 @@ class _Together:
         """Return the worst of the pairs of parts that count, by pair, with a joint at one value."""
         self.looks.take(SWEEP_LOOKS)
         found = self._course(joint, other, at, only).run().pairs
-        return {pair.parts: pair for pair in found if pair.contact.kind is PairKind.PLAIN}
+        return {pair.parts: pair for pair in found if pair.kind is PairKind.PLAIN}
 
     def _course(
         self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]

@@ -25,7 +25,7 @@ from .neighbours import open_neighbours
 from .opening import judge_joints
 from .pairs import RestingSolids
 from .penetration_report import report, told_parts
-from .penetration_study import Combination, Contact, PairKind, PartPair, PenetrationStudy
+from .penetration_study import Contact, PairKind, PartPair, PenetrationStudy
 from .result import CheckResult
 from .visible import Visible
 
@@ -119,19 +119,19 @@ def _at_zero(rest: RestingSolids) -> tuple[Contact, ...] | None:
     return rest.worst(rest.solids.standings(rest.config.clearance_m), {})
 
 
-def _combinations(rest: RestingSolids) -> tuple[Combination, ...]:
-    """Return the combination in which each pair of parts overlaps deepest beyond rest."""
-    depths = {solids: max(0.0, overlap.depth) for solids, overlap in rest.overlaps.items()}
-    worst: dict[PartPair, Combination] = {}
+def _combinations(rest: RestingSolids) -> tuple[Contact, ...]:
+    """Return how each pair of parts meets in the combination in which it is deepest beyond rest."""
+    worst: dict[PartPair, Contact] = {}
     for values in combination_values(rest.solids.tree.ranges, rest.config.combinations):
         rest.solids.place(values)
         for pair in rest.solids.standings(0.0):
-            key = rest.parts(pair.first, pair.second)
-            excess = pair.overlap.depth - depths.get((pair.first, pair.second), 0.0)
-            kind = rest.kind(pair.first, pair.second)
-            if kind is PairKind.PLAIN and (key not in worst or excess > worst[key].excess):
-                contact = rest.contact(pair.first, pair.second, pair.overlap.depth, kind, values)
-                worst[key] = Combination(values, contact, excess)
+            solids = (pair.first, pair.second)
+            if rest.kind(*solids) is not PairKind.PLAIN:
+                continue
+            key = rest.parts(*solids)
+            depth = pair.overlap.depth
+            if key not in worst or depth - rest.depth(*solids) > worst[key].excess:
+                worst[key] = rest.contact(*solids, depth, PairKind.PLAIN, values)
     return tuple(worst[key] for key in sorted(worst))
 
 
