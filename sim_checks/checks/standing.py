@@ -20,10 +20,10 @@ from ..config import StandingConfig
 from ..description import DescribedShape, Description, FloatArray, JointLine, Link
 from ..geometry.hull import FlatHull, convex_hull
 from ..geometry.kinematics import Poser, Tree, find_tree, unit_axis
+from ..geometry.statics import GRAVITY
 from ..report import Finding
 from .result import CheckResult, Findings, measured, warning
 
-GRAVITY = 9.81
 #: Values of a joint's range that are tried before the worst is refined.
 SAMPLES = 17
 #: Points this much alike in distance are equally far [m].
