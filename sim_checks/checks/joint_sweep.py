@@ -176,12 +176,12 @@ class _Encounter:
             if only is not None and rest.parts(mover, stander) not in only:
                 continue
             overlap = rest.overlap(mover, stander)
-            directions: tuple[FloatArray, ...] = ()
-            # Directions known at rest hold for this path only if it starts there.
+            known = None
+            # A direction known at rest holds for this path only if it starts there.
             if overlap is not None and at_rest:
-                directions = (overlap.direction * (1.0 if mover < stander else -1.0),)
+                known = overlap.direction * (1.0 if mover < stander else -1.0)
             group = rest.parts(mover, stander), rest.kind(mover, stander)
-            candidate = Candidate(row, column, rest.depth(mover, stander), directions)
+            candidate = Candidate(row, column, rest.depth(mover, stander), known)
             groups.setdefault(group, []).append(candidate)
         return groups
 

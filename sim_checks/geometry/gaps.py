@@ -19,14 +19,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-import numpy.typing as npt
 from scipy.sparse.csgraph import connected_components
 
-from ..description import FloatArray, IntArray
+from ..description import BoolArray, FloatArray, IntArray
 from .collision import Skin
 from .surfaces import WELD, Patch, PosedSurface, SurfaceMeeting, VisibleSurface, patches
-
-BoolArray = npt.NDArray[np.bool_]
 
 #: First and finest pull [m].
 FINEST = 1e-5
