@@ -52,9 +52,10 @@ def _side_strayed(
     remains = own.without(rows) if len(rows) else None
     if remains is None:
         return False
-    left = [patch.whole for patch in found]
-    left[side] = PosedSurface(remains, left[side].pose)
-    if visible_gap(*left, meeting) < -allowed:
+    left = PosedSurface(remains, found[side].whole.pose)
+    whole = found[1 - side].whole
+    one, other = (left, whole) if side == 0 else (whole, left)
+    if visible_gap(one, other, meeting) < -allowed:
         return False
     rest = PosedSurface(remains, at_rest[side].pose)
     pieces = (VisibleSurface(own.vertices, own.faces[own.pieces == piece]) for piece in small)
