@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
 
 #: No position [m], angle [rad] or ratio of a household thing is larger; whatever is, is a slip or
 #: an attack.

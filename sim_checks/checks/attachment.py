@@ -13,7 +13,6 @@ from ..geometry.collision import Skin
 from ..geometry.kinematics import build_tree, sweep_range
 from ..geometry.path import joint_path
 from ..geometry.placing import box_gap, joined, placed
-from .lint_ranges import closed_poses
 from .result import CheckResult, about, error, in_mm
 
 #: Poses along a joint that are asked, both ends among them.
@@ -48,7 +47,7 @@ class _Surfaces:
 
     def __init__(self, description: Description) -> None:
         self.tree = build_tree(description)
-        self._poses = closed_poses(self.tree)
+        self._poses = self.tree.link_poses(self.tree.closed)
         self._links = {link.name: link for link in description.links}
         self._part_of = self.tree.part_of()
         self._joint_above = {joint.child: joint for joint in self.tree.order}

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,17 +17,10 @@ from ..geometry.path import Path
 from .cause import MOST_OF_THE_RANGE, Way, shown_cause
 from .joint_sweep import JointCourse, clear_until
 from .pairs import RestingSolids
-from .penetration_study import (
-    BothOpen,
-    Combination,
-    Contact,
-    JointSweep,
-    PairKind,
-    PairSweep,
-    PenetrationStudy,
-)
+from .penetration_study import Contact, JointSweep, PairKind, PairSweep, PenetrationStudy
 from .visible import Visible
 
+AnyContact = TypeVar("AnyContact", bound=Contact)
 #: A whole turn has no other way round [rad].
 WHOLE_TURN = 2.0 * np.pi - 1e-6
 
@@ -45,14 +39,14 @@ class Diagnosis:
 
     def explained(self, study: PenetrationStudy) -> PenetrationStudy:
         """Return the same study, with visible surfaces and a cause for all that is too deep."""
-        met = study.neighbours.met
+        met = (replace(item, pair=self._met_open(item.pair)) for item in study.neighbours.met)
         return replace(
             study,
             rest=tuple(map(self._at_rest, study.rest)),
             zero=None if study.zero is None else tuple(map(self._at_rest, study.zero)),
             sweeps=tuple(map(self._along, study.sweeps)),
-            neighbours=replace(study.neighbours, met=tuple(map(self._both_open, met))),
-            combinations=tuple(map(self._combined, study.combinations)),
+            neighbours=replace(study.neighbours, met=tuple(met)),
+            combinations=tuple(map(self._met_open, study.combinations)),
         )
 
     def _at_rest(self, contact: Contact) -> Contact:
@@ -62,11 +56,11 @@ class Diagnosis:
 
     def _judged(
         self,
-        contact: Contact,
+        contact: AnyContact,
         allowed: float,
         at_rest: bool = False,
         way: Callable[[], Way] | None = None,
-    ) -> Contact:
+    ) -> AnyContact:
         visual = self.visible.gap(contact)
         meets = visual is not None and visual < -allowed
         leaked = meets and self.visible.strayed(contact, allowed)
@@ -95,8 +89,7 @@ class Diagnosis:
         if not sweep.pairs:
             return sweep
         nearest = max(sweep.pairs, key=lambda pair: pair.excess)
-        contact = replace(nearest.contact, visual=self.visible.gap(nearest.contact))
-        seen = replace(nearest, contact=contact)
+        seen = replace(nearest, visual=self.visible.gap(nearest))
         pairs = tuple(seen if pair is nearest else pair for pair in sweep.pairs)
         return replace(sweep, pairs=pairs)
 
@@ -107,21 +100,18 @@ class Diagnosis:
         course: JointCourse,
         otherwise: Callable[[], float | None],
     ) -> PairSweep:
-        at_rest = max(0.0, pair.contact.depth - pair.excess)
-
         def way() -> Way:
             alone = replace(course, only=frozenset({pair.parts}))
             clear = (clear_until(alone, pair) - sweep.lower) / (sweep.upper - sweep.lower)
             # Where the joint opens for most of its way, no other is looked for.
             other = otherwise() if clear < MOST_OF_THE_RANGE else None
-            return Way(clear, sweep.excess, other, at_rest)
+            return Way(clear, sweep.excess, other, pair.at_rest)
 
         # How a joint goes says something of what blocks it, not of its knuckles or of pairs that
         # may touch. Where another joint would have to make way first, it says nothing of this one.
-        plain = pair.contact.kind is PairKind.PLAIN and not sweep.waits_for
-        allowed = self.rest.config.excess_m + at_rest
-        contact = self._judged(pair.contact, allowed, way=way if plain else None)
-        return replace(pair, contact=contact)
+        plain = pair.kind is PairKind.PLAIN and not sweep.waits_for
+        allowed = self.rest.config.excess_m + pair.at_rest
+        return self._judged(pair, allowed, way=way if plain else None)
 
     def _least_otherwise(self, course: JointCourse) -> float | None:
         """Return the least worst excess among the other motions that can be tried [m]."""
@@ -158,18 +148,8 @@ class Diagnosis:
         hung = [(own, nearer), (own, farther), (around, farther)]
         return (around, *(replace(path, origin=edge) for path, edge in hung))
 
-    def _both_open(self, item: BothOpen) -> BothOpen:
-        if item.pair.excess <= self.rest.config.excess_m:
-            return item
-        contact = self._met_open(item.pair.contact, item.pair.excess)
-        return replace(item, pair=replace(item.pair, contact=contact))
-
-    def _combined(self, item: Combination) -> Combination:
-        if item.excess <= self.rest.config.excess_m:
-            return item
-        return replace(item, contact=self._met_open(item.contact, item.excess))
-
-    def _met_open(self, contact: Contact, excess: float) -> Contact:
+    def _met_open(self, contact: AnyContact) -> AnyContact:
         """Tell only causes that the surfaces show: two open joints may meet by design."""
-        allowed = self.rest.config.excess_m + max(0.0, contact.depth - excess)
-        return self._judged(contact, allowed)
+        if contact.excess <= self.rest.config.excess_m:
+            return contact
+        return self._judged(contact, self.rest.config.excess_m + contact.at_rest)

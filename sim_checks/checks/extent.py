@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from ..config import WorkConfig
 from ..description import Description
-from ..geometry.kinematics import find_tree, free_ranges
+from ..geometry.kinematics import find_tree
 from ..report import Finding
 from .result import error
 
@@ -36,7 +36,7 @@ def oversized(description: Description, config: WorkConfig) -> Finding | None:
 def undriven(description: Description, name: str, config: WorkConfig) -> Finding | None:
     """Return why a simulator is not asked, if driving every joint takes too much of it."""
     tree = find_tree(description)
-    driven = 0 if tree is None else len(free_ranges(tree))
+    driven = 0 if tree is None else len(tree.ranges)
     work = driven * len(description.links)
     if work <= config.driven_links:
         return None

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -57,20 +55,11 @@ def judge_in_simulator(
     soft = description.format in engine.soft_friction
     creep = check_creep(description, name, observation, config, soft=soft)
     measurements: dict[str, Any] = {
-        "loading": _writable(loading.measurements),
-        "motion": {**_writable(motion.measurements), **_writable(creep.measurements)},
+        "loading": loading.measurements,
+        "motion": {**motion.measurements, **creep.measurements},
         "blind_spots": list(engine.blind_spots),
     }
     return CheckResult((*loading.findings, *motion.findings, *creep.findings), measurements)
-
-
-def _writable(data: Any) -> Any:
-    """Return the same JSON data with ``None`` for NaN and infinity, which broken files lead to."""
-    if isinstance(data, Mapping):
-        return {key: _writable(value) for key, value in data.items()}
-    if isinstance(data, list | tuple):
-        return [_writable(value) for value in data]
-    return None if isinstance(data, float) and not math.isfinite(data) else data
 
 
 def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
+from operator import itemgetter
 
 import numpy as np
 
@@ -34,7 +35,7 @@ def clear_until(course: JointCourse, failing: PairSweep) -> float:
     Found by halving. What the course looks at decides which pairs count.
     """
     name = course.joint.name
-    kind = failing.contact.kind
+    kind = failing.kind
     course = replace(course, located=False, decides=True)
     clear = course.rest.lower[name]
     fails = failing.at
@@ -42,7 +43,7 @@ def clear_until(course: JointCourse, failing: PairSweep) -> float:
         middle = (clear + fails) / 2.0
         rest = replace(course.rest, upper={**course.rest.upper, name: middle})
         pairs = replace(course, rest=rest).run().pairs
-        alike = (pair for pair in pairs if pair.contact.kind is kind)
+        alike = (pair for pair in pairs if pair.kind is kind)
         worst = max((pair.excess for pair in alike), default=0.0)
         clear, fails = (middle, fails) if worst <= rest.config.excess_m else (clear, middle)
     return clear
@@ -82,7 +83,8 @@ class JointCourse:
         # Without followers there are two groups only: what moves and what stands.
         for standing, moving in combinations(self._groups(), 2):
             encounter = self._encounter(moving, standing)
-            for key, pair in encounter.pairs():
+            for pair in encounter.pairs():
+                key = pair.parts, pair.kind
                 if key not in found or pair.excess > found[key].excess:
                     found[key] = pair
             looks += encounter.sweep.looks
@@ -147,18 +149,15 @@ class _Encounter:
     standing: Sequence[int]
     frame: AnyPath | None
 
-    def pairs(self) -> Iterator[tuple[tuple[PartPair, PairKind], PairSweep]]:
+    def pairs(self) -> Iterator[PairSweep]:
         """Yield the worst places, one or more for each pair of parts and kind."""
-        groups = self._candidates()
-        for parts, kind in sorted(groups):
-            candidates = groups[parts, kind]
+        for (_, kind), candidates in sorted(self._candidates().items(), key=itemgetter(0)):
             # Knuckles are few and each has to be one by itself.
             batches = [[item] for item in candidates] if kind is PairKind.HINGE else [candidates]
             for batch in batches:
                 worst = self.sweep.worst(batch, self._tolerance(kind))
                 if worst is not None:
-                    pair = self._pair(parts, kind, worst)
-                    yield (parts, pair.contact.kind), pair
+                    yield self._pair(kind, worst)
 
     def _tolerance(self, kind: PairKind) -> Tolerance:
         config = self.course.rest.config
@@ -176,17 +175,17 @@ class _Encounter:
             stander = self.standing[column]
             if only is not None and rest.parts(mover, stander) not in only:
                 continue
-            overlap = rest.overlaps.get((min(mover, stander), max(mover, stander)))
-            depth = 0.0 if overlap is None else max(0.0, overlap.depth)
-            directions: tuple[FloatArray, ...] = ()
-            # Directions known at rest hold for this path only if it starts there.
+            overlap = rest.overlap(mover, stander)
+            known = None
+            # A direction known at rest holds for this path only if it starts there.
             if overlap is not None and at_rest:
-                directions = (overlap.direction * (1.0 if mover < stander else -1.0),)
+                known = overlap.direction * (1.0 if mover < stander else -1.0)
             group = rest.parts(mover, stander), rest.kind(mover, stander)
-            groups.setdefault(group, []).append(Candidate(row, column, depth, directions))
+            candidate = Candidate(row, column, rest.depth(mover, stander), known)
+            groups.setdefault(group, []).append(candidate)
         return groups
 
-    def _pair(self, parts: PartPair, kind: PairKind, worst: Worst) -> PairSweep:
+    def _pair(self, kind: PairKind, worst: Worst) -> PairSweep:
         course = self.course
         sweep = self.sweep
         first = self.moving[worst.candidate.moving]
@@ -202,7 +201,7 @@ class _Encounter:
             frame = self.frame.pose(worst.at)
             point = frame[:3, :3] @ contact.point + frame[:3, 3]
             contact = replace(contact, point=tuple(point.tolist()))
-        return PairSweep(parts, contact, float(worst.excess), float(worst.bound), at)
+        return PairSweep(**vars(contact), bound=float(worst.bound), at=at)
 
     def _still_knuckle(self, first: int, second: int, worst: Worst) -> bool:
         """Return a knuckle stays within its radius and never gains more than it had."""

@@ -8,7 +8,8 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine
-from ..geometry.kinematics import MOVING_KINDS, NotATree, build_tree, find_tree
+from ..geometry.kinematics import MOVING_KINDS, NotATree, Tree, build_tree
+from ..report import Finding
 from .lint_inertia import inertia_findings, missing_inertia_findings
 from .lint_mimic import mimic_findings
 from .lint_ranges import range_findings
@@ -27,17 +28,25 @@ MOST_NAMED = 5
 
 def check_lint(description: Description, config: LintConfig) -> CheckResult:
     """Check all that can be known without moving anything."""
-    findings = [*_tree_findings(description)]
+    findings: list[Finding] = []
+    # Without a tree nothing has a place, and nobody knows what moves.
+    tree: Tree | None = None
+    try:
+        tree = build_tree(description)
+    except NotATree as caught:
+        findings.append(error("not_a_tree", f"the links form no tree: {caught}"))
+    findings += _name_findings(description)
     for joint in description.joints:
         findings += _joint_findings(joint, description, config)
-    findings += range_findings(description, config)
-    findings += resistance_findings(description, config)
+    findings += range_findings(description, tree, config)
+    if tree is not None:
+        findings += resistance_findings(description, tree, config)
     findings += mimic_findings(description)
     findings += _exempt_findings(description)
-    findings += missing_inertia_findings(description)
+    findings += missing_inertia_findings(description, tree)
     links: list[dict[str, Any]] = []
     touchable = any(link.collisions for link in description.links)
-    downs = _downs(description)
+    poses = {} if tree is None else tree.link_poses({})
     for link in description.links:
         # Where no link can be touched, that is said once for the file.
         if touchable and link.visuals and not link.collisions:
@@ -45,7 +54,8 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
             message = f"link {name} is visible but has no collision geometry: hands pass through it"
             findings.append(error("no_collision", message, parts=(link.name,)))
         findings += inertia_findings(link, config)
-        found, numbers = shape_findings(link, downs.get(link.name, DOWN), config)
+        down = DOWN if tree is None else poses[link.name][:3, :3].T @ DOWN
+        found, numbers = shape_findings(link, down, config)
         findings += found
         links.append({"link": link.name, **numbers})
     if not touchable:
@@ -61,18 +71,7 @@ def check_lint(description: Description, config: LintConfig) -> CheckResult:
     return CheckResult(tuple(findings), measurements)
 
 
-def _downs(description: Description) -> dict[str, FloatArray]:
-    """Return which way is down in each link's frame, with every joint at 0."""
-    tree = find_tree(description)
-    poses = {} if tree is None else tree.link_poses({})
-    return {name: pose[:3, :3].T @ DOWN for name, pose in poses.items()}
-
-
-def _tree_findings(description: Description) -> Findings:
-    try:
-        build_tree(description)
-    except NotATree as caught:
-        yield error("not_a_tree", f"the links form no tree: {caught}")
+def _name_findings(description: Description) -> Findings:
     names = [joint.name for joint in description.joints]
     for name in sorted({name for name in names if names.count(name) > 1}):
         yield error("duplicate_name", f"{names.count(name)} joints are named {name!r}", joint=name)

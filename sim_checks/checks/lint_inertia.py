@@ -9,22 +9,22 @@ import numpy as np
 from ..config import LintConfig
 from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, sensible
 from ..geometry.hull import FlatHull, convex_hull
-from ..geometry.kinematics import find_tree
+from ..geometry.kinematics import Tree
 from ..geometry.placing import box_around, diagonal
+from ..geometry.surfaces import VisibleSurface
 from .result import Findings, error, graded, in_mm, measured, rounded, significant, warning
 
 #: Relative slack of the triangle inequality: files are written with few digits.
 TRIANGLE_SLACK = 1e-3
 
 
-def missing_inertia_findings(description: Description) -> Findings:
+def missing_inertia_findings(description: Description, tree: Tree | None) -> Findings:
     """Yield an error where a moving link has no inertia, a warning where a still one has none.
 
     MuJoCo's compiler makes up what an MJCF leaves out, by a rule of the format.
     """
     if description.format != "urdf":
         return
-    tree = find_tree(description)
     every = tuple(link.name for link in description.links)
     parts = (every,) if tree is None else tree.parts
     bare = {link.name for link in description.links if link.inertia is None}
@@ -176,8 +176,7 @@ def _visible_volume(link: Link, sheet: float) -> float:
     """
     enclosed = area = 0.0
     for shape in link.visuals:
-        corners = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        enclosed += abs(float((corners[:, 0] * normals).sum())) / 6.0
-        area += float(np.linalg.norm(normals, axis=1).sum()) / 2.0
+        surface = VisibleSurface(shape.vertices, shape.faces)
+        enclosed += abs(surface.volume)
+        area += float(surface.areas.sum())
     return max(enclosed, 0.5 * area * sheet)

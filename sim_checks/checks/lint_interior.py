@@ -12,12 +12,10 @@ import numpy.typing as npt
 from scipy import ndimage
 
 from ..config import LintConfig
-from ..description import DescribedShape, FloatArray, Link
+from ..description import BoolArray, DescribedShape, FloatArray, Link
 from ..geometry.hull import CollisionHull, FlatHull, convex_hull
 from ..report import Finding
 from .result import Findings, graded
-
-BoolArray = npt.NDArray[np.bool_]
 
 #: Free voxels around everything, through which the outside is one.
 MARGIN = 2

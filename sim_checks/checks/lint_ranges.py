@@ -9,7 +9,7 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine
-from ..geometry.kinematics import MOVING_KINDS, Tree, find_tree, sweep_range, unit_axis
+from ..geometry.kinematics import MOVING_KINDS, Tree, unit_axis
 from ..geometry.placing import box_gap, diagonal, placed, shape_corners
 from .result import Findings, about, error, graded, measured, rounded, significant, warning
 
@@ -17,11 +17,9 @@ from .result import Findings, about, error, graded, measured, rounded, significa
 AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 
 
-def range_findings(description: Description, config: LintConfig) -> Findings:
+def range_findings(description: Description, tree: Tree | None, config: LintConfig) -> Findings:
     """Yield errors for impossible ranges and axes, warnings for tiny ranges and drives."""
-    # Without a tree nothing has a place.
-    tree = find_tree(description)
-    poses = {} if tree is None else closed_poses(tree)
+    poses = {} if tree is None else tree.link_poses(tree.closed)
     boxes = _boxes(description, poses)
     across = diagonal(boxes.values())
     for joint in description.joints:
@@ -128,12 +126,6 @@ def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
     around = np.column_stack([np.cos(AROUND), np.sin(AROUND)])
     # Some direction sees every point at least so far ahead.
     return max(0.0, float((flat @ around.T).min(axis=0).max()))
-
-
-def closed_poses(tree: Tree) -> dict[str, FloatArray]:
-    """Link frames with every joint at lower, in the root's frame, shape [4, 4] each."""
-    limits = ((joint.name, sweep_range(joint)) for joint in tree.free)
-    return tree.link_poses({name: ends[0] for name, ends in limits if ends is not None})
 
 
 def _boxes(description: Description, poses: Mapping[str, FloatArray]) -> dict[str, FloatArray]:

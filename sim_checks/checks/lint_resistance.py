@@ -8,9 +8,8 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
-from ..geometry.kinematics import find_tree, sweep_range, unit_axis
+from ..geometry.kinematics import Tree, sweep_range, unit_axis
 from ..geometry.placing import placed
-from .lint_ranges import closed_poses
 from .result import Findings, about, graded, measured, significant, warning
 
 #: What robot-learning environments commonly step by [s].
@@ -19,15 +18,12 @@ TIME_STEP_S = 1.0 / 240.0
 Posed = list[tuple[Link, FloatArray]]
 
 
-def resistance_findings(description: Description, config: LintConfig) -> Findings:
+def resistance_findings(description: Description, tree: Tree, config: LintConfig) -> Findings:
     """Yield errors where no hand opens the joint, warnings where it takes much or may explode.
 
     Explicit engines explode from too much damping.
     """
-    tree = find_tree(description)
-    if tree is None:
-        return
-    poses = closed_poses(tree)
+    poses = tree.link_poses(tree.closed)
     links = {link.name: link for link in description.links}
     for joint in tree.moving:
         limits = sweep_range(joint)

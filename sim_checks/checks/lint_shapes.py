@@ -14,6 +14,7 @@ from ..description import DescribedShape, FloatArray, Link
 from ..geometry.hull import CollisionHull, FlatHull, convex_hull, farthest_along
 from ..geometry.outside import distance_outside
 from ..geometry.placing import diagonal
+from ..geometry.surfaces import VisibleSurface
 from ..report import Finding
 from .lint_interior import interior_findings
 from .result import Concerned, Findings, error, graded, in_mm, measured, significant, warning
@@ -96,7 +97,7 @@ def _hull_findings(
         message = f"{longer}; GPU simulation takes up to {limit:g}"
         yield warning("oblong_hull", message, parts=parts, value=round(aspect, 3), limit=limit)
     if shape.kind == "mesh":
-        volume = _signed_volume(shape)
+        volume = VisibleSurface(shape.vertices, shape.faces).volume
         limit = config.convexity
         if volume <= 0.0 or hull.volume > limit * volume:
             ratio = round(hull.volume / volume, 4) if volume > 0.0 else None
@@ -114,12 +115,6 @@ def _aspect(hull: CollisionHull) -> float:
     widths = np.ptp(centered @ directions.T, axis=0)
     across_faces = hull.offsets + farthest_along(hull.vertices, -hull.normals)
     return float(widths.max()) / min(float(widths.min()), float(across_faces.min()))
-
-
-def _signed_volume(shape: DescribedShape) -> float:
-    """Return the volume by the divergence theorem [m3]; means something only for a closed mesh."""
-    a, b, c = (shape.vertices - shape.vertices.mean(axis=0))[shape.faces].transpose(1, 0, 2)
-    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
 
 
 def _scale_findings(link: Link, config: LintConfig) -> Findings:

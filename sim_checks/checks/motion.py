@@ -5,6 +5,7 @@ Energy from nowhere is a finding, too.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -210,8 +211,9 @@ def _leant_on(motion: JointMotion) -> tuple[str, ...]:
 
 
 def _rounded(value: Any) -> Any:
+    """Return JSON data; ``None`` for NaN and infinity, which broken files lead to."""
     if isinstance(value, float):
-        return round(value, DECIMALS)
+        return round(value, DECIMALS) if math.isfinite(value) else None
     if isinstance(value, dict):
         return {key: _rounded(item) for key, item in value.items()}
     return [_rounded(item) for item in value] if isinstance(value, (list, tuple)) else value

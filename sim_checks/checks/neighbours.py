@@ -13,9 +13,8 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
-import numpy.typing as npt
 
-from ..description import FloatArray, JointLine
+from ..description import BoolArray, FloatArray, JointLine
 from ..geometry.coupled_path import swept_boxes
 from ..geometry.looks import LookBudget, TooManyLooks
 from ..geometry.placing import box_around
@@ -117,7 +116,7 @@ class _Together:
         """Return the worst of the pairs of parts that count, by pair, with a joint at one value."""
         self.looks.take(SWEEP_LOOKS)
         found = self._course(joint, other, at, only).run().pairs
-        return {pair.parts: pair for pair in found if pair.contact.kind is PairKind.PLAIN}
+        return {pair.parts: pair for pair in found if pair.kind is PairKind.PLAIN}
 
     def _course(
         self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
@@ -145,12 +144,12 @@ def _near(rest: RestingSolids) -> Iterator[tuple[JointLine, JointLine]]:
                 yield first, second
 
 
-def _independent(solids: Solids, joints: list[JointLine]) -> npt.NDArray[np.bool_]:
+def _independent(solids: Solids, joints: list[JointLine]) -> BoolArray:
     """Return which joints carry nothing that another moves, itself or by a follower; symmetric."""
     moves = np.zeros((len(joints), len(solids.tree.parts)), dtype=np.float32)
     for row, joint in enumerate(joints):
         moves[row, sorted(_parts(solids, joint))] = 1.0
-    apart: npt.NDArray[np.bool_] = moves @ moves.T == 0.0
+    apart: BoolArray = moves @ moves.T == 0.0
     np.fill_diagonal(apart, val=False)
     return apart
 

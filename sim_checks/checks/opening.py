@@ -111,7 +111,7 @@ class _OpeningOrder:
 
     def _failing(self, sweep: JointSweep) -> list[PairSweep]:
         allowed = self.courses[sweep.joint.name].rest.config.excess_m
-        plain = (pair for pair in sweep.pairs if pair.contact.kind is PairKind.PLAIN)
+        plain = (pair for pair in sweep.pairs if pair.kind is PairKind.PLAIN)
         return [pair for pair in plain if pair.excess > allowed]
 
     def _between(self, failing: Sequence[PairSweep]) -> Names:

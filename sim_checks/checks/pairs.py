@@ -36,9 +36,18 @@ class RestingSolids:
     knuckles: frozenset[PartPair] = frozenset()
 
     @cached_property
-    def overlaps(self) -> Mapping[PartPair, HullOverlap]:
-        """Return how the solids of ``standings`` stand, by their indices."""
+    def _overlaps(self) -> Mapping[PartPair, HullOverlap]:
+        """How the solids of ``standings`` stand, by their indices."""
         return {(pair.first, pair.second): pair.overlap for pair in self.standings}
+
+    def overlap(self, first: int, second: int) -> HullOverlap | None:
+        """Return how two solids stand at rest, the lower index first; ``None`` if not near."""
+        return self._overlaps.get((min(first, second), max(first, second)))
+
+    def depth(self, first: int, second: int) -> float:
+        """Return how deep two solids penetrate each other at rest [m]; 0 where they do not."""
+        overlap = self.overlap(first, second)
+        return 0.0 if overlap is None else max(0.0, overlap.depth)
 
     def kind(self, first: int, second: int) -> PairKind:
         """Return how an overlap of the pair counts."""
@@ -75,8 +84,9 @@ class RestingSolids:
         if located and depth >= 0.0:
             region = contact_region(a.collider.hull, b.collider.hull)
             point = tuple(float(x) for x in region.mean(axis=0)) if len(region) else None
-        names = ((a.part, b.part), (a.link, b.link), (a.shape, b.shape))
-        return Contact(*names, depth, point, kind, (first, second), pose)
+        which = (self.parts(first, second), (first, second))
+        names = ((a.link, b.link), (a.shape, b.shape))
+        return Contact(*which, *names, depth, self.depth(first, second), point, kind, pose)
 
     def worst(
         self, standings: Iterable[SolidPair], pose: Mapping[str, float]

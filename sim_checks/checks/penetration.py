@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from ..config import PenetrationConfig, WorkConfig
 from ..description import Description, FloatArray
-from ..geometry.kinematics import build_tree, free_ranges
+from ..geometry.kinematics import build_tree
 from ..geometry.looks import LookBudget, TooManyLooks
 from ..geometry.path import joint_path
 from ..geometry.solids import SolidPair, Solids
@@ -25,7 +25,7 @@ from .neighbours import open_neighbours
 from .opening import judge_joints
 from .pairs import RestingSolids
 from .penetration_report import report, told_parts
-from .penetration_study import Combination, Contact, PairKind, PartPair, PenetrationStudy
+from .penetration_study import Contact, PairKind, PartPair, PenetrationStudy
 from .result import CheckResult
 from .visible import Visible
 
@@ -68,18 +68,15 @@ def _measured(
 ) -> CheckResult:
     tree = build_tree(description)
     solids = Solids(description, tree, looks)
-    ranges = free_ranges(tree)
-    lower = {name: limits[0] for name, limits in ranges.items()}
-    upper = {name: limits[1] for name, limits in ranges.items()}
-    poses = solids.place(lower)
+    poses = solids.place(tree.closed)
     standings = tuple(solids.standings(config.clearance_m))
-    known = (solids, description.excluded, config, lower, upper)
+    known = (solids, description.excluded, config, tree.closed, tree.opened)
     rest = RestingSolids(*known, standings, solids.diagonal())
     rest = replace(rest, knuckles=_knuckles(rest, poses))
     # Contacts are located as the solids are placed, which sweeps change.
-    at_rest = rest.worst(standings, lower)
+    at_rest = rest.worst(standings, rest.lower)
     at_zero = _at_zero(rest)
-    asked = [joint for joint in tree.free if joint.name in ranges]
+    asked = [joint for joint in tree.free if joint.name in tree.ranges]
     sweeps = judge_joints(asked, rest)
     study = PenetrationStudy(
         diagonal=rest.diagonal,
@@ -89,7 +86,7 @@ def _measured(
         zero=at_zero,
         sweeps=sweeps,
         neighbours=open_neighbours(rest, told_parts(sweeps, config)),
-        combinations=_combinations(rest, ranges),
+        combinations=_combinations(rest),
     )
     return report(Diagnosis(rest, Visible(description, rest)).explained(study), config)
 
@@ -122,19 +119,19 @@ def _at_zero(rest: RestingSolids) -> tuple[Contact, ...] | None:
     return rest.worst(rest.solids.standings(rest.config.clearance_m), {})
 
 
-def _combinations(rest: RestingSolids, ranges: Ranges) -> tuple[Combination, ...]:
-    """Return the combination in which each pair of parts overlaps deepest beyond rest."""
-    depths = {solids: max(0.0, overlap.depth) for solids, overlap in rest.overlaps.items()}
-    worst: dict[PartPair, Combination] = {}
-    for values in combination_values(ranges, rest.config.combinations):
+def _combinations(rest: RestingSolids) -> tuple[Contact, ...]:
+    """Return how each pair of parts meets in the combination in which it is deepest beyond rest."""
+    worst: dict[PartPair, Contact] = {}
+    for values in combination_values(rest.solids.tree.ranges, rest.config.combinations):
         rest.solids.place(values)
         for pair in rest.solids.standings(0.0):
-            key = rest.parts(pair.first, pair.second)
-            excess = pair.overlap.depth - depths.get((pair.first, pair.second), 0.0)
-            kind = rest.kind(pair.first, pair.second)
-            if kind is PairKind.PLAIN and (key not in worst or excess > worst[key].excess):
-                contact = rest.contact(pair.first, pair.second, pair.overlap.depth, kind, values)
-                worst[key] = Combination(values, contact, excess)
+            solids = (pair.first, pair.second)
+            if rest.kind(*solids) is not PairKind.PLAIN:
+                continue
+            key = rest.parts(*solids)
+            depth = pair.overlap.depth
+            if key not in worst or depth - rest.depth(*solids) > worst[key].excess:
+                worst[key] = rest.contact(*solids, depth, PairKind.PLAIN, values)
     return tuple(worst[key] for key in sorted(worst))
 
 

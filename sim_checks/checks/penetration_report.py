@@ -91,13 +91,13 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> Findings:
     for pair in sweep.pairs:
         if pair.excess <= config.excess_m:
             continue
-        a, b = pair.contact.links
+        a, b = pair.links
         depth = mm(pair.excess)
-        grave = pair.contact.kind is PairKind.PLAIN
-        code, why = EXEMPT.get(pair.contact.kind, ("sweep_penetration", ""))
+        grave = pair.kind is PairKind.PLAIN
+        code, why = EXEMPT.get(pair.kind, ("sweep_penetration", ""))
         message = (
             f"as {joint} moves, {a} and {b} penetrate {depth:.2f} mm deeper than "
-            f"at rest, worst at {pair.at:.4g} {unit}{_near(pair.contact)}; "
+            f"at rest, worst at {pair.at:.4g} {unit}{_near(pair)}; "
             f"at most {mm(config.excess_m):g} mm is allowed{why}"
         )
         if grave and sweep.alternative is not None:
@@ -110,7 +110,7 @@ def _sweep_findings(sweep: JointSweep, config: PenetrationConfig) -> Findings:
             )
         elif grave and sweep.waits_for:
             message += f"; {' and '.join(sweep.waits_for)} would have to make way, but never opens"
-        found = _finding(grave, code, message, pair.contact, pair.excess, config.excess_m)
+        found = _finding(grave, code, message, pair, pair.excess, config.excess_m)
         yield replace(found, joint=joint)
 
 
@@ -132,23 +132,23 @@ def _both_open(item: BothOpen, config: PenetrationConfig) -> Finding:
     other = item.other.name
     unit = item.joint.unit
     stands = f"{other} at {item.other_at:.4g} {item.other.unit}"
-    a, b = pair.contact.links
+    a, b = pair.links
     depth = f"{a} and {b} penetrate {mm(pair.excess):.2f} mm deeper than at rest"
     if item.obstructed:
         code = "joint_obstructed"
         message = (
             f"{joint} cannot reach its range once {other} is a little open: with {stands} it is "
             f"free until {item.free_until:.4g} {unit}, and {depth} at {pair.at:.4g} {unit}"
-            f"{_near(pair.contact)}; end its range there, or make room between the parts"
+            f"{_near(pair)}; end its range there, or make room between the parts"
         )
     else:
         code = "joints_collide"
         message = (
-            f"with {joint} at {pair.at:.4g} {unit} and {stands}, {depth}{_near(pair.contact)}; "
+            f"with {joint} at {pair.at:.4g} {unit} and {stands}, {depth}{_near(pair)}; "
             f"open one at a time, or end the range of either earlier: {joint} is free until "
             f"{item.free_until:.4g} {unit} there"
         )
-    found = _finding(item.obstructed, code, message, pair.contact, pair.excess, config.excess_m)
+    found = _finding(item.obstructed, code, message, pair, pair.excess, config.excess_m)
     return replace(found, joint=joint, joints=(joint, other))
 
 
@@ -167,17 +167,15 @@ def _left_out(neighbours: Neighbours, config: PenetrationConfig) -> Findings:
 def _combination_findings(
     study: PenetrationStudy, config: PenetrationConfig, told: Set[PartPair]
 ) -> Findings:
-    for combination in study.combinations:
-        contact = combination.contact
-        excess = combination.excess
-        first, second = sorted(contact.parts)
-        if excess <= config.excess_m or (first, second) in told:
+    for contact in study.combinations:
+        if contact.excess <= config.excess_m or contact.parts in told:
             continue
         a, b = contact.links
-        pose = ", ".join(f"{name}={value:.3g}" for name, value in combination.values.items())
-        message = f"{a} and {b} penetrate {mm(excess):.2f} mm deeper than at rest when {pose}"
+        pose = ", ".join(f"{name}={value:.3g}" for name, value in contact.pose.items())
+        depth = f"{mm(contact.excess):.2f} mm deeper than at rest"
+        message = f"{a} and {b} penetrate {depth} when {pose}"
         code = "combination_penetration"
-        yield _finding(False, code, message, contact, excess, config.excess_m)
+        yield _finding(False, code, message, contact, contact.excess, config.excess_m)
 
 
 def _near(contact: Contact) -> str:
@@ -207,13 +205,13 @@ def _contact(contact: Contact) -> dict[str, Any]:
 def _pair(pair: PairSweep) -> dict[str, Any]:
     """Return the fields of a :class:`MeasuredPair`."""
     depths = {"excess_mm": mm(pair.excess), "bound_mm": mm(pair.bound)}
-    return {**_contact(pair.contact), **depths, "at": round(pair.at, 6)}
+    return {**_contact(pair), **depths, "at": round(pair.at, 6)}
 
 
 def _measured_joint(sweep: JointSweep) -> MeasuredJoint:
-    gaps = [-pair.excess for pair in sweep.pairs if pair.contact.depth < 0.0]
-    touching = any(pair.contact.depth >= 0.0 for pair in sweep.pairs)
-    seen = (pair.contact.visual for pair in sweep.pairs if pair.contact.visual is not None)
+    gaps = [-pair.excess for pair in sweep.pairs if pair.depth < 0.0]
+    touching = any(pair.depth >= 0.0 for pair in sweep.pairs)
+    seen = (pair.visual for pair in sweep.pairs if pair.visual is not None)
     visual = min(seen, default=None)
     alternative = sweep.alternative
     return MeasuredJoint(
@@ -258,9 +256,9 @@ def measured(study: PenetrationStudy) -> MeasuredPenetration:
         ),
         combinations=tuple(
             MeasuredCombination(
-                **_contact(item.contact),
+                **_contact(item),
                 excess_mm=mm(item.excess),
-                values={name: round(value, 6) for name, value in item.values.items()},
+                values={name: round(value, 6) for name, value in item.pose.items()},
             )
             for item in study.combinations
         ),

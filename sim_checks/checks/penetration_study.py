@@ -27,12 +27,13 @@ class Contact:
     """How two parts meet in one pose.
 
     Attributes:
-        parts: their indices, of the two hulls named here.
-        links, shapes: whose hulls are worst.
+        parts: their indices, ascending.
+        hulls: which two hulls, as indices into the description's solids.
+        links, shapes: whose hulls are worst, in the order of the hulls.
         depth: [m]; negative is a gap.
+        at_rest: depth of the two hulls with every joint at lower [m]; 0 where they do not meet.
         point: middle of the overlap in the root's frame [m]; ``None`` where the hulls do not meet.
         kind: how an overlap of the pair counts.
-        hulls: which two hulls, as indices into the description's solids.
         pose: joint values [rad] or [m] in which they meet so.
         visual: how the visible surfaces of the two parts stand there [m]: a positive gap or a
             negative depth, see :mod:`..surfaces`; ``None`` where it was not measured or a part
@@ -41,32 +42,32 @@ class Contact:
     """
 
     parts: PartPair
+    hulls: PartPair
     links: tuple[str, str]
     shapes: tuple[str, str]
     depth: float
+    at_rest: float
     point: tuple[float, ...] | None
     kind: PairKind
-    hulls: PartPair
     pose: Mapping[str, float]
     visual: float | None = None
     cause: Cause | None = None
 
+    @property
+    def excess(self) -> float:
+        """Return the depth beyond rest [m]; negative is a gap."""
+        return self.depth - self.at_rest
 
-@dataclass(frozen=True)
-class PairSweep:
+
+@dataclass(frozen=True, kw_only=True)
+class PairSweep(Contact):
     """The worst of one pair of parts along one joint.
 
     Attributes:
-        parts: their indices, ascending.
-        contact: there.
-        excess: depth beyond rest [m]; negative is the smallest gap.
-        bound: nothing anywhere along the joint is worse than this [m].
+        bound: nothing anywhere along the joint is worse beyond rest than this [m].
         at: joint value [rad] or [m].
     """
 
-    parts: PartPair
-    contact: Contact
-    excess: float
     bound: float
     at: float
 
@@ -102,17 +103,8 @@ class JointSweep:
     @property
     def excess(self) -> float:
         """Return the worst excess over rest [m] that counts; negative is a gap."""
-        plain = (pair.excess for pair in self.pairs if pair.contact.kind is PairKind.PLAIN)
+        plain = (pair.excess for pair in self.pairs if pair.kind is PairKind.PLAIN)
         return max(plain, default=float("-inf"))
-
-
-@dataclass(frozen=True)
-class Combination:
-    """One pair's worst over the joint combinations tried: where, how, depth beyond rest [m]."""
-
-    values: Mapping[str, float]
-    contact: Contact
-    excess: float
 
 
 @dataclass(frozen=True)
@@ -155,7 +147,18 @@ class Neighbours:
 
 @dataclass(frozen=True)
 class PenetrationStudy:
-    """Everything measured; see :class:`Contact` and :class:`JointSweep`."""
+    """Everything measured.
+
+    Attributes:
+        diagonal: of the object [m].
+        parts: links that move as one.
+        hulls: how many.
+        rest, zero: contacts with every joint at lower, and with every joint at 0; ``None`` if that
+            is the same pose, or one that joints do not reach.
+        sweeps: each joint over its range.
+        neighbours: what joints do while another is open.
+        combinations: each pair's worst over the joint combinations tried.
+    """
 
     diagonal: float
     parts: tuple[tuple[str, ...], ...]
@@ -164,4 +167,4 @@ class PenetrationStudy:
     zero: tuple[Contact, ...] | None
     sweeps: tuple[JointSweep, ...]
     neighbours: Neighbours
-    combinations: tuple[Combination, ...]
+    combinations: tuple[Contact, ...]

@@ -19,11 +19,11 @@ from scipy.spatial import ConvexHull, QhullError
 from ..config import StandingConfig
 from ..description import DescribedShape, Description, FloatArray, JointLine, Link
 from ..geometry.hull import FlatHull, convex_hull
-from ..geometry.kinematics import Poser, Tree, find_tree, free_ranges, unit_axis
+from ..geometry.kinematics import Poser, Tree, find_tree, unit_axis
+from ..geometry.statics import GRAVITY
 from ..report import Finding
 from .result import CheckResult, Findings, measured, warning
 
-GRAVITY = 9.81
 #: Values of a joint's range that are tried before the worst is refined.
 SAMPLES = 17
 #: Points this much alike in distance are equally far [m].
@@ -49,10 +49,7 @@ class _RestingBody:
         self._cloud = np.zeros((ends[-1], 3))
         self._moments = {name: np.zeros(3) for name in self._centers}
         self._footing: tuple[FloatArray, FloatArray | None] | None = None
-        self.ranges = free_ranges(tree)
-        self.closed = {name: limits[0] for name, limits in self.ranges.items()}
-        self.opened = {name: limits[1] for name, limits in self.ranges.items()}
-        points = self._placed(self.closed)
+        points = self._placed(tree.closed)
         self.floor = float(points[:, 2].min())
         spread = float(np.linalg.norm(np.ptp(points[:, :2], axis=0)))
         self._near = self.floor + max(config.contact_m, config.contact_share * spread)
@@ -172,14 +169,14 @@ def check_standing(description: Description, config: StandingConfig) -> CheckRes
     if unweighed or not solid:
         return CheckResult((), {"unweighed": unweighed})
     body = _RestingBody(description, tree, config)
-    closed = body.stance(body.closed)
+    closed = body.stance(tree.closed)
     measurements: dict[str, Any] = {"mass_kg": round(body.mass, 6), "closed": closed}
     if closed["margin_mm"] is None:
         touch = "fewer than three points apart touch the floor with every joint closed"
         found = (warning("no_stable_footing", f"{touch}: it does not stand by itself"),)
         return CheckResult(found, {**measurements, "joints": []})
-    rows = [_joint_row(body, joint) for joint in tree.free if joint.name in body.ranges]
-    together = body.stance(body.opened)
+    rows = [_joint_row(body, joint) for joint in tree.free if joint.name in tree.ranges]
+    together = body.stance(tree.opened)
     measurements |= {"joints": rows, "all_upper": together}
     told = tuple(_topples(closed, rows, together, config.margin_m))
     return CheckResult(told or tuple(_pulled(rows, config)), measurements)
@@ -195,12 +192,13 @@ def _weighed(link: Link) -> bool:
 
 def _joint_row(body: _RestingBody, joint: JointLine) -> dict[str, Any]:
     at = _worst(body, joint)
-    ends = [{**body.closed, joint.name: end} for end in body.ranges[joint.name]]
+    closed = body.tree.closed
+    ends = [{**closed, joint.name: end} for end in body.tree.ranges[joint.name]]
     forces = [force for values in ends if (force := body.tipping_force(joint, values)) is not None]
     return {
         "joint": joint.name,
         "worst_at": round(at, 6),
-        **body.stance({**body.closed, joint.name: at}),
+        **body.stance({**closed, joint.name: at}),
         "tipping_force_n": round(min(forces), 3) if forces else None,
         "below_floor_mm": round(1000 * body.sunk(ends[1]), 3),
     }
@@ -211,10 +209,11 @@ def _worst(body: _RestingBody, joint: JointLine) -> float:
 
     No footing at all is the worst.
     """
-    lower, upper = body.ranges[joint.name]
+    lower, upper = body.tree.ranges[joint.name]
+    closed = body.tree.closed
 
     def margin(value: float) -> float:
-        found = body.margin({**body.closed, joint.name: float(value)})
+        found = body.margin({**closed, joint.name: float(value)})
         return -math.inf if found is None else found
 
     values = np.linspace(lower, upper, SAMPLES)

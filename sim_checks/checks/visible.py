@@ -11,9 +11,9 @@ import numpy as np
 from ..description import Description, FloatArray, Link
 from ..geometry.depth import contact_region
 from ..geometry.gaps import visible_gap
-from ..geometry.loose import strayed
+from ..geometry.loose import Sides, strayed
 from ..geometry.placing import joined
-from ..geometry.surfaces import SurfaceMeeting, VisibleSurface, patches
+from ..geometry.surfaces import PosedSurface, SurfaceMeeting, VisibleSurface
 from .pairs import RestingSolids
 from .penetration_study import Contact
 
@@ -44,47 +44,45 @@ class Visible:
 
     def gap(self, contact: Contact) -> float | None:
         """Measure the gap of two visible surfaces at a contact [m]; ``None`` without one."""
-        one, other = (self.surfaces[part] for part in contact.parts)
-        if one is None or other is None:
+        sides = self._sides(contact, self.rest.solids.place(contact.pose))
+        if sides is None:
             return None
         self.rest.solids.looks.take(SURFACE_LOOKS)
-        meeting, poses = self._met(contact)
-        return visible_gap(one, other, poses, meeting)
+        return visible_gap(*sides, self._meeting(contact))
 
     def strayed(self, contact: Contact, allowed: float) -> bool:
         """Tell whether only small pieces at the other part meet it deeper than ``allowed`` [m]."""
-        one, other = (self.surfaces[part] for part in contact.parts)
-        if one is None or other is None:
+        at_rest = self._sides(contact, self._resting)
+        sides = self._sides(contact, self.rest.solids.place(contact.pose))
+        if sides is None or at_rest is None:
             return False
-        meeting, poses = self._met(contact)
-        here, there = patches(one, other, poses, meeting)
-        if here is None or there is None:
-            return False
-        at_rest = self._frames(contact, self._resting)
-        return strayed((here, there), meeting, at_rest, allowed)
+        return strayed(sides, self._meeting(contact), at_rest, allowed)
 
     @cached_property
     def _resting(self) -> dict[str, FloatArray]:
         """Link poses at rest."""
         return self.rest.solids.tree.link_poses(self.rest.lower)
 
-    def _met(self, contact: Contact) -> tuple[SurfaceMeeting, FloatArray]:
-        """Return where a contact's hulls meet or come nearest, and the two parts' frames there."""
-        solids = self.rest.solids
-        poses = solids.place(contact.pose)
-        a, b = (solids.items[index].collider for index in contact.hulls)
+    def _meeting(self, contact: Contact) -> SurfaceMeeting:
+        """Return where a contact's hulls meet or come nearest; they are placed as it says."""
+        a, b = (self.rest.solids.items[index].collider for index in contact.hulls)
         overlap = a.stand(b)
         margin = self.rest.config.clearance_m
         region = contact_region(a.hull, b.hull)
         low = region.min(axis=0) if len(region) else np.maximum(a.bounds[0], b.bounds[0]) - margin
         high = region.max(axis=0) if len(region) else np.minimum(a.bounds[1], b.bounds[1]) + margin
         low, high = np.minimum(low, high), np.maximum(low, high)
-        meeting = SurfaceMeeting(low, high, overlap.depth, overlap.direction, margin)
-        return meeting, self._frames(contact, poses)
+        return SurfaceMeeting(low, high, overlap.depth, overlap.direction, margin)
 
-    def _frames(self, contact: Contact, poses: dict[str, FloatArray]) -> FloatArray:
-        parts = self.rest.solids.tree.parts
-        return np.array([poses[parts[part][0]] for part in contact.parts])
+    def _sides(self, contact: Contact, poses: Mapping[str, FloatArray]) -> Sides | None:
+        """Return the surfaces of a contact's hulls' parts; ``None`` where one shows nothing."""
+        solids = self.rest.solids
+        found = []
+        for part in (solids.items[index].part for index in contact.hulls):
+            surface = self.surfaces[part]
+            if surface is not None:
+                found.append(PosedSurface(surface, poses[solids.tree.parts[part][0]]))
+        return (found[0], found[1]) if len(found) == 2 else None
 
 
 def _surface(links: Sequence[Link], at_zero: Mapping[str, FloatArray]) -> VisibleSurface | None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..description import Description, FloatArray
 from .coupled_path import swept_boxes
-from .kinematics import find_tree, free_ranges
+from .kinematics import find_tree
 from .path import joint_path
 from .placing import box_around, placed, shape_corners
 
@@ -28,18 +28,17 @@ def joints_apart(description: Description) -> tuple[tuple[str, ...], ...]:
     tree = find_tree(description)
     if tree is None:
         return ()
-    ranges = free_ranges(tree)
-    poses = tree.link_poses({name: start for name, (start, _) in ranges.items()})
+    poses = tree.link_poses(tree.closed)
     shapes = ((link.name, shape_corners(link.collisions)) for link in description.links)
     corners = {name: placed(points, poses[name]) for name, points in shapes}
     groups: list[dict[str, FloatArray]] = []
     for joint in tree.free:
         links = tree.below(joint)
         carries = any(other.parent in links for other in tree.moving)
-        if joint.name not in ranges or tree.followers(joint) or carries:
+        if joint.name not in tree.ranges or tree.followers(joint) or carries:
             continue
         points = np.vstack([corners[name] for name in sorted(links)])
-        lower, upper = ranges[joint.name]
+        lower, upper = tree.ranges[joint.name]
         path = joint_path(joint, poses[joint.child], upper - lower)
         box = box_around([swept_boxes(path, points)]) if len(points) else NOWHERE
         group = next((each for each in groups if _are_apart(box, each)), None)

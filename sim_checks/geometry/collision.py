@@ -78,11 +78,13 @@ class Collider:
                 direction = along / length
                 reach = float(overlap_along(self.hull, other.hull, direction[None])[0])
                 # The gap is believed only as far as the hulls' own corners confirm it.
-                if reach < 0.0 and -reach > 0.5 * distance:
-                    if distance + reach <= TRUSTED_SHARE * distance:
-                        return HullOverlap(reach, direction)
+                if reach < 0.0 and distance + reach <= TRUSTED_SHARE * distance:
+                    return HullOverlap(reach, direction)
+                if reach < 0.0:
                     return widest_gap(self.hull, other.hull, direction)
-        return overlap(self.hull, other.hull)
+        found = overlap(self.hull, other.hull)
+        # FCL was seen to point beside a ball; any direction that separates will do to start from.
+        return found if found.depth >= 0.0 else widest_gap(self.hull, other.hull, found.direction)
 
 
 class Skin:

@@ -19,14 +19,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-import numpy.typing as npt
 from scipy.sparse.csgraph import connected_components
 
-from ..description import FloatArray, IntArray
+from ..description import BoolArray, FloatArray, IntArray
 from .collision import Skin
-from .surfaces import WELD, Patch, SurfaceMeeting, VisibleSurface, patch, patches
-
-BoolArray = npt.NDArray[np.bool_]
+from .surfaces import WELD, Patch, PosedSurface, SurfaceMeeting, VisibleSurface, patches
 
 #: First and finest pull [m].
 FINEST = 1e-5
@@ -45,19 +42,16 @@ SAME_DIRECTION = 0.2
 ASKED = 12
 
 
-def visible_gap(
-    first: VisibleSurface, second: VisibleSurface, poses: FloatArray, meeting: SurfaceMeeting
-) -> float:
+def visible_gap(first: PosedSurface, second: PosedSurface, meeting: SurfaceMeeting) -> float:
     """Return how two surfaces stand around a meeting [m]: a gap, or a negative depth.
 
     The gap is at most the meeting's margin. The first surface is of the part whose hull is first in
-    the meeting; poses have shape [2, 4, 4].
+    the meeting.
     """
-    one, other = patches(first, second, poses, meeting)
+    one, other = patches(first, second, meeting)
     if one is None or other is None:
-        held = ((one, second, poses[1]), (other, first, poses[0]))
-        corners = ((_corners(i, meeting), outer, pose) for i, outer, pose in held if i is not None)
-        swallowed = any(_inside(outer, pose, points).any() for points, outer, pose in corners)
+        held = ((inner, outer) for inner, outer in ((one, second), (other, first)) if inner)
+        swallowed = any(_inside(outer, _corners(inner, meeting)).any() for inner, outer in held)
         return -meeting.depth if swallowed and meeting.depth > 0.0 else meeting.margin
     pairs = one.skin.touching(other.skin, MET_FACES)
     if len(pairs):
@@ -100,8 +94,8 @@ def _zones(
         below = low[rows].min(axis=0) - half
         above = high[rows].max(axis=0) + half
         # What of either lies deeper in the other comes by on the way out.
-        here = patch(one.surface, one.pose, below + back, above + ahead)
-        there = patch(other.surface, other.pose, below - ahead, above - back)
+        here = one.whole.patch(below + back, above + ahead)
+        there = other.whole.patch(below - ahead, above - back)
         if here is not None and there is not None:
             yield here, there
 
@@ -188,7 +182,7 @@ def _buried(outer: Patch, inner: Patch, meeting: SurfaceMeeting) -> float:
     """
     corners = _corners(inner, meeting)
     # A point is a triangle of no size.
-    inside = corners[_inside(outer.surface, outer.pose, corners)]
+    inside = corners[_inside(outer.whole, corners)]
     specks = (Skin(np.tile(corner, (3, 1)), np.array([[0, 1, 2]])) for corner in inside)
     return max((speck.distance(outer.skin) for speck in specks), default=0.0)
 
@@ -204,9 +198,10 @@ def _corners(inner: Patch, meeting: SurfaceMeeting) -> FloatArray:
     return corners[:: max(1, len(corners) // ASKED)][:ASKED]
 
 
-def _inside(surface: VisibleSurface, pose: FloatArray, corners: FloatArray) -> BoolArray:
+def _inside(outer: PosedSurface, corners: FloatArray) -> BoolArray:
     """Tell which points of the world are inside closed pieces of a surface, shape [point_count]."""
-    points = (corners - pose[:3, 3]) @ pose[:3, :3]
+    surface = outer.surface
+    points = (corners - outer.pose[:3, 3]) @ outer.pose[:3, :3]
     order = np.argsort(surface.pieces, kind="stable")
     starts = np.flatnonzero(np.diff(surface.pieces[order], prepend=-1))
     low = np.minimum.reduceat(surface.boxes[0][order], starts)

@@ -50,6 +50,22 @@ class Tree:
         return self._followers.get(joint.name, ())
 
     @cached_property
+    def ranges(self) -> Mapping[str, tuple[float, float]]:
+        """Return :func:`coupled_range` of every free joint that has one, by name; file order."""
+        ranges = ((joint.name, coupled_range(self, joint)) for joint in self.free)
+        return {name: limits for name, limits in ranges if limits is not None}
+
+    @property
+    def closed(self) -> dict[str, float]:
+        """Return every joint of :attr:`ranges` at lower [rad] or [m]."""
+        return {name: lower for name, (lower, _) in self.ranges.items()}
+
+    @property
+    def opened(self) -> dict[str, float]:
+        """Return every joint of :attr:`ranges` at upper [rad] or [m]."""
+        return {name: upper for name, (_, upper) in self.ranges.items()}
+
+    @cached_property
     def _followers(self) -> Mapping[str, tuple[JointLine, ...]]:
         found: dict[str, tuple[JointLine, ...]] = {}
         for other in self.moving:
@@ -227,12 +243,6 @@ def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
     followers = ((name, own) for name, own in limited if own is not None)
     wholes = ((whole_chain(name, tree.mimics, joint.name), own) for name, own in followers)
     return common_range(limits, wholes)
-
-
-def free_ranges(tree: Tree) -> dict[str, tuple[float, float]]:
-    """Return :func:`coupled_range` of every independent joint that has one, by name; tree order."""
-    ranges = ((joint.name, coupled_range(tree, joint)) for joint in tree.free)
-    return {name: limits for name, limits in ranges if limits is not None}
 
 
 def own_limits(joint: JointLine) -> tuple[float, float] | None:

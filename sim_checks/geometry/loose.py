@@ -4,32 +4,38 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..description import FloatArray, IntArray
+from ..description import IntArray
+from .collision import Skin
 from .gaps import visible_gap
-from .surfaces import Patch, SurfaceMeeting, VisibleSurface, patch
+from .placing import box_around, placed
+from .surfaces import Patch, PosedSurface, SurfaceMeeting, VisibleSurface, patches
 
 #: A piece with less than this share of its part's area is small.
 SMALL_SHARE = 0.05
 #: Pairs of faces that are asked which pieces meet.
 MET_FACES = 1000
 
+#: The surfaces of two parts, first of the one whose hull is first.
+Sides = tuple[PosedSurface, PosedSurface]
 
-def strayed(
-    found: tuple[Patch, Patch], meeting: SurfaceMeeting, rest: FloatArray, allowed: float
-) -> bool:
+
+def strayed(met: Sides, meeting: SurfaceMeeting, at_rest: Sides, allowed: float) -> bool:
     """Return whether small pieces of one part alone make the two surfaces meet.
 
     Such pieces lie nearer the other part than their own.
 
     Args:
-        found: the two surfaces around the meeting.
+        met: the two surfaces where they meet.
         meeting: where the hulls meet.
-        rest: poses of both parts' frames at rest, where a piece is held against both, shape [2, 4,
-            4].
+        at_rest: the same surfaces at rest, where a piece is held against both.
         allowed: depth that counts as clean [m].
     """
-    pairs = found[0].skin.touching(found[1].skin, MET_FACES)
-    return any(_side_strayed(found, side, pairs, meeting, rest, allowed) for side in (0, 1))
+    here, there = patches(*met, meeting)
+    if here is None or there is None:
+        return False
+    pairs = here.skin.touching(there.skin, MET_FACES)
+    found = (here, there)
+    return any(_side_strayed(found, side, pairs, meeting, at_rest, allowed) for side in (0, 1))
 
 
 def _side_strayed(
@@ -37,23 +43,23 @@ def _side_strayed(
     side: int,
     pairs: IntArray,
     meeting: SurfaceMeeting,
-    rest: FloatArray,
+    at_rest: Sides,
     allowed: float,
 ) -> bool:
-    own = found[side].surface
-    other = found[1 - side].surface
+    own = found[side].whole.surface
     small = _small(own, np.unique(own.pieces[found[side].rows[pairs[:, side]]]))
     rows = np.flatnonzero(np.isin(own.pieces, small))
     remains = own.without(rows) if len(rows) else None
     if remains is None:
         return False
-    surfaces = (remains, other) if side == 0 else (other, remains)
-    poses = np.array([found[0].pose, found[1].pose])
-    if visible_gap(surfaces[0], surfaces[1], poses, meeting) < -allowed:
+    left = PosedSurface(remains, found[side].whole.pose)
+    whole = found[1 - side].whole
+    one, other = (left, whole) if side == 0 else (whole, left)
+    if visible_gap(one, other, meeting) < -allowed:
         return False
-    frames = rest[[side, 1 - side]]
-    pieces = (np.flatnonzero(own.pieces == piece) for piece in small)
-    return all(_nearer(own, rows, remains, other, frames, meeting.margin) for rows in pieces)
+    rest = PosedSurface(remains, at_rest[side].pose)
+    pieces = (VisibleSurface(own.vertices, own.faces[own.pieces == piece]) for piece in small)
+    return all(_nearer(piece, at_rest[1 - side], rest, meeting.margin) for piece in pieces)
 
 
 def _small(surface: VisibleSurface, pieces: IntArray) -> IntArray:
@@ -62,28 +68,17 @@ def _small(surface: VisibleSurface, pieces: IntArray) -> IntArray:
     return small
 
 
-def _nearer(
-    own: VisibleSurface,
-    rows: IntArray,
-    remains: VisibleSurface,
-    other: VisibleSurface,
-    poses: FloatArray,
-    margin: float,
-) -> bool:
-    """Return whether a piece lies nearer the other part than the rest of its own part.
+def _nearer(piece: VisibleSurface, other: PosedSurface, own: PosedSurface, margin: float) -> bool:
+    """Return whether a piece lies nearer another part than the rest of its own, posed as that is.
 
-    Gaps beyond ``margin`` are equal.
+    Gaps beyond ``margin`` [m] are equal.
     """
-    piece = VisibleSurface(own.vertices, own.faces[rows])
-    corners = piece.vertices[np.unique(piece.faces)] @ poses[0, :3, :3].T + poses[0, :3, 3]
-    low = corners.min(axis=0) - margin
-    high = corners.max(axis=0) + margin
-    loose = patch(piece, poses[0], low, high)
-    gaps = []
-    for surface, pose in ((remains, poses[0]), (other, poses[1])):
-        beside = patch(surface, pose, low, high)
-        gap = margin
-        if loose is not None and beside is not None:
-            gap = min(margin, loose.skin.distance(beside.skin))
-        gaps.append(gap)
-    return gaps[1] < gaps[0]
+    vertices = placed(piece.vertices, own.pose)
+    skin = Skin(vertices, piece.faces)
+    low, high = box_around([vertices[piece.faces]])
+
+    def gap(surface: PosedSurface) -> float:
+        beside = surface.patch(low - margin, high + margin)
+        return margin if beside is None else min(margin, skin.distance(beside.skin))
+
+    return gap(other) < gap(own)

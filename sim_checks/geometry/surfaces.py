@@ -39,7 +39,7 @@ class SurfaceMeeting:
 
 @dataclass(frozen=True)
 class VisibleSurface:
-    """The visible triangles of one part, in its own frame.
+    """The triangles of a shape, or of all that one part shows, in their own frame.
 
     Attributes:
         vertices: [m], shape [vertex_count, 3].
@@ -61,6 +61,15 @@ class VisibleSurface:
         a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
         areas: FloatArray = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
         return areas
+
+    @property
+    def volume(self) -> float:
+        """Return the volume by the divergence theorem [m3]; means something only if it is closed.
+
+        Negative where the faces look inwards.
+        """
+        a, b, c = (self.vertices - self.vertices.mean(axis=0))[self.faces].transpose(1, 0, 2)
+        return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6.0)
 
     @cached_property
     def welded(self) -> IntArray:
@@ -99,19 +108,47 @@ class VisibleSurface:
 
 
 @dataclass(frozen=True)
-class Patch:
-    """Some faces of a surface, placed.
+class PosedSurface:
+    """A surface in the world.
 
     Attributes:
-        surface: whose.
-        pose: its frame in the world, shape [4, 4].
+        surface: in its own frame.
+        pose: of that frame, shape [4, 4].
+    """
+
+    surface: VisibleSurface
+    pose: FloatArray
+
+    def patch(self, low: FloatArray, high: FloatArray) -> Patch | None:
+        """Return the faces whose boxes reach into a box of the world [m]; ``None`` without any."""
+        surface = self.surface
+        turn = self.pose[:3, :3]
+        place = self.pose[:3, 3]
+        local = (box_corners(np.array([low, high])) - place) @ turn
+        below, above = surface.boxes
+        near = ((below <= local.max(axis=0)) & (above >= local.min(axis=0))).all(axis=1)
+        rows = np.flatnonzero(near)
+        corners = surface.vertices[surface.faces[rows]] @ turn.T + place
+        inside = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
+        rows = rows[inside]
+        if len(rows) == 0:
+            return None
+        faces = np.arange(3 * len(rows)).reshape(-1, 3)
+        return Patch(self, rows, corners[inside].reshape(-1, 3), faces)
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Some faces of a surface in the world.
+
+    Attributes:
+        whole: whose.
         rows: which faces.
         vertices: their corners in the world [m], shape [vertex_count, 3].
         faces: shape [len(rows), 3].
     """
 
-    surface: VisibleSurface
-    pose: FloatArray
+    whole: PosedSurface
     rows: IntArray
     vertices: FloatArray
     faces: IntArray
@@ -122,35 +159,17 @@ class Patch:
         return Skin(self.vertices, self.faces)
 
 
-def patch(
-    surface: VisibleSurface, pose: FloatArray, low: FloatArray, high: FloatArray
-) -> Patch | None:
-    """Return the faces whose boxes reach into a box of the world [m]; ``None`` if there is none."""
-    ends = box_corners(np.array([low, high]))
-    local = (ends - pose[:3, 3]) @ pose[:3, :3]
-    below, above = surface.boxes
-    rows = np.nonzero(((below <= local.max(axis=0)) & (above >= local.min(axis=0))).all(axis=1))[0]
-    corners = surface.vertices[surface.faces[rows]] @ pose[:3, :3].T + pose[:3, 3]
-    inside = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
-    rows = rows[inside]
-    corners = corners[inside]
-    if len(rows) == 0:
-        return None
-    faces = np.arange(3 * len(rows)).reshape(-1, 3)
-    return Patch(surface, pose, rows, corners.reshape(-1, 3), faces)
-
-
 def patches(
-    first: VisibleSurface, second: VisibleSurface, poses: FloatArray, meeting: SurfaceMeeting
+    first: PosedSurface, second: PosedSurface, meeting: SurfaceMeeting
 ) -> tuple[Patch | None, Patch | None]:
     """Return what the two surfaces show around a meeting; ``None`` where one shows nothing.
 
-    The first is of the part whose hull is first in the meeting; poses have shape [2, 4, 4].
+    The first is of the part whose hull is first in the meeting.
     """
     low = meeting.low - meeting.margin
     high = meeting.high + meeting.margin
-    one = patch(first, poses[0], low, high)
-    other = patch(second, poses[1], low, high)
+    one = first.patch(low, high)
+    other = second.patch(low, high)
     if one is None or other is None:
         return one, other
     # Neither matters where the other is not.
@@ -158,4 +177,4 @@ def patches(
     highs = np.array([each.vertices.max(axis=0) for each in (one, other)])
     low = np.maximum(low, lows.max(axis=0) - meeting.margin)
     high = np.minimum(high, highs.min(axis=0) + meeting.margin)
-    return patch(first, poses[0], low, high), patch(second, poses[1], low, high)
+    return first.patch(low, high), second.patch(low, high)

@@ -11,12 +11,11 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
-import numpy.typing as npt
 
-from ..description import FloatArray
+from ..description import BoolArray, FloatArray
 from .collision import Collider
 from .coupled_path import AnyPath, CoupledOrbit
 from .depth import HullOverlap
@@ -42,14 +41,14 @@ class Candidate:
     Attributes:
         moving, standing: indices.
         rest: depth [m] that is no news (0 where the two do not touch at rest).
-        known: directions from the moving to the standing hull, at the path's start, worth trying
-            first.
+        known: direction from the moving to the standing hull, at the path's start, worth trying
+            first; ``None`` where none is known.
     """
 
     moving: int
     standing: int
     rest: float
-    known: tuple[FloatArray, ...] = ()
+    known: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -63,7 +62,6 @@ class Worst:
         at: where along the path [rad] or [m] from its start.
         candidate: which two hulls.
         depth: total depth there [m]; negative is a gap.
-        direction: from the moving to the standing hull, world frame.
     """
 
     excess: float
@@ -71,7 +69,6 @@ class Worst:
     at: float
     candidate: Candidate
     depth: float
-    direction: FloatArray
 
 
 @dataclass
@@ -139,7 +136,7 @@ class Sweep:
         self._moving_orbits: dict[int, Orbit | CoupledOrbit] = {}
         self._standing_orbits: dict[int, Orbit | CoupledOrbit] = {}
 
-    def near(self, floor: float) -> npt.NDArray[np.bool_]:
+    def near(self, floor: float) -> BoolArray:
         """Tell which moving hulls may come within ``floor`` [m] of standing ones."""
         still = np.array([collider.bounds for collider in self.standing]).reshape(-1, 2, 3)
         close = _within(self._reached(), still, floor + ROUNDING)
@@ -194,7 +191,7 @@ class Sweep:
         if best is None or best.excess < -tolerance.floor:
             return None
         bound = max(best.excess, -queue[0][0]) if queue else best.excess
-        return Worst(best.excess, bound, best.at, best.candidate, best.depth, best.direction)
+        return replace(best, bound=bound)
 
     def place(self, index: int, at: float) -> Collider:
         """Return a moving hull, put where it is at ``at``."""
@@ -227,8 +224,8 @@ class Sweep:
         bounds = np.minimum(high - still[0], still[1] - low).min(axis=1) - candidate.rest
         kept = bounds > -floor
         track = _Track(candidate, self.places[:-1][kept], self.places[1:][kept], bounds[kept])
-        for direction in candidate.known:
-            self._learn(track, direction, 0.0)
+        if candidate.known is not None:
+            self._learn(track, candidate.known, 0.0)
         return track if len(track.bounds) and track.bounds.max() > -floor else None
 
     def _look(self, track: _Track) -> Worst:
@@ -247,7 +244,7 @@ class Sweep:
             self._lower(track, direction, riding, halves)
         self._learn(track, found.direction, middle)
         excess = found.depth - track.candidate.rest
-        return Worst(excess, np.inf, middle, track.candidate, found.depth, found.direction)
+        return Worst(excess, np.inf, middle, track.candidate, found.depth)
 
     def _learn(self, track: _Track, direction: FloatArray, at: float) -> None:
         """Use a direction found at one place everywhere: once standing, once moving along."""
@@ -291,7 +288,7 @@ class Sweep:
         return self._standing_orbits[index]
 
 
-def _within(boxes: FloatArray, others: FloatArray, floor: float) -> npt.NDArray[np.bool_]:
+def _within(boxes: FloatArray, others: FloatArray, floor: float) -> BoolArray:
     """Tell which boxes, [box_count, 2, 3], come within ``floor`` [m] of others."""
     close = np.ones((len(boxes), len(others)), dtype=bool)
     for axis in range(3):

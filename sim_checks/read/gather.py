@@ -152,12 +152,8 @@ def _copy_model(
     above: tuple[Path, ...] = (),
 ) -> None:
     model = walk.model(path, document, above)
-    elements = [(at, element) for at, root in model.documents for element in root.iter()]
-    attaching = ((at, element) for at, element in elements if element.tag == "model")
-    attached = [inner for at, element in attaching for inner in model.inner(element, at)]
-    keys = ((at, element, key) for at, element in elements for key in element.attrib)
-    named = (each for each in keys if each[2].startswith("file") and each[1].get(each[2]))
-    written = [(e, key, _copied(e, key, model, at, copies)) for at, e, key in named]
+    attached = model.attached()
+    written = [(e, key, _copied(e, key, model, at, copies)) for e, key, at in model.naming()]
     for element, key, place in written:
         element.set(key, Path(os.path.relpath(place, target.parent)).as_posix())
     for at, root in model.documents:
@@ -165,7 +161,7 @@ def _copy_model(
             for key in FOLDERS:
                 compiler.attrib.pop(key, None)
         copies.write(root, at, target if at == path else copies.place(at.resolve()))
-    for inner in dict.fromkeys(attached):
+    for inner in attached:
         chain = nested(inner, (*above, path))
         _copy_model(inner, walk.parse(inner), copies.place(inner), walk, copies, chain)
 

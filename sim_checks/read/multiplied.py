@@ -96,10 +96,7 @@ class _ElementCount:
     @cached_property
     def _attachable(self) -> Counter[str]:
         """Return the most that an ``attach`` brings: it may mean any model that is named."""
-        documents = self._documents.items()
-        named = ((at, element) for at, root in documents for element in root.iter("model"))
-        files = (file for at, element in named for file in self._model.inner(element, at))
-        return _most(map(self._of_model, files))
+        return _most(map(self._of_model, self._model.attached()))
 
     def _of_model(self, file: Path) -> Counter[str]:
         if file not in self._attached:

@@ -90,6 +90,18 @@ class MujocoModel:
         places = self.places(element, "file", document) if element.get("file") else []
         return found([place for place in places if self.allows(place)])
 
+    def naming(self) -> Iterator[tuple[ET.Element, str, Path]]:
+        """Yield every attribute that names a file: its element, its key and its document."""
+        for document, root in self.documents:
+            for element in root.iter():
+                keys = (key for key in element.attrib if key.startswith("file"))
+                yield from ((element, key, document) for key in keys if element.get(key))
+
+    def attached(self) -> dict[Path, None]:
+        """Return the models that this one attaches, each once."""
+        named = ((item, at) for at, root in self.documents for item in root.iter("model"))
+        return dict.fromkeys(model for item, at in named for model in self.inner(item, at))
+
 
 def _plain(reference: str) -> str:
     return reference.rpartition("://")[2].replace("\\", "/")
@@ -137,15 +149,11 @@ class ModelWalk:
     def follow(self, path: Path, document: ET.Element, above: tuple[Path, ...] = ()) -> None:
         """Note the files of a model and of those that it attaches."""
         model = self.model(path, document, above)
-        for at, root in model.documents:
-            for element in root.iter():
-                for key in element.attrib:
-                    if key.startswith("file") and element.tag != "include":
-                        self._note(element, key, model.places(element, key, at))
-        for at, root in model.documents:
-            for element in root.iter("model"):
-                for inner in model.inner(element, at):
-                    self.follow(inner, self.parse(inner), nested(inner, (*above, path)))
+        for element, key, at in model.naming():
+            if element.tag != "include":
+                self._note(element, key, model.places(element, key, at))
+        for inner in model.attached():
+            self.follow(inner, self.parse(inner), nested(inner, (*above, path)))
 
     def _with_included(
         self, path: Path, document: ET.Element, base: Path, above: tuple[Path, ...]

@@ -10,11 +10,11 @@ import numpy as np
 
 from ..description import FloatArray, Mimic
 from ..geometry.coupling import Limits, common_range, sound_chains, whole_chain
+from ..geometry.statics import GRAVITY
 from .simulator import LoadedJoint, World
 
 #: A joint without limits is swept through one turn; its sliding cousin has no sweep of its own.
 FULL_TURN = 2.0 * math.pi
-GRAVITY = 9.81
 
 #: Names of joints that cannot reach one another, by group.
 Groups = tuple[tuple[str, ...], ...]

@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from ..config import MotionConfig
-from ..description import FloatArray
+from ..description import BoolArray, FloatArray
 from .joints import Ranges, carried_masses, companions
 from .simulator import World
 
@@ -49,7 +48,7 @@ class Law:
     friction: FloatArray
     lag: FloatArray
     bound: FloatArray
-    coupled: npt.NDArray[np.bool_]
+    coupled: BoolArray
 
     def pull(
         self,

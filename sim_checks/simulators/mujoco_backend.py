@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-import tempfile
 from collections.abc import Iterable
+from contextlib import nullcontext
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ from ..read.mjcf_model import begin_compiling
 from ..read.read import format_of
 from ..read.srdf import exempt_pairs
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
-from .twin import write_twin
+from .twin import twin_of
 
 WORLD = 0
 
@@ -47,10 +47,9 @@ class MujocoSimulator:
 
         begin_compiling()
         is_urdf = format_of(path) == "urdf"
-        with tempfile.TemporaryDirectory(prefix="twin-") as folder:
-            source = write_twin(path, Path(folder), for_mujoco=True) if is_urdf else path
+        with twin_of(path, for_mujoco=True) if is_urdf else nullcontext(str(path)) as source:
             try:
-                spec = mujoco.MjSpec.from_file(str(source))
+                spec = mujoco.MjSpec.from_file(source)
                 _fix_base(spec, mujoco)
                 _exempt(spec, exempt_pairs(path) if is_urdf else ())
                 model = spec.compile()

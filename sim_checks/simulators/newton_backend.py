@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -11,9 +9,10 @@ from typing import Any
 
 from ..config import MotionConfig
 from ..read.read import format_of
+from .chatter import captured_lines
 from .mujoco_backend import MujocoWorld
 from .simulator import LoadedJoint, LoadedLink, PairRules
-from .twin import write_twin
+from .twin import twin_of
 
 #: Newton speaks of a body as ``model/link``; its solver calls the same ``model_link``.
 SEPARATOR = "/"
@@ -48,13 +47,12 @@ class NewtonSimulator:
 
             _begin()
             builder = newton.ModelBuilder()
-            with tempfile.TemporaryDirectory(prefix="twin-") as folder:
-                try:
-                    _read(builder, path, Path(folder))
-                    loaded = builder.finalize(device="cpu")
-                    solver = newton.solvers.SolverMuJoCo(loaded, use_mujoco_cpu=True)
-                except Exception as error:
-                    raise ValueError(f"{type(error).__name__}: {error}") from error
+            try:
+                _read(builder, path)
+                loaded = builder.finalize(device="cpu")
+                solver = newton.solvers.SolverMuJoCo(loaded, use_mujoco_cpu=True)
+            except Exception as error:
+                raise ValueError(f"{type(error).__name__}: {error}") from error
         model = solver.mj_model
         model.opt.timestep = config.time_step_s
         flags = mujoco.mjtDisableBit
@@ -70,20 +68,14 @@ def _begin() -> None:
     import warp
 
     warp.config.log_level = warp.LOG_ERROR
-    before = os.dup(2)
-    silence = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(silence, 2)
-    try:
+    with captured_lines([]):
         warp.init()
-    finally:
-        os.dup2(before, 2)
-        os.close(before)
-        os.close(silence)
 
 
-def _read(builder: Any, path: Path, folder: Path) -> None:
+def _read(builder: Any, path: Path) -> None:
     if format_of(path) == "urdf":
-        builder.add_urdf(str(write_twin(path, folder)), floating=False)
+        with twin_of(path) as twin:
+            builder.add_urdf(twin, floating=False)
     else:
         builder.add_mjcf(str(path), floating=False)
 

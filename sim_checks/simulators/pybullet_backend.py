@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tempfile
 import weakref
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,18 +14,18 @@ from ..config import MotionConfig
 from ..description import FloatArray, Mimic
 from ..geometry.coupling import sound_chains
 from ..geometry.placing import rigid
+from ..geometry.statics import GRAVITY
 from ..read.srdf import exempt_pairs
 from ..read.urdf import read_mimics
 from .pybullet_dynamics import BulletClient, Dynamics
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
-from .twin import write_twin
+from .twin import twin_of
 
 BASE = -1
 #: With Bullet's own 0.02 m, parts that do not touch jam; the setting outlives a connection, so it
 #: is always made.
 CONTACT_BREAKING_M = 0.001
 BULLETS_OWN_BREAKING_M = 0.02
-GRAVITY = -9.81
 #: How much of a gear's error is made up in one step, and by how much force at most [N] or [N m].
 GEAR_ERP = 0.2
 GEAR_FORCE = 1e6
@@ -70,17 +69,16 @@ class PybulletSimulator:
             enableFileCaching=0,
         )
         client.setTimeStep(config.time_step_s)
-        client.setGravity(0.0, 0.0, GRAVITY)
+        client.setGravity(0.0, 0.0, -GRAVITY)
         flags = pybullet.URDF_USE_INERTIA_FROM_FILE | pybullet.URDF_USE_SELF_COLLISION
         if config.parents_touch:
             flags |= pybullet.URDF_USE_SELF_COLLISION_INCLUDE_PARENT
-        with tempfile.TemporaryDirectory(prefix="twin-") as folder:
-            twin = str(write_twin(path, Path(folder)))
+        with twin_of(path) as twin:
             try:
                 body = client.loadURDF(twin, useFixedBase=True, flags=flags)
             except pybullet.error as error:
                 client.disconnect()
-                raise ValueError(str(error).replace(str(folder), "").strip()) from error
+                raise ValueError(str(error).replace(str(Path(twin).parent), "").strip()) from error
         return PybulletWorld(client, body, config, mimics, exempt_pairs(path))
 
 
@@ -126,7 +124,7 @@ class PybulletWorld:
     def weigh(self, on: bool) -> None:
         """Turn gravity on or off; Bullet has no springs in joints."""
         self._falls = on
-        self._bullet.setGravity(0.0, 0.0, GRAVITY if on else 0.0)
+        self._bullet.setGravity(0.0, 0.0, -GRAVITY if on else 0.0)
 
     def place(self, positions: FloatArray) -> None:
         """Put the joints there, at rest."""
@@ -144,12 +142,10 @@ class PybulletWorld:
 
     def mass_matrix(self) -> FloatArray:
         """Return the joints' mass matrix [kg m2], [kg m] or [kg], [joint_count, joint_count]."""
-        return self._dynamics.mass_matrix(self._states()[0]) if self._ids else np.zeros((0, 0))
+        return self._dynamics.mass_matrix(self._states()[0])
 
     def energy(self) -> float:
         """Return the kinetic energy, and potential energy of gravity if it is on [J]."""
-        if not self._ids:
-            return 0.0
         position, velocity = self._states()
         kinetic = self._dynamics.kinetic(position, velocity)
         if not self._falls:
@@ -158,20 +154,17 @@ class PybulletWorld:
         links = list(self._names)[1:]
         states = self._bullet.getLinkStates(self._body, links, computeForwardKinematics=1)
         moved = zip(self.model.links[1:], states, strict=True)
-        return kinetic - GRAVITY * float(sum(link.mass * state[0][2] for link, state in moved))
+        return kinetic + GRAVITY * float(sum(link.mass * state[0][2] for link, state in moved))
 
     def balance(self) -> FloatArray:
         """Return the forces against gravity and velocity effects, shape [joint_count]."""
-        if not self._ids:
-            return np.zeros(0)
         position, velocity = self._states()
-        return self._dynamics.balance(position, velocity, GRAVITY if self._falls else 0.0)
+        return self._dynamics.balance(position, velocity, -GRAVITY if self._falls else 0.0)
 
     def step(self, forces: FloatArray) -> None:
         """Make one time step with these joint forces."""
-        if self._ids:
-            torques = (self._ids, self._bullet.TORQUE_CONTROL)
-            self._bullet.setJointMotorControlArray(self._body, *torques, forces=forces.tolist())
+        torques = (self._ids, self._bullet.TORQUE_CONTROL)
+        self._bullet.setJointMotorControlArray(self._body, *torques, forces=forces.tolist())
         self._bullet.stepSimulation()
         self._state = None
 
@@ -237,9 +230,7 @@ class PybulletWorld:
     def _states(self) -> FloatArray:
         """Return positions and velocities, shape [2, joint_count]; read once a step."""
         if self._state is None:
-            states: Any = ()
-            if self._ids:
-                states = self._bullet.getJointStates(self._body, self._ids)
+            states = self._bullet.getJointStates(self._body, self._ids)
             self._state = np.array([[state[k] for state in states] for k in (0, 1)], np.float64)
         return self._state
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tempfile
 import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -15,10 +14,10 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
+from ..geometry.statics import GRAVITY
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
-from .twin import write_twin
+from .twin import twin_of
 
-GRAVITY = 9.81
 KINDS = {"revolute_unwrapped": "revolute", "revolute": "continuous", "prismatic": "prismatic"}
 
 #: PhysX keeps angles between minus and plus one turn: beyond one end they go on at the other [rad].
@@ -61,9 +60,9 @@ class SapienSimulator:
         scene.physx_system.timestep = config.time_step_s
         loader = scene.create_urdf_loader()
         loader.fix_root_link = True
-        with tempfile.TemporaryDirectory(prefix="twin-") as folder:
-            try:
-                articulations, actors, _ = loader.parse(str(write_twin(path, Path(folder))))
+        try:
+            with twin_of(path) as twin:
+                articulations, actors, _ = loader.parse(twin)
                 if (count := len(articulations) + len(actors)) != 1:
                     made = f"{count} separate objects (floating joints)"
                     raise ValueError(f"the file makes {made}, not one")
@@ -73,20 +72,19 @@ class SapienSimulator:
                 said = [replace(record) for record in records]
                 forced = couple_as_written(articulations[0]) if articulations else frozenset()
                 body = articulations[0].build() if articulations else actors[0].build()
-            except Exception as error:
-                raise ValueError(f"{type(error).__name__}: {error}") from error
+        except Exception as error:
+            raise ValueError(f"{type(error).__name__}: {error}") from error
         if not articulations:
             return SapienWorld(scene, None, _actor_model(body))
         return SapienWorld(scene, body, _articulation_model(body, _mimics(body, said), forced))
 
 
 class SapienWorld:
-    """One articulation, or one unmoved actor for a file without joints."""
+    """One articulation; or, of a file without joints, one actor, which only stands there."""
 
     def __init__(self, scene: Any, articulation: Any | None, model: LoadedModel) -> None:
         self._scene = scene
-        self._articulation = articulation
-        self._dof = articulation.dof if articulation is not None else 0
+        self._articulation: Any = articulation
         self._active = list(articulation.active_joints) if articulation is not None else []
         self.model = model
         self.joints = model.joints
@@ -94,7 +92,7 @@ class SapienWorld:
         self.carried = tuple(frozenset(_names(joint.child_link)) for joint in self._active)
         self._falls = True
         self._endless = np.array([joint.kind == "continuous" for joint in model.joints])
-        self._wound = np.zeros(self._dof)
+        self._wound = np.zeros(len(model.joints))
         if articulation is not None:
             self._dynamics = articulation.create_pinocchio_model()
             # What sleeps does not show that it would still creep.
@@ -105,14 +103,14 @@ class SapienWorld:
     def weigh(self, on: bool) -> None:
         """Turn gravity on or off; a URDF has no springs."""
         self._falls = on
-        for link in self._articulation.links if self._articulation is not None else ():
+        for link in self._articulation.links:
             link.disable_gravity = not on
 
     def place(self, positions: FloatArray) -> None:
         """Put the joints there, at rest."""
         if self._articulation is not None:
             self._articulation.set_qpos(np.asarray(positions, np.float32))
-            self._articulation.set_qvel(np.zeros(self._dof, np.float32))
+            self._articulation.set_qvel(np.zeros(len(positions), np.float32))
             self._wound[:] = 0.0
 
     def positions(self) -> FloatArray:
@@ -120,23 +118,19 @@ class SapienWorld:
         return self._read() + self._wound
 
     def _read(self) -> FloatArray:
-        return _vector(self._articulation.qpos) if self._articulation is not None else np.zeros(0)
+        return _vector(self._articulation.qpos)
 
     def velocities(self) -> FloatArray:
         """Return joint speeds [rad/s] or [m/s], shape [joint_count]."""
-        return _vector(self._articulation.qvel) if self._articulation is not None else np.zeros(0)
+        return _vector(self._articulation.qvel)
 
     def mass_matrix(self) -> FloatArray:
         """Return the joints' mass matrix [kg m2], [kg m] or [kg], [joint_count, joint_count]."""
-        if self._articulation is None:
-            return np.zeros((0, 0))
         matrix = self._dynamics.compute_generalized_mass_matrix(self._articulation.qpos)
         return np.asarray(matrix, np.float64)
 
     def energy(self) -> float:
         """Return the kinetic energy, and potential energy of gravity if it is on [J]."""
-        if self._articulation is None:
-            return 0.0
         velocity = self.velocities()
         kinetic = 0.5 * float(velocity @ self.mass_matrix() @ velocity)
         if not self._falls:
@@ -148,15 +142,12 @@ class SapienWorld:
 
     def balance(self) -> FloatArray:
         """Return the forces against gravity and velocity effects, shape [joint_count]."""
-        if self._articulation is None:
-            return np.zeros(0)
         return _vector(self._articulation.compute_passive_force(True, True))
 
     def step(self, forces: FloatArray) -> None:
         """Make one time step with these joint forces."""
         before = self._read() if self._endless.any() else None
-        if self._articulation is not None:
-            self._articulation.set_qf(np.asarray(forces, np.float32))
+        self._articulation.set_qf(np.asarray(forces, np.float32))
         self._scene.step()
         if before is not None:
             jump = self._read() - before

@@ -307,7 +307,7 @@ class Observation:
 class World(Protocol):
     """A loaded asset, its base fixed, gravity on, self-collision on, ready to be moved.
 
-    Vectors are ordered as :attr:`joints`.
+    Vectors are ordered as :attr:`joints`. A world without joints is only asked where its links are.
 
     Attributes:
         model: what arrived.

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import shutil
+import tempfile
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from ..description import DescriptionError
@@ -13,8 +16,9 @@ from ..read.document import find_file, parse_document
 MUJOCO_COMPILER = {"fusestatic": "false", "strippath": "false", "discardvisual": "true"}
 
 
-def write_twin(urdf: Path, folder: Path, *, for_mujoco: bool = False) -> Path:
-    """Write ``urdf`` into ``folder`` without visuals and materials; mesh paths absolute.
+@contextmanager
+def twin_of(urdf: Path, *, for_mujoco: bool = False) -> Iterator[str]:
+    """Write a URDF without visuals and materials, mesh paths absolute; removed when left.
 
     Its SRDF goes beside it; for MuJoCo, its compiler's settings are added.
 
@@ -34,12 +38,13 @@ def write_twin(urdf: Path, folder: Path, *, for_mujoco: bool = False) -> Path:
         mesh.set("filename", str(resolve(mesh.get("filename", ""), urdf.parent)))
     if for_mujoco:
         _set_compiler(root)
-    target = folder / "twin.urdf"
-    ET.ElementTree(root).write(target, encoding="unicode")
-    srdf = urdf.with_suffix(".srdf")
-    if srdf.is_file():
-        shutil.copyfile(srdf, folder / "twin.srdf")
-    return target
+    with tempfile.TemporaryDirectory(prefix="twin-") as folder:
+        target = Path(folder) / "twin.urdf"
+        ET.ElementTree(root).write(target, encoding="unicode")
+        srdf = urdf.with_suffix(".srdf")
+        if srdf.is_file():
+            shutil.copyfile(srdf, target.with_suffix(".srdf"))
+        yield str(target)
 
 
 def resolve(reference: str, folder: Path) -> Path:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -20,8 +21,6 @@ from .shapes import PhysicsSurface
 from .stage import PhysicsStage, read_stage, require_library
 
 NAME = "asset.urdf"
-#: Below this cosine of the pitch, roll and yaw are one and the same.
-UPRIGHT = 1e-9
 
 
 def write_as_urdf(path: Path, folder: Path) -> Path:
@@ -167,16 +166,13 @@ def _write_obj(file: Path, surface: PhysicsSurface, back: FloatArray) -> None:
 
 def _place(pose: FloatArray) -> dict[str, str]:
     """Write a pose as URDF does: a place, and angles about the fixed x, y and z axis."""
-    turn = pose[:3, :3]
-    level = float(np.hypot(turn[0, 0], turn[1, 0]))
-    pitch = np.arctan2(-turn[2, 0], level)
-    if level > UPRIGHT:
-        roll = np.arctan2(turn[2, 1], turn[2, 2])
-        yaw = np.arctan2(turn[1, 0], turn[0, 0])
-    else:
-        roll = np.arctan2(-turn[1, 2], turn[1, 1])
-        yaw = 0.0
-    return {"xyz": _text(pose[:3, 3]), "rpy": _text(np.array([roll, pitch, yaw]))}
+    from scipy.spatial.transform import Rotation
+
+    with warnings.catch_warnings():
+        # Where roll and yaw turn about one and the same axis, it says that it takes one for 0.
+        warnings.simplefilter("ignore")
+        angles = Rotation.from_matrix(pose[:3, :3]).as_euler("xyz")
+    return {"xyz": _text(pose[:3, 3]), "rpy": _text(angles)}
 
 
 def _text(values: FloatArray) -> str:

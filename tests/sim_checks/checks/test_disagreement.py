@@ -231,6 +231,8 @@ def test_a_drawer_stuck_in_its_own_carcass(tmp_path):
     assert PARENT_CHILD in found.reason
     assert SLIDE in found.reason
     assert "10.00 mm" in found.reason
+    for engine, blind_to in (("sapien", "parent and child"), ("pybullet", "across")):
+        assert any(blind_to in told for told in report.measurements[engine]["blind_spots"])
     assert Report.from_dict(report.to_dict()).to_json() == report.to_json()
 
 

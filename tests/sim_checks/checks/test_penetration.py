@@ -50,6 +50,26 @@ def test_two_joints_are_looked_at_with_both_open():
     assert combination_values(ranges, 0) == [{"a": 1.0, "b": 2.0}]
 
 
+def test_three_joints_that_run_parts_into_each_other_only_together_are_told():
+    """A block that goes up and then aside meets one that comes down to beside it."""
+    far = ((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
+    links = [BASE, body("lift", [((0.0, 1.0, 0.0), (0.1, 0.1, 0.1))]), body("arm", [far])]
+    links.append(body("lid", [((0.5, 0.0, 1.0), (0.1, 0.1, 0.1))]))
+    joints = [
+        joint("up", "prismatic", "base", "lift", (0, 0, 0), (0, 0, 1), (0.0, 0.5)),
+        joint("aside", "prismatic", "lift", "arm", (0, 0, 0), (1, 0, 0), (0.0, 0.5)),
+        joint("down", "prismatic", "base", "lid", (0, 0, 0), (0, 0, -1), (0.0, 0.44)),
+    ]
+    result = check(described(links, joints))
+    (found,) = result.findings
+    assert (found.code, found.severity) == ("combination_penetration", Severity.WARNING)
+    assert set(found.parts) == {"arm", "lid"}
+    assert found.value == pytest.approx(40.0)
+    assert "when up=0.5, aside=0.5, down=0.44" in found.message
+    (measured,) = result.measurements["combinations"]
+    assert measured["values"] == {"up": 0.5, "aside": 0.5, "down": 0.44}
+
+
 def test_an_excluded_pair_excuses_no_other_pair_of_its_links():
     excluded = frozenset({frozenset({"carcass", "door"}), frozenset({"drawer", "door"})})
     description = replace(cabinet("wide"), excluded=excluded)

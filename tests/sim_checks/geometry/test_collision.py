@@ -5,11 +5,13 @@ import pytest
 from box_world import box_hull
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from asset_factory.sim_checks.geometry.collision import Collider
 from asset_factory.sim_checks.geometry.depth import overlap, overlap_along, widest_gap
 from asset_factory.sim_checks.geometry.hull import convex_hull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
+from asset_factory.sim_checks.read.primitives import box, ellipsoid
 
 UNIT = (1.0, 1.0, 1.0)
 
@@ -66,6 +68,15 @@ def test_long_crossed_rods_are_as_far_apart_as_they_are(angle, gap):
         found = Collider(below).stand(Collider(above))
         assert -found.depth == pytest.approx(gap, rel=2e-5, abs=1e-9)
         assert -found.depth <= gap + 1e-9
+
+
+def test_a_ball_before_a_slab_is_as_far_away_as_it_is_where_fcl_points_elsewhere():
+    whole, turn = (Rotation.random(random_state=np.random.default_rng(seed)) for seed in (8, 1))
+    ball = turn.apply(ellipsoid(np.full(3, 0.03125))[0])
+    ball[:, 2] += 0.5 + 0.03125 + 0.001334
+    slab, _ = box(np.array([4.0, 4.0, 1.0]))
+    first, second = (Collider(convex_hull(whole.apply(points))) for points in (slab, ball))
+    assert first.stand(second).depth == pytest.approx(0.5 - ball[:, 2].min(), rel=1e-6)
 
 
 @settings(max_examples=30, deadline=None)

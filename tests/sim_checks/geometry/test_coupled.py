@@ -235,10 +235,10 @@ def test_no_pose_on_the_way_is_worse_than_what_is_found(seed):
             at_rest = known.get((pair.first, pair.second), 0.0)
             assert pair.overlap.depth - at_rest <= bound + 1e-9
     for item in found.values():
-        solids.place(item.contact.pose)
-        one, other = (solids.items[index].collider for index in item.contact.hulls)
-        assert one.stand(other).depth == pytest.approx(item.contact.depth, abs=1e-8)
+        solids.place(item.pose)
+        one, other = (solids.items[index].collider for index in item.hulls)
+        assert one.stand(other).depth == pytest.approx(item.depth, abs=1e-8)
         assert item.bound <= item.excess + max(2e-5, 0.02 * abs(item.excess)) + 1e-12
-        if item.contact.point is not None:
+        if item.point is not None:
             for hull in (one.hull, other.hull):
-                assert (hull.normals @ np.array(item.contact.point) - hull.offsets).max() < 1e-6
+                assert (hull.normals @ np.array(item.point) - hull.offsets).max() < 1e-6
