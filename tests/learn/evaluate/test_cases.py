@@ -24,7 +24,7 @@ from asset_factory.learn.evaluate.cases import (
 from asset_factory.learn.evaluate.listing import COLUMNS, HALVES, half_of, read_list
 from asset_factory.learn.evaluate.physical import physical
 from asset_factory.learn.evaluate.transfer import merged
-from asset_factory.learn.objects.sample_files import write_sample
+from asset_factory.learn.objects.export import write_sample
 
 HEAD = f"{','.join(COLUMNS)}\n"
 CABINETS = ["made__one__one--closed-front", "made__two__two--closed-front"]
