@@ -87,8 +87,12 @@ class Makers:
             self.workers[-1].start()
 
     def collect(self, most: int) -> None:
-        """Put at most so many finished objects into the pool; no thread does, it would hinder."""
-        for _ in range(most):
+        """Put at most so many finished objects into the pool; no thread does, it would hinder.
+
+        Nothing is asked of workers that were ended: half an object may be left in the queue, whose
+        other half would be waited for.
+        """
+        for _ in range(most if self.workers else 0):
             try:
                 slot, table, truth = self.ready.get_nowait()
             except Empty:
