@@ -164,8 +164,8 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
 
 
 def _objects(command: Evaluate) -> tuple[Request, ...]:
-    from ..evaluate.cases import folder_requests, procedural_requests, real_requests, skin_requests
-    from ..evaluate.listing import read_list
+    from ..evaluate.cases import folder_requests, procedural_requests, skin_requests
+    from ..evaluate.listing import real_requests
 
     if command.kind == "procedural" or command.data is None:
         from ..objects import CATEGORIES
@@ -177,7 +177,7 @@ def _objects(command: Evaluate) -> tuple[Request, ...]:
     if command.kind == "skins":
         return skin_requests(command.data)
     half = None if command.half == "both" else command.half
-    return real_requests(command.data, read_list(command.listed), half)
+    return real_requests(command.data, half, command.listed)
 
 
 def _methods(command: Evaluate) -> tuple[Method, ...]:

@@ -57,7 +57,7 @@ def _parser() -> argparse.ArgumentParser:
     default = SourceSettings()
     add("--kind", required=True, choices=list(SOURCES), help=kinds)
     add("--path", required=True, type=Path, help="the dataset's folder")
-    kept = Path("out/.cache/sampled objects")
+    kept = Path("out/.cache/sampled")
     add("--cache", type=Path, default=kept, help="where sampled objects are kept")
     add("--split", type=Path, help="a file with the names of the objects wanted, one per line")
     add("--points", type=int, default=default.points, help="of the surface, per sampled object")

@@ -10,12 +10,15 @@ from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.errors import ConfigError
 
 from ..samples.sampled_object import SampledObject
-from .description import find_descriptions, read_description
+from .description import (
+    find_descriptions,
+    find_partnet,
+    find_registered,
+    read_description,
+)
 from .item import SourceItem
-from .partnet import find_partnet
 from .predictions import find_predictions, read_prediction_item
 from .published import find_published, read_published
-from .registered import find_registered
 from .settings import SourceSettings
 from .usd import find_usd, read_usd
 

@@ -1,29 +1,43 @@
-"""Folders with a URDF or an MJCF each, through the project's own importers."""
+"""Objects with a URDF or an MJCF each: in folders, PartNet-Mobility's folders, or a registry."""
 
 from __future__ import annotations
 
+import json
+import re
+import sqlite3
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.intake.categories import normalised
 from asset_factory.factory.intake.discover import is_description
 from asset_factory.factory.intake.load import load
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.runtime.layout import URDF
+from asset_factory.sim_checks import Status
 
 from .categories import categories_of
-from .item import SourceItem, find_items
+from .item import SourceItem, files_below, find_items
 from .settings import SourceSettings
 
-
-def find_descriptions(root: Path) -> tuple[SourceItem, ...]:
-    """Return the objects of a folder of folders."""
-    return find_items(root, _mains, categories_of(root))
+#: Of PartNet-Mobility's folders, whose objects look along -X.
+PARTNET_MAIN = "mobility.urdf"
+PARTNET_META = "meta.json"
+MAX_META_BYTES = 1_000_000
 
 
 def read_description(item: SourceItem, settings: SourceSettings) -> Articulation:
     """Return one object, fixed parts joined to parents, lower = closed. Raises InputRejected."""
     return articulate(load(item.main, settings.intake), BuildConfig(articulator="annotated"))
+
+
+def find_descriptions(root: Path) -> tuple[SourceItem, ...]:
+    """Return the objects of a folder of folders."""
+    return find_items(root, _mains, categories_of(root))
 
 
 def _mains(files: Sequence[Path]) -> list[Path]:
@@ -33,3 +47,51 @@ def _mains(files: Sequence[Path]) -> list[Path]:
         return path.suffix.lower() != ".urdf", path.stem != path.parent.name, path.name
 
     return sorted((path for path in files if is_description(path)), key=rank)
+
+
+def find_partnet(root: Path) -> tuple[SourceItem, ...]:
+    """Return the objects of a folder of PartNet-Mobility folders, called by their numbers."""
+
+    def mains(files: Sequence[Path]) -> list[Path]:
+        return [path for path in files if path.name == PARTNET_MAIN]
+
+    found = find_items(root, mains, lambda _: "")
+    return tuple(replace(item, category=_partnet_category(item)) for item in found)
+
+
+def _partnet_category(item: SourceItem) -> str:
+    """Return the ``model_cat`` of its ``meta.json``; empty if there is none."""
+    path = next((path for path in item.files if path == item.folder / PARTNET_META), None)
+    try:
+        if path is None or path.stat().st_size > MAX_META_BYTES:
+            return ""
+        stated = json.loads(path.read_text(encoding="utf-8"))["model_cat"]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return ""
+    return normalised(words(stated)) if isinstance(stated, str) else ""
+
+
+def words(name: str) -> str:
+    """Split ``StorageFurniture`` into ``Storage Furniture``."""
+    return re.sub("(?<=[^A-Z])(?=[A-Z])", " ", name)
+
+
+def find_registered(root: Path) -> tuple[SourceItem, ...]:
+    """Return one object per asset of a registry folder that passed, by id.
+
+    Raises:
+        ConfigError: the folder is no registry.
+    """
+    try:
+        registry = Registry(root)
+        entries = registry.entries()
+    except RegistryError as error:
+        raise ConfigError(str(error)) from error
+    except sqlite3.Error as error:
+        raise ConfigError(f"{root}: its registry.db cannot be read: {error}") from error
+    found = []
+    for entry in entries:
+        folder = registry.folder(entry)
+        if entry.status is Status.PASSED and (folder / URDF).is_file():
+            found.append(SourceItem(entry.id, entry.category, folder / URDF, files_below(folder)))
+    return tuple(found)

@@ -12,24 +12,27 @@ from __future__ import annotations
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.rows import distinct_rows
 from asset_factory.factory.intake.annotation import AnnotatedJoint, Annotation
+from asset_factory.factory.intake.importers.prediction import point_on_line
 from asset_factory.factory.intake.limits import require_at_most
 from asset_factory.factory.intake.loading import load_visual
-from asset_factory.factory.mesh import IntArray
+from asset_factory.factory.mesh import FloatArray, IntArray
 
-from ..samples.sampled_object import SampledObject
+from ..samples.sampled_object import SampledObject, parents_first, require_parts
 from .categories import categories_of
 from .item import SourceItem, find_items
-from .plucker import Arrays, annotated_joint, arrays_of, bad_annotation
-from .point_cache import sampled_from_points
 from .settings import SourceSettings
 
+Arrays = dict[str, npt.NDArray[Any]]
 MESH = "original.obj"
 META = "meta.npz"
 AXES = "link_axes_plucker.npz"
@@ -37,6 +40,8 @@ RANGES = "link_range.npz"
 POINT_FIELDS = frozenset(
     {"points", "normals", "point_to_bone", "bone_structure", "link_axes_plucker", "link_range"}
 )
+FULL_TURN = 2.0 * np.pi - 1e-3
+"""A range of so much is a turn without an end: the release writes those as -pi to pi [rad]."""
 
 
 def find_published(root: Path) -> tuple[SourceItem, ...]:
@@ -47,12 +52,12 @@ def find_published(root: Path) -> tuple[SourceItem, ...]:
 def read_published(item: SourceItem, settings: SourceSettings) -> Articulation | SampledObject:
     """Return one object; the given points where there is no mesh. Raises InputRejected."""
     if item.main.name != META:
-        return sampled_from_points(item, settings)
+        return _sampled_from_points(item, settings)
     folder = item.folder
     intake = settings.intake
     visual = load_visual(folder / MESH, folder, intake)
-    bones = arrays_of(item.main, settings.max_bytes)
-    axes, ranges = (arrays_of(folder / name, settings.max_bytes) for name in (AXES, RANGES))
+    bones = _arrays_of(item.main, settings.max_bytes)
+    axes, ranges = (_arrays_of(folder / name, settings.max_bytes) for name in (AXES, RANGES))
     labels = _face_labels(folder / MESH, bones, visual.source_face_count)
     count = int(max(labels.max(), bones["bone_structure"].max(initial=0))) + 1
     names = tuple(f"part_{bone}" for bone in range(count))
@@ -61,6 +66,79 @@ def read_published(item: SourceItem, settings: SourceSettings) -> Articulation |
     kept = np.sort(distinct_rows(np.sort(visual.mesh.faces, axis=1))[0])
     articulator = AnnotatedArticulator(annotation, np.eye(4), visual.source_faces[kept])
     return articulator.articulate(visual.mesh.submesh(kept))
+
+
+def _sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledObject:
+    """Return the sample of a point cache: fixed parts join their parents, all is one component.
+
+    Raises:
+        InputRejected: ``bad_annotation``, ``not_a_tree``, ``no_movable_joint``, ``too_many_parts``.
+    """
+    stored = _arrays_of(item.main, settings.max_bytes)
+    points = stored["points"]
+    bones = stored["point_to_bone"].astype(np.int64)
+    lines = stored["link_axes_plucker"].astype(np.float64)
+    ranges = stored["link_range"].astype(np.float64)
+    count = len(lines)
+    name = item.main.name
+    fitting = bones.shape == (len(points),) and len(bones)
+    if not fitting or not 0 <= bones.min() <= bones.max() < count:
+        raise _bad_annotation(f"{name}: point_to_bone does not fit its points and {count} bones")
+    if lines.shape != (count, 12) or ranges.shape != (count, 4):
+        raise _bad_annotation(f"{name}: link_axes_plucker, link_range: want 12 and 4 columns")
+    parents, order = _tree(stored, count, name)
+    turns, slides = (np.asarray(lines[:, i : i + 3].any(axis=1)) for i in (0, 6))
+    kept = [bone for bone in order if parents[bone] < 0 or turns[bone] or slides[bone]]
+    require_parts(item.name, len(kept))
+    number = np.zeros(count, dtype=np.int64)
+    for bone in order:
+        number[bone] = kept.index(bone) if bone in kept else number[parents[bone]]
+    rows = np.asarray(kept)
+    axis = _unit(lines[rows, :3])
+    slide = _unit(lines[rows, 6:9])
+    squared = np.maximum((lines[rows, :3] ** 2).sum(axis=1, keepdims=True), 1e-12)
+    turn = ranges[rows, :2]
+    return SampledObject(
+        name=item.name,
+        category=item.category,
+        source="particulate",
+        points=points,
+        normals=stored["normals"],
+        part_ids=number[bones],
+        sharp=stored.get("point_from_sharp", np.zeros(len(points), dtype=np.bool_)),
+        components=np.zeros(len(points), dtype=np.int64),
+        parents=np.array([-1, *(number[parents[bone]] for bone in kept[1:])]),
+        motion=turns[rows] * 1 + slides[rows] * 2,
+        axis=axis,
+        origin=np.cross(lines[rows, 3:6], lines[rows, :3]) / squared,
+        turn=turn,
+        endless=turn[:, 1] - turn[:, 0] >= FULL_TURN,
+        slide_direction=slide,
+        slide=ranges[rows, 2:],
+    )
+
+
+def _tree(stored: Arrays, count: int, file: str) -> tuple[IntArray, list[int]]:
+    """Return the parent of every bone, -1 for the root, and the bones parents first."""
+    parents = np.full(count, -1)
+    for parent, child in stored["bone_structure"].reshape(-1, 2).astype(np.int64):
+        if not (0 <= parent < count and 0 <= child < count) or parents[child] >= 0:
+            said = f"{file}: bone {child} hangs on two bones, or on one that there is not"
+            raise InputRejected("not_a_tree", said)
+        parents[child] = parent
+    roots = int((parents < 0).sum())
+    try:
+        order = parents_first(parents.tolist())
+    except ValueError as error:
+        raise InputRejected("not_a_tree", f"{file}: {error}") from error
+    if roots != 1:
+        said = f"{file}: {roots} bones hang on none; want one tree of all {count}"
+        raise InputRejected("not_a_tree", said)
+    return parents, order
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12))
 
 
 def _mains(files: Sequence[Path]) -> list[Path]:
@@ -90,9 +168,9 @@ def _face_labels(path: Path, bones: Arrays, face_count: int) -> IntArray:
     fitting = len(vertices) == face_count and len(labels)
     if not fitting or not 0 <= vertices.min() <= vertices.max() < len(labels):
         labelled = f"{len(labels)} labelled vertices"
-        raise bad_annotation(f"{path.name}: its faces do not fit the {labelled}")
+        raise _bad_annotation(f"{path.name}: its faces do not fit the {labelled}")
     if labels.min() < 0:
-        raise bad_annotation(f"{META}: vert_to_bone holds {labels.min()}, want 0 and more")
+        raise _bad_annotation(f"{META}: vert_to_bone holds {labels.min()}, want 0 and more")
     require_at_most(META, int(labels.max()), 4096, "bones")
     return labels[vertices]
 
@@ -100,8 +178,66 @@ def _face_labels(path: Path, bones: Arrays, face_count: int) -> IntArray:
 def _joints(bones: Arrays, axes: Arrays, ranges: Arrays) -> tuple[AnnotatedJoint, ...]:
     nothing = np.zeros(12)
     return tuple(
-        annotated_joint(
+        _annotated_joint(
             parent, child, axes.get(str(child), nothing), ranges.get(str(child), nothing[:4])
         )
         for parent, child in bones["bone_structure"].reshape(-1, 2).astype(int).tolist()
+    )
+
+
+def _bad_annotation(message: str) -> InputRejected:
+    """Return the refusal of labels that contradict themselves or their mesh."""
+    return InputRejected("bad_annotation", message)
+
+
+def _arrays_of(path: Path, max_bytes: int) -> Arrays:
+    """Return the arrays of an ``.npz``, unpickled nothing.
+
+    Raises:
+        InputRejected: ``missing_file``, ``too_large``, or ``bad_annotation``: damaged, not finite.
+    """
+    if not path.is_file():
+        raise InputRejected("missing_file", f"{path.name}: is not there")
+    try:
+        with zipfile.ZipFile(path) as archive:
+            size = sum(entry.file_size for entry in archive.infolist())
+            require_at_most(path.name, size, max_bytes, "bytes")
+        with np.load(path, allow_pickle=False) as stored:
+            arrays = {name: stored[name] for name in stored.files}
+    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
+        raise _bad_annotation(f"{path.name}: is no .npz of plain arrays: {error}") from error
+    for name, values in arrays.items():
+        if values.dtype.kind not in "biuf" or not np.isfinite(values.astype(np.float64)).all():
+            raise _bad_annotation(f"{path.name}: {name} holds what is no finite number")
+    return arrays
+
+
+def _annotated_joint(
+    parent: int, child: int, lines: npt.NDArray[Any], ranges: npt.NDArray[Any]
+) -> AnnotatedJoint:
+    """Return the joint of one bone.
+
+    ``lines`` are ``(l, l x p)`` of the turn and of the slide, zero where there is none, shape [12];
+    ``ranges`` of the turn [rad] and of the slide, from the pose that the object is in, shape [4].
+    """
+    if lines.shape != (12,) or ranges.shape != (4,):
+        shapes = f"axes of shape {list(lines.shape)}, ranges {list(ranges.shape)}"
+        raise _bad_annotation(f"bone {child}: {shapes}; want 12, 4")
+    turn, moment, slide = (np.asarray(lines[i : i + 3], dtype=np.float64) for i in (0, 3, 6))
+    low, high, near, far = (float(value) for value in ranges.astype(np.float64))
+    kind = ("fixed", "revolute", "prismatic", "both")[turn.any() + 2 * slide.any()]
+    endless = high - low >= FULL_TURN
+    ends = (near, far) if kind == "prismatic" else (None, None) if endless else (low, high)
+    return AnnotatedJoint(
+        name=f"joint_{child}",
+        kind=kind,
+        parent=parent,
+        child=child,
+        axis=slide if kind == "prismatic" else turn,
+        origin=point_on_line(turn, moment) if turn.any() else np.zeros(3),
+        lower=ends[0],
+        upper=ends[1],
+        slide_axis=slide if kind == "both" else None,
+        slide_lower=near if kind == "both" else None,
+        slide_upper=far if kind == "both" else None,
     )

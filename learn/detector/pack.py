@@ -1,4 +1,4 @@
-"""Real objects and textures in one small file, to be carried to where training runs.
+"""Objects as their sides show them and textures in one small file, carried to where training runs.
 
 ``python -m asset_factory.learn.detector.pack OUT --real train_static sweethome3d --described
 train_infinigen --textures train_textures --one-piece 2``.
@@ -10,14 +10,15 @@ import io
 import json
 import lzma
 import zipfile
-from collections.abc import Mapping
-from dataclasses import asdict, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from itertools import chain
 from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 import tyro
 from PIL import Image
 
@@ -28,12 +29,30 @@ from asset_factory.factory.runtime.terminal import say
 from ..datasets.objects import described as described_objects
 from ..surfaces import coloured_skin
 from .kinds import kind_number
-from .packed import COARSE
 from .real import RealObject, is_held_out, real_objects
 from .sides import LabelledSides, WholeTruth, labelled_sides
 
 #: Pixels along a texture.
 TEXTURE = 128
+#: Depths are kept in this many steps of the canvas's.
+COARSE = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Packed:
+    """One object as learning takes it.
+
+    Attributes:
+        truth: about it as a whole.
+        held_out: not trained on.
+        one_piece: a mesh of pieces that was made one piece.
+        sides: how it looks, and what opens.
+    """
+
+    truth: WholeTruth
+    held_out: bool
+    one_piece: bool
+    sides: LabelledSides
 
 
 def write_pack(
@@ -89,20 +108,20 @@ def _with_forms(
     number, found = numbered
     forms = count if found.label.opens and not is_held_out(found.name) else min(count, 1)
     skins = [coloured_skin(found.mesh, 1000 * number + form) for form in range(forms)]
-    return found, [replace(found.sides, canvases=look_at(skin)) for skin in skins]
+    seen = map(look_at, skins)
+    return found, [replace(found.sides, color=each.color, depth=each.depth) for each in seen]
 
 
 def _add(
     pack: zipfile.ZipFile, name: str, note: Mapping[str, object], sides: LabelledSides
 ) -> None:
-    canvases = sides.canvases
-    picture = Image.fromarray(canvases.color.reshape(-1, CANVAS, 3))
-    depth = np.where(canvases.depth == NOTHING, NOTHING, canvases.depth // COARSE)
+    picture = Image.fromarray(sides.color.reshape(-1, CANVAS, 3))
+    depth = np.where(sides.depth == NOTHING, NOTHING, sides.depth // COARSE)
     pack.writestr(f"{name}/color.webp", _small(picture))
     steps = np.diff(depth, prepend=0).astype(np.int16)
     pack.writestr(f"{name}/depth", lzma.compress(steps.tobytes()))
     pack.writestr(f"{name}/part", lzma.compress(sides.part.tobytes()))
-    pack.writestr(f"{name}/table", sides.instances.table().tobytes())
+    pack.writestr(f"{name}/table", sides.table.astype(np.float32).tobytes())
     pack.writestr(f"{name}/note.json", json.dumps(note))
 
 
@@ -110,6 +129,35 @@ def _small(picture: Image.Image) -> bytes:
     kept = io.BytesIO()
     picture.save(kept, "WEBP", quality=85)
     return kept.getvalue()
+
+
+def read_pack(path: Path) -> Iterator[Packed]:
+    """Yield the objects of a file."""
+    shape = (len(SIDES), CANVAS, CANVAS)
+    with zipfile.ZipFile(path) as pack:
+        for name in pack.namelist():
+            if not name.endswith("/note.json"):
+                continue
+            folder = name.rpartition("/")[0]
+            note = json.loads(pack.read(name))
+            color = np.asarray(Image.open(io.BytesIO(pack.read(f"{folder}/color.webp"))))
+            steps = np.frombuffer(lzma.decompress(pack.read(f"{folder}/depth")), np.int16)
+            depth = np.cumsum(steps.reshape(shape), axis=2, dtype=np.int32)
+            part = np.frombuffer(lzma.decompress(pack.read(f"{folder}/part")), np.uint8)
+            table = np.frombuffer(pack.read(f"{folder}/table"), np.float32).astype(np.float64)
+            depths = np.where(depth < 0, NOTHING, depth * COARSE).astype(np.int16)
+            flags = note.pop("held_out"), note.pop("one_piece", False)
+            pictures = color.reshape(*shape, 3), depths, part.reshape(shape)
+            sides = LabelledSides(*pictures, table.reshape(-1, 10))
+            yield Packed(WholeTruth(**note), *flags, sides)
+
+
+def read_textures(path: Path) -> npt.NDArray[np.uint8]:
+    """Return the textures of a file, [m, 3, size, size]."""
+    with zipfile.ZipFile(path) as pack:
+        names = [name for name in pack.namelist() if name.startswith("texture/")]
+        found = [np.asarray(Image.open(io.BytesIO(pack.read(name)))) for name in names]
+    return np.stack(found).transpose(0, 3, 1, 2)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import numpy as np
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.intake.load import load
-from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.mesh import FloatArray, Mesh
 from asset_factory.factory.models.detector.canvas import (
     CANVAS,
     LONGEST,
@@ -23,7 +23,7 @@ from asset_factory.factory.models.detector.canvas import (
 )
 
 from .labelled import LabelledObject, LabelledPart, labelled_objects
-from .sides import Instances, LabelledSides
+from .sides import LabelledSides
 
 #: Of the meshes of a folder every so many is kept for measuring.
 HELD_OUT = 5
@@ -58,11 +58,13 @@ def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObj
             continue
         mesh = load(folder / file, IntakeConfig()).mesh
         part = np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8)
-        sides = LabelledSides(look_at(mesh), part, _on_canvas(label.parts, mesh))
+        seen = look_at(mesh)
+        sides = LabelledSides(seen.color, seen.depth, part, _on_canvas(label.parts, mesh))
         yield RealObject(name, label, mesh, sides)
 
 
-def _on_canvas(parts: Sequence[LabelledPart], mesh: Mesh) -> Instances:
+def _on_canvas(parts: Sequence[LabelledPart], mesh: Mesh) -> FloatArray:
+    """Return the table of what a person saw."""
     sizes = mesh.extents / mesh.extents.max() * LONGEST
     table = np.zeros((len(parts), 10))
     for number, part in enumerate(parts):
@@ -70,4 +72,4 @@ def _on_canvas(parts: Sequence[LabelledPart], mesh: Mesh) -> Instances:
         sort = SORTS.index(part.sort)
         view = SIDES.index(part.side)
         table[number] = [view, *box, 0, sort, part.way, 0, part.unsure]
-    return Instances.of(table)
+    return table

@@ -67,7 +67,7 @@ class Instances:
 
     @classmethod
     def of(cls, table: FloatArray) -> Instances:
-        """Return them by rows with the columns of :meth:`table`, shape [n, 10]."""
+        """Return them by a table, whose columns are as above, shape [n, 10]."""
         whole = np.rint(table).astype(np.int64)
         return cls(
             whole[:, 0], table[:, 1:5], whole[:, 5], whole[:, 6], whole[:, 7], table[:, 8],
@@ -79,23 +79,26 @@ class Instances:
         shared = shared_areas(box, self.box[self.ignored & (self.view == view)])
         return bool((shared >= 0.5 * float(np.prod(box[2:] - box[:2]))).any())
 
-    def table(self) -> npt.NDArray[np.float32]:
-        """Return all columns side by side, shape [n, 10]."""
-        columns = [self.view, *self.box.T, self.part, self.sort, self.way]
-        columns += [self.opened, self.ignored]
-        return np.stack(columns, axis=1).astype(np.float32).reshape(-1, 10)
-
 
 @dataclass(frozen=True, eq=False)
 class LabelledSides:
     """Five sides of one object, and the moving parts on each.
 
-    ``part`` is the number of each pixel's part plus one, 0 where nothing is seen, [5, 256, 256].
+    Attributes:
+        color, depth: as on :class:`Canvases`.
+        part: number of each pixel's part plus one, 0 where nothing is seen, uint8, [5, 256, 256].
+        table: a row for each side that shows a moving part, as :class:`Instances`, shape [n, 10].
     """
 
-    canvases: Canvases
+    color: npt.NDArray[np.uint8]
+    depth: npt.NDArray[np.int16]
     part: npt.NDArray[np.uint8]
-    instances: Instances
+    table: FloatArray
+
+    @property
+    def instances(self) -> Instances:
+        """Return the moving parts by columns."""
+        return Instances.of(self.table)
 
 
 @dataclass(frozen=True)
@@ -144,7 +147,7 @@ def labelled_sides(
         for view in range(len(SIDES)):
             rows += _row(part[view] == joint.child + 1, view, joint.child, meaning, share)
     table = np.array(rows, dtype=np.float64).reshape(-1, 10)
-    return LabelledSides(canvases, part, Instances.of(table))
+    return LabelledSides(canvases.color, canvases.depth, part, table)
 
 
 def _row(

@@ -12,7 +12,7 @@ import torch  # noqa: TID253 - this module is only imported to train
 from asset_factory.factory.models.detector.canvas import CANVAS, OPENING, SIDES
 
 from .looks import ObjectBatch
-from .sides import WholeTruth
+from .sides import LabelledSides, WholeTruth
 
 #: Rows of a table; objects with more are left out.
 MOST = 48
@@ -35,14 +35,15 @@ class Pool:
         self.kept = [torch.zeros((size, *s), dtype=kind, device=device) for s, kind in _KEPT]
         self.made = 0
 
-    def add(self, color: Any, depth: Any, part: Any, table: Any, truth: WholeTruth) -> None:
+    def add(self, sides: LabelledSides, truth: WholeTruth) -> None:
         """Put an object in the place of the oldest; one with too many rows is left out."""
-        if len(table) > MOST:
+        if len(sides.table) > MOST:
             return
         rows = np.full((MOST, 10), -1.0, np.float32)
-        rows[: len(table)] = table
+        rows[: len(sides.table)] = sides.table
         whole = (truth.kind, truth.opens, truth.front, truth.real)
-        for kept, given in zip(self.kept, (color, depth, part, rows, whole), strict=True):
+        shown = (sides.color, sides.depth, sides.part)
+        for kept, given in zip(self.kept, (*shown, rows, whole), strict=True):
             kept[self.made % self.size].copy_(torch.from_numpy(np.array(given)))
         self.made += 1
 
@@ -86,14 +87,18 @@ class Makers:
             self.workers[-1].start()
 
     def collect(self, most: int) -> None:
-        """Put at most so many finished objects into the pool; no thread does, it would hinder."""
-        for _ in range(most):
+        """Put at most so many finished objects into the pool; no thread does, it would hinder.
+
+        Nothing is asked of workers that were ended: half an object may be left in the queue, whose
+        other half would be waited for.
+        """
+        for _ in range(most if self.workers else 0):
             try:
                 slot, table, truth = self.ready.get_nowait()
             except Empty:
                 return
-            color, depth, part = (each[slot] for each in self.slots)
-            self.pool.add(color, depth, part, table, truth)
+            color, depth, part = (each[slot].numpy() for each in self.slots)
+            self.pool.add(LabelledSides(color, depth, part, table), truth)
             self.free.put(slot)
 
     def stop(self) -> None:
@@ -114,9 +119,9 @@ def make_into(slots: Any, free: Any, ready: Any, seed: int, number: int, one_pie
     while True:
         kind, sides = drawn(rng)
         slot = free.get()
-        shown = (sides.canvases.color, sides.canvases.depth, sides.part)
+        shown = (sides.color, sides.depth, sides.part)
         for pictures, given in zip(slots, shown, strict=True):
             pictures.numpy()[slot] = given
-        table = sides.instances.table()
+        table = sides.table
         moving = table[(table[:, 9] == 0.0) & (table[:, 6] < OPENING)]
         ready.put((slot, table, WholeTruth(kind_number(kind), bool(len(moving)), 0, False)))

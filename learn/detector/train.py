@@ -11,7 +11,7 @@ import copy
 import json
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +28,8 @@ from ..train.averaging import follow
 from .evaluate import evaluate
 from .kinds import kind_number
 from .looks import show
-from .packed import Packed, read_pack, read_textures
+from .pack import Packed, read_pack, read_textures
+from .sides import LabelledSides
 from .stream import Makers, Pool, joined
 from .targets import loss_of, targets_of
 
@@ -192,21 +193,21 @@ def _packed(path: Path, device: Any) -> tuple[tuple[Pool, ...], tuple[Pool, ...]
         chosen = [e for e in packed if (e.held_out, e.truth.real, e.one_piece) == wanted]
         pool = Pool(len(chosen), device)
         for each in chosen:
-            pool.add(each.color, each.depth, each.part, _seen_through(each), each.truth)
+            pool.add(_seen_through(each), each.truth)
         pools.append(pool)
     return tuple(pools[:3]), tuple(pools[3:])
 
 
-def _seen_through(packed: Packed) -> Any:
-    """Return an object's table; a door is seen from behind, too, where nothing is asked."""
-    table = packed.table
+def _seen_through(packed: Packed) -> LabelledSides:
+    """Return an object's sides; a door is seen from behind, too, where nothing is asked."""
+    table = packed.sides.table
     if packed.truth.kind != kind_number("door"):
-        return table
+        return packed.sides
     behind = table[table[:, 0] < 4].copy()
     behind[:, 0] = (behind[:, 0] + 2) % 4
     behind[:, [1, 3]] = CANVAS - behind[:, [3, 1]]
     behind[:, 9] = 1.0
-    return np.concatenate([table, behind])
+    return replace(packed.sides, table=np.concatenate([table, behind]))
 
 
 def _begin(network: Any, weights: dict[str, Any]) -> None:

@@ -20,7 +20,6 @@ from asset_factory.factory.intake.files import InputFiles
 from asset_factory.factory.intake.sidecar import read_sidecar
 from asset_factory.factory.runtime.store import Store, digest_file
 
-from .listing import Listed
 from .stored import imported
 from .transfer import merged
 
@@ -81,28 +80,6 @@ def in_settings(
     return tuple(
         replace(each, pose=pose, yaw=yaw) for each, pose, yaw in product(objects, poses, yaws)
     )
-
-
-def real_requests(root: Path, objects: Sequence[Listed], half: str | None) -> tuple[Request, ...]:
-    """Return the objects of a list, ``develop``, ``report`` or (``None``) both halves.
-
-    Paths start from ``root``.
-
-    Raises:
-        ConfigError: an object is not there.
-    """
-    chosen = [listed for listed in objects if half in (None, listed.half)]
-    for listed in chosen:
-        if not (root / listed.path).is_file():
-            wanted = "want the folder of data that the list is about"
-            raise ConfigError(f"{root / listed.path}: no such file; {wanted}")
-    return tuple(
-        Request(
-            each.name, each.source, each.category, file=root / each.path, digest=each.digest,
-            front_yaw=each.front_yaw,
-        )
-        for each in chosen
-    )  # fmt: skip
 
 
 def procedural_requests(categories: Sequence[str], seeds: Sequence[int]) -> tuple[Request, ...]:

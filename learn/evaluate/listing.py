@@ -1,49 +1,27 @@
-"""The frozen list of real objects: which, what they are, and which half may be tuned on."""
+"""The frozen list of real objects: which, what they are, and which half may be tuned on.
+
+A list is a CSV file with a row for each object: the path of its URDF or MJCF, relative to the
+folder of data; its source, a folder's name; its category, a best guess; the SHA-256 of the
+description; the shape, which is the path of the first object of the list with the same surface,
+perhaps its own; the half, ``develop`` to make choices on, ``report`` to be looked at when all
+choices are made; the turn about z that brings its front to -Y [deg], blank without a front.
+"""
 
 from __future__ import annotations
 
 import csv
 import hashlib
-from collections.abc import Iterator
-from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from asset_factory.factory.errors import ConfigError
+
+from .cases import Request
 
 HALVES = ("develop", "report")
 COLUMNS = ("path", "source", "category", "digest", "shape", "half", "front_yaw")
 #: The list that comes with the package.
 REAL = "evaluation/real.csv"
-
-
-@dataclass(frozen=True)
-class Listed:
-    """One object of a list.
-
-    Attributes:
-        path: of its URDF or MJCF, relative to the folder of data, with ``/``.
-        source: where it is from; a folder's name.
-        category: what it is, a best guess.
-        digest: SHA-256 of the description file.
-        shape: path of the first object of the list with the same surface, perhaps its own.
-        half: ``develop`` to make choices on, ``report`` to be looked at when all choices are made.
-        front_yaw: turn about z that brings its front to -Y [deg]; ``None`` without a front.
-    """
-
-    path: str
-    source: str
-    category: str
-    digest: str
-    shape: str
-    half: str
-    front_yaw: float | None
-
-    @property
-    def name(self) -> str:
-        """Return the path without its last suffix and with ``__`` for ``/``: a file's name."""
-        return str(Path(self.path).with_suffix("")).replace("/", "__")
 
 
 def half_of(shape: str) -> str:
@@ -54,17 +32,12 @@ def half_of(shape: str) -> str:
     return HALVES[hashlib.sha256(shape.encode()).digest()[0] % 2]
 
 
-def read_list(path: Path | None = None) -> tuple[Listed, ...]:
-    """Read a CSV file with the columns ``COLUMNS``; the package's own by default.
+def list_text(path: Path | None = None) -> str:
+    """Return the text of a list, the package's own by default.
 
     Raises:
-        ConfigError: it is not there, a column or a value is missing, or a half is not the rule's.
+        ConfigError: it is not there.
     """
-    return tuple(_rows(list_text(path).splitlines(), REAL if path is None else path.name))
-
-
-def list_text(path: Path | None = None) -> str:
-    """Return the text of a list; arguments and errors as for :func:`read_list`."""
     if path is None:
         return (resources.files("asset_factory.configs") / REAL).read_text(encoding="utf-8")
     if not path.is_file():
@@ -72,23 +45,50 @@ def list_text(path: Path | None = None) -> str:
     return path.read_text(encoding="utf-8")
 
 
-def _rows(lines: list[str], name: str) -> Iterator[Listed]:
-    reader = csv.DictReader(lines)
+def real_requests(root: Path, half: str | None, path: Path | None = None) -> tuple[Request, ...]:
+    """Return the objects of a list, ``develop``, ``report`` or (``None``) both halves.
+
+    The list is the package's own by default; its paths start from ``root``.
+
+    Raises:
+        ConfigError: it is not there, a column or a value is missing, a half is not the rule's, or
+            an object is not there.
+    """
+    name = REAL if path is None else path.name
+    reader = csv.DictReader(list_text(path).splitlines())
     missing = [column for column in COLUMNS if column not in (reader.fieldnames or ())]
     if missing:
         raise ConfigError(f"{name}: has no column {missing[0]!r}; want {', '.join(COLUMNS)}")
+    found = []
     for number, row in enumerate(reader, start=2):
-        values: dict[str, Any] = {column: row[column] or "" for column in COLUMNS}
-        if not (values["path"] and values["digest"] and values["shape"]):
-            raise ConfigError(f"{name}, line {number}: want a path, a digest and a shape")
-        half = half_of(values["shape"])
-        if values["half"] != half:
-            said = values["half"]
-            raise ConfigError(f"{name}, line {number}: half is {said!r}, want {half!r}")
-        try:
-            front = float(values["front_yaw"]) if values["front_yaw"] else None
-        except ValueError:
-            raise ConfigError(
-                f"{name}, line {number}: front_yaw must be degrees, not {values['front_yaw']!r}"
-            ) from None
-        yield Listed(**values | {"front_yaw": front})
+        told = {column: row[column] or "" for column in COLUMNS}
+        request = _request(told, root, f"{name}, line {number}")
+        if half in (None, told["half"]):
+            found.append(request)
+    for each in found:
+        if each.file is None or not each.file.is_file():
+            wanted = "want the folder of data that the list is about"
+            raise ConfigError(f"{each.file}: no such file; {wanted}")
+    return tuple(found)
+
+
+def _request(row: dict[str, str], root: Path, where: str) -> Request:
+    """Return the object of one row; ``where`` it is, for messages."""
+    if not (row["path"] and row["digest"] and row["shape"]):
+        raise ConfigError(f"{where}: want a path, a digest and a shape")
+    half = half_of(row["shape"])
+    if row["half"] != half:
+        raise ConfigError(f"{where}: half is {row['half']!r}, want {half!r}")
+    try:
+        front = float(row["front_yaw"]) if row["front_yaw"] else None
+    except ValueError:
+        said = f"front_yaw must be degrees, not {row['front_yaw']!r}"
+        raise ConfigError(f"{where}: {said}") from None
+    return Request(
+        object=str(Path(row["path"]).with_suffix("")).replace("/", "__"),
+        source=row["source"],
+        category=row["category"],
+        file=root / row["path"],
+        digest=row["digest"],
+        front_yaw=front,
+    )

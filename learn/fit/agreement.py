@@ -28,8 +28,8 @@ from asset_factory.factory.models.shipped import Arrays
 
 from ..detector.real import real_objects
 from ..detector.sides import Instances, labelled_sides
-from ..evaluate.cases import in_settings, make_case, real_requests
-from ..evaluate.listing import read_list
+from ..evaluate.cases import in_settings, make_case
+from ..evaluate.listing import real_requests
 from ..surfaces import coloured_skin
 from .perceptron import Examples, FitSettings, Weighing, fit_examples
 from .writing import networks_stored
@@ -70,7 +70,7 @@ def labelled_meshes(folders: Sequence[Path], root: Path) -> Iterator[LabelledMes
     for seed, each in enumerate(real):
         yield LabelledMesh(each.mesh, each.sides.instances)
         yield LabelledMesh(coloured_skin(each.mesh, seed), each.sides.instances)
-    requests = real_requests(root, read_list(None), "develop")
+    requests = real_requests(root, "develop")
     fused = [replace(request, fused=True) for request in requests]
     for request in in_settings(fused, ("closed",), ("front",)):
         try:

@@ -2,8 +2,8 @@
 
 from ..surfaces import artist_like, fused_like
 from .catalog import CATEGORIES, make_object
+from .export import write_sample
 from .mixture import MixtureSettings, sample_object
-from .sample_files import write_sample
 
 __all__ = [
     "CATEGORIES", "MixtureSettings", "artist_like", "fused_like", "make_object", "sample_object",

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from ..joints import value_at
 from .catalog import CATEGORIES, make_object
+from .export import write_sample
 from .mixture import CHARACTERS, in_character
-from .sample_files import write_sample
 
 
 def main() -> None:

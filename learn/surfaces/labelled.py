@@ -127,7 +127,7 @@ class Labelled:
         return self if kept.all() else self.chosen(kept)
 
     def with_own_vertices(self) -> Labelled:
-        """Return the pieces share no vertices."""
+        """Give every piece vertices of its own."""
         key = self.piece[:, None] * len(self.vertices) + self.faces
         used, faces = np.unique(key, return_inverse=True)
         vertices = self.vertices[used % len(self.vertices)]

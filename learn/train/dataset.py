@@ -9,6 +9,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, fields
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -158,10 +159,11 @@ class Dataset:
             pool = self._pools[which]
             try:
                 if isinstance(pool, Files):
-                    sampled = self._kept.read(pool.paths[int(rng.integers(len(pool.paths)))])
+                    path = pool.paths[int(rng.integers(len(pool.paths)))]
+                    sampled = self._kept.get(path, partial(read_sampled, path))
                 else:
-                    seed = self._object_seed(pool.source, which, step, number)
-                    sampled = self._kept.make(pool, (*seed, attempt))
+                    seed = (*self._object_seed(pool.source, which, step, number), attempt)
+                    sampled = self._kept.get(seed, partial(_made, pool, seed))
             except AssetFactoryError as error:
                 refused = str(error)
                 continue
@@ -244,17 +246,11 @@ class _Kept:
         self._bytes = 0
         self._found: OrderedDict[object, SampledObject | AssetFactoryError] = OrderedDict()
 
-    def read(self, path: Path) -> SampledObject:
-        return self._get(path, lambda: read_sampled(path))
-
-    def make(self, pool: Generator, seed: tuple[int, ...]) -> SampledObject:
-        return self._get(seed, lambda: _made(pool, seed))
-
-    def _get(self, key: object, get: Callable[[], SampledObject]) -> SampledObject:
+    def get(self, key: object, make: Callable[[], SampledObject]) -> SampledObject:
         found = self._found.pop(key, None)
         if found is None:
             try:
-                found = get()
+                found = make()
             except AssetFactoryError as error:
                 # Without the frames it came through, which hold all that they had made.
                 found = error.with_traceback(None)

@@ -56,7 +56,7 @@ class ProcessGroup:
 
     @contextmanager
     def first_alone(self) -> Iterator[None]:
-        """Yield the first process goes through a block before the others do."""
+        """Let the first process go through a block before the others do."""
         if not self.first:
             self.wait()
         yield

@@ -95,7 +95,7 @@ def folding_chair(a: Assembly) -> None:
     body = a.body(metal)
 
     def main(z: float) -> float:
-        """Return the long frame leans back as it rises."""
+        """Return where the long frame, which leans back as it rises, is at a height."""
         return slope * z - foot
 
     line = [(half, main(z), z) for z in (0.0, 0.5 * high, high)]

@@ -222,7 +222,7 @@ def _across(ahead: FloatArray) -> FloatArray:
 
 
 def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return what numpy's own does, for rows of three, in a fifth of the time."""
+    """Return the cross products of rows of three, in a fifth of the time of numpy's own."""
     return np.asarray(a[..., [1, 2, 0]] * b[..., [2, 0, 1]] - a[..., [2, 0, 1]] * b[..., [1, 2, 0]])
 
 

@@ -9,8 +9,8 @@ from boxy_urdf import write_cabinets
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.learn.evaluate import trial as trials
-from asset_factory.learn.evaluate.cases import make_case, procedural_requests, real_requests
-from asset_factory.learn.evaluate.listing import read_list
+from asset_factory.learn.evaluate.cases import make_case, procedural_requests
+from asset_factory.learn.evaluate.listing import real_requests
 from asset_factory.learn.evaluate.methods import Method
 from asset_factory.learn.evaluate.score import Score
 from asset_factory.learn.evaluate.summary import summarised
@@ -65,7 +65,7 @@ def test_an_output_that_cannot_be_written_is_refused_at_once(
 
 def first_of(cabinets):
     """The name of the first case, and the truth about it."""
-    request, _ = real_requests(cabinets, read_list(cabinets / "list.csv"), None)
+    request, _ = real_requests(cabinets, None, cabinets / "list.csv")
     return request.name, make_case(request)
 
 

@@ -3,6 +3,7 @@
 import importlib.util
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from usda import CABINET, stage, write
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Entry, Registry
 from asset_factory.learn.datasets import SourceSettings, prepare
-from asset_factory.learn.datasets.__main__ import main
+from asset_factory.learn.datasets.__main__ import _parser, main
 from asset_factory.learn.datasets.description import find_descriptions
 from asset_factory.learn.datasets.fronts import front_advice
 from asset_factory.learn.datasets.making import sampled_item, turned_sampled
@@ -178,6 +179,10 @@ def test_registered_assets_are_objects(tmp_path):
     prepared = bring(tmp_path, "registry")
     assert list(prepared.read) == ["cabinet-1"]
     assert read_sampled(files_of(prepared)[0]).category == "cabinet"
+
+
+def test_command_keeps_sampled_objects_where_the_docs_say():
+    assert _parser().get_default("cache") == Path("out/.cache/sampled")
 
 
 def test_command_prints_the_report_and_writes_splits(dataset, capsys):

@@ -13,8 +13,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.importers import primitives
 from asset_factory.factory.mesh import Material
 from asset_factory.learn.datasets.categories import categories_of, prefix_of
-from asset_factory.learn.datasets.description import find_descriptions
-from asset_factory.learn.datasets.partnet import find_partnet, words
+from asset_factory.learn.datasets.description import find_descriptions, find_partnet, words
 from asset_factory.learn.datasets.predictions import find_predictions, read_prediction_item
 from asset_factory.learn.datasets.settings import SourceSettings
 from asset_factory.learn.datasets.split import is_held_out

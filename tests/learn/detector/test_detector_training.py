@@ -19,16 +19,15 @@ from asset_factory.factory.models.detector.network import DenseAnswers, Detector
 from asset_factory.factory.views.raster import Side  # noqa: E402
 from asset_factory.learn.detector.evaluate import compared  # noqa: E402
 from asset_factory.learn.detector.looks import show  # noqa: E402
-from asset_factory.learn.detector.pack import write_pack  # noqa: E402
-from asset_factory.learn.detector.packed import read_pack, read_textures  # noqa: E402
-from asset_factory.learn.detector.stream import Pool  # noqa: E402
+from asset_factory.learn.detector.pack import read_pack, read_textures, write_pack  # noqa: E402
+from asset_factory.learn.detector.stream import Makers, Pool  # noqa: E402
 from asset_factory.learn.detector.targets import loss_of, targets_of  # noqa: E402
 
 FRONT, TOP = 0, SIDES.index("top")
 
 
 def rows_of(sides, sort):
-    table = sides.instances.table()
+    table = sides.table
     return table[(table[:, 6] == SORTS.index(sort)) & (table[:, 9] == 0)]
 
 
@@ -57,7 +56,7 @@ def test_an_open_lid_is_said_to_be_open():
 @pytest.mark.parametrize("kind", STILL)
 def test_still_things_have_nothing_that_moves(kind):
     sides = labelled_sides(make_still(kind, np.random.default_rng(1)))
-    assert not len(sides.instances.view)
+    assert not len(sides.table)
     assert (sides.part > 0).any()
 
 
@@ -66,8 +65,7 @@ def shown_as(kind, objects, seed):
     pool = Pool(len(objects), torch.device("cpu"))
     truth = WholeTruth(kind_number(kind), True, FRONT, False)
     for sides in objects:
-        canvases = sides.canvases
-        pool.add(canvases.color, canvases.depth, sides.part, sides.instances.table(), truth)
+        pool.add(sides, truth)
     batch, _ = pool.take(torch.arange(len(objects)))
     textures = torch.full((2, 3, 8, 8), 128, dtype=torch.uint8)
     return show(batch, textures, torch.Generator().manual_seed(seed))
@@ -157,32 +155,42 @@ def test_a_pack_keeps_objects_and_labels(tmp_path, monkeypatch):
     assert not packed.one_piece
     assert fused.one_piece
     assert (fused.truth, fused.held_out) == (packed.truth, packed.held_out)
-    assert (fused.table == packed.table).all()
+    assert (fused.sides.table == packed.sides.table).all()
     # One bumpy piece: seen in nearly the same place, and nowhere as flat as it was.
-    both = (fused.depth[FRONT] >= 0) & (packed.depth[FRONT] >= 0)
-    assert both.mean() > 0.9 * (packed.depth[FRONT] >= 0).mean()
-    assert len(np.unique(fused.depth[FRONT])) > 2 * len(np.unique(packed.depth[FRONT]))
+    both = (fused.sides.depth[FRONT] >= 0) & (packed.sides.depth[FRONT] >= 0)
+    assert both.mean() > 0.9 * (packed.sides.depth[FRONT] >= 0).mean()
+    assert len(np.unique(fused.sides.depth[FRONT])) > 2 * len(np.unique(packed.sides.depth[FRONT]))
     assert packed.truth == WholeTruth(kind_number("fridge"), True, FRONT, True)
-    (row,) = packed.table
+    (row,) = packed.sides.table
     assert SORTS[int(row[6])] is Sort.DOOR
     assert WAYS[int(row[7])] is PanelWay.LEFT
     assert row[2] == pytest.approx(CANVAS / 2, abs=2.0)
-    assert (packed.depth[FRONT] >= 0).any()
+    assert (packed.sides.depth[FRONT] >= 0).any()
     assert read_textures(tmp_path / "pack.zip").shape == (1, 3, 128, 128)
+
+
+def test_nothing_is_asked_of_makers_that_were_stopped(monkeypatch):
+    monkeypatch.setattr("asset_factory.learn.detector.stream.SLOTS", 1)
+    makers = Makers(Pool(1, torch.device("cpu")), 0, 0)
+    makers.stop()
+    monkeypatch.setattr(
+        makers.ready, "get_nowait", lambda: pytest.fail("half of it was waited for")
+    )
+    makers.collect(1)
 
 
 def test_drawn_objects_are_of_every_sort():
     sorts = set()
     for seed in range(14):
         _, sides = drawn_sides(np.random.default_rng(seed))
-        sorts |= {SORTS[int(row[6])] for row in sides.instances.table()}
+        sorts |= {SORTS[int(row[6])] for row in sides.table}
     assert {Sort.DOOR, Sort.DRAWER, Sort.LID, Sort.OTHER} <= sorts
 
 
 def test_objects_made_one_piece_keep_what_opens():
     drawn = [drawn_one_piece(np.random.default_rng(seed)) for seed in range(4)]
     kinds = tuple(kind for kind, _ in drawn)
-    tables = tuple(sides.instances.table() for _, sides in drawn)
+    tables = tuple(sides.table for _, sides in drawn)
     still = [kind in STILL for kind in kinds]
     assert not all(still)
     assert [len(table) == 0 for table in tables] == still

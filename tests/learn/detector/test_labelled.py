@@ -86,7 +86,7 @@ def test_labelled_models_are_written_upright_with_their_authors(furniture):
     assert mesh.extents / mesh.extents[0] == pytest.approx([1.0, 2.0, 4.0])
     (found,) = real_objects(furniture)
     assert found.label == labelled.LabelledObject("cabinet", True, Side.FRONT, found.label.parts)
-    (row,) = found.sides.instances.table()
+    (row,) = found.sides.table
     assert WAYS[int(row[7])] is PanelWay.RIGHT
-    front = found.sides.canvases.color[0].reshape(-1, 3)
+    front = found.sides.color[0].reshape(-1, 3)
     assert (np.unique(front[front.any(axis=1)], axis=0) == [[255, 0, 0]]).all()

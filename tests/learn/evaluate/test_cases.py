@@ -1,3 +1,4 @@
+import csv
 import hashlib
 import re
 from dataclasses import replace
@@ -18,13 +19,18 @@ from asset_factory.learn.evaluate.cases import (
     in_settings,
     make_case,
     procedural_requests,
-    real_requests,
     skin_requests,
 )
-from asset_factory.learn.evaluate.listing import COLUMNS, HALVES, half_of, read_list
+from asset_factory.learn.evaluate.listing import (
+    COLUMNS,
+    HALVES,
+    half_of,
+    list_text,
+    real_requests,
+)
 from asset_factory.learn.evaluate.physical import physical
 from asset_factory.learn.evaluate.transfer import merged
-from asset_factory.learn.objects.sample_files import write_sample
+from asset_factory.learn.objects.export import write_sample
 
 HEAD = f"{','.join(COLUMNS)}\n"
 CABINETS = ["made__one__one--closed-front", "made__two__two--closed-front"]
@@ -44,27 +50,33 @@ def limits_of(articulation):
 
 
 def cases(root, poses=("closed",), yaws=("front",), store=None):
-    objects = real_requests(root, read_list(root / "list.csv"), None)
+    objects = real_requests(root, None, root / "list.csv")
     return [make_case(request, store) for request in in_settings(objects, poses, yaws)]
 
 
+def listed():
+    """Rows of the package's own list."""
+    return list(csv.DictReader(list_text().splitlines()))
+
+
 def test_the_packages_list_is_sound_and_halved_by_its_rule():
-    objects = read_list()
-    assert len(objects) == len({listed.name for listed in objects}) == 259
-    assert {listed.half for listed in objects} == set(HALVES)
-    for listed in objects:
-        assert re.fullmatch(r"[0-9a-f]{64}", listed.digest)
-        assert listed.front_yaw in (None, -90.0, 0.0, 90.0, 180.0)
-        assert listed.category == listed.category.lower() != ""
-    share = np.mean([listed.half == "develop" for listed in objects])
+    rows = listed()
+    assert len(rows) == len({row["path"].rpartition(".")[0] for row in rows}) == 259
+    assert {row["half"] for row in rows} == set(HALVES)
+    for row in rows:
+        assert row["half"] == half_of(row["shape"])
+        assert re.fullmatch(r"[0-9a-f]{64}", row["digest"])
+        assert row["front_yaw"] == "" or float(row["front_yaw"]) in (-90.0, 0.0, 90.0, 180.0)
+        assert row["category"] == row["category"].lower() != ""
+    share = np.mean([row["half"] == "develop" for row in rows])
     assert 0.4 < share < 0.6
 
 
 def test_objects_of_one_shape_are_in_one_half():
     by_shape = {}
-    for listed in read_list():
-        by_shape.setdefault(listed.shape, set()).add(listed.half)
-    assert len(by_shape) < len(read_list())
+    for row in listed():
+        by_shape.setdefault(row["shape"], set()).add(row["half"])
+    assert len(by_shape) < len(listed())
     assert all(len(halves) == 1 for halves in by_shape.values())
 
 
@@ -85,7 +97,7 @@ def test_the_half_is_the_parity_of_a_hash():
 def test_a_bad_list_is_refused(tmp_path, text, message):
     (tmp_path / "list.csv").write_text(text)
     with pytest.raises(ConfigError, match=message):
-        read_list(tmp_path / "list.csv")
+        real_requests(tmp_path, None, tmp_path / "list.csv")
 
 
 def test_nothing_but_the_surface_is_left_of_how_a_mesh_was_put_together():
@@ -117,7 +129,7 @@ def test_vertices_are_welded_across_parts():
 
 
 def test_a_case_is_closed_with_its_front_towards_minus_y(tmp_path):
-    objects = real_requests(tmp_path, read_list(write_cabinets(tmp_path)), None)
+    objects = real_requests(tmp_path, None, write_cabinets(tmp_path))
     assert [request.name for request in objects] == CABINETS
     assert objects[0].category == "cabinet"
     truth = make_case(objects[0])
@@ -152,8 +164,7 @@ def test_a_case_is_the_same_again_with_and_without_what_was_kept(tmp_path):
 
 
 def test_another_file_than_the_listed_one_is_refused(tmp_path):
-    objects = read_list(write_cabinets(tmp_path))
-    file = tmp_path / objects[0].path
+    file = real_requests(tmp_path, None, write_cabinets(tmp_path))[0].file
     file.write_text(file.read_text() + "\n")
     with pytest.raises(ConfigError, match="want the file that was listed"):
         cases(tmp_path)

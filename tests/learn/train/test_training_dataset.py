@@ -14,6 +14,7 @@ from tiny_recipe import recipe
 
 from asset_factory.factory.errors import ConfigError, InputRejected
 from asset_factory.learn.samples.batches import Batch
+from asset_factory.learn.samples.sampled_object import read_sampled
 from asset_factory.learn.train import data_loader as feeding
 from asset_factory.learn.train import dataset as supplying
 from asset_factory.learn.train.data_loader import DataLoader
@@ -146,10 +147,11 @@ def test_a_made_object_that_goes_wrong_costs_only_itself(config, monkeypatch):
 
 def test_refusals_that_are_kept_hold_nothing_else(config, tmp_path):
     kept = supplying._Kept(10_000_000)
-    (tmp_path / "broken.npz").write_bytes(b"PK")
+    broken = tmp_path / "broken.npz"
+    broken.write_bytes(b"PK")
     for _ in range(3):
         with pytest.raises(InputRejected) as caught:
-            kept.read(tmp_path / "broken.npz")
+            kept.get(broken, lambda: read_sampled(broken))
     assert len(list(traceback.walk_tb(caught.value.__traceback__))) <= 3
 
 
@@ -184,11 +186,11 @@ def test_what_was_passed_over_is_told_and_counted(tmp_path):
 def test_a_generator_makes_each_object_once_and_uses_it_as_often_as_asked(config, monkeypatch):
     made = []
 
-    def note(kept, pool, seed):
+    def note(kept, seed, make):
         made.append(seed)
         raise ConfigError("seen")
 
-    monkeypatch.setattr(supplying._Kept, "make", note)
+    monkeypatch.setattr(supplying._Kept, "get", note)
     monkeypatch.setattr(supplying, "_TRIES", 1)
     pool = Generator(DataSource("procedural", reuse=3), supplying.MixtureSettings(), 1.0)
     dataset = Dataset(config, (pool,))
