@@ -45,10 +45,22 @@ def modules_after(code):
             "import asset_factory.factory.cli as cli\ntry:\n    cli.run(['--help'])\n"
             "except SystemExit:\n    pass"
         ),
+        "import asset_factory.factory.models.particulate.loading",
     ],
 )
 def test_importing_and_help_load_nothing_heavy(code):
     assert modules_after(code).isdisjoint(HEAVY)
+
+
+def test_looking_for_inputs_loads_no_geometry():
+    assert "trimesh" not in modules_after("import asset_factory.factory.intake.discover")
+
+
+def test_importing_the_tasks_names_them_and_loads_no_simulator():
+    pytest.importorskip("gymnasium", reason="gymnasium is not installed")
+    names = {"OpenDrawer-v1", "OpenDoor-v1", "OpenJoint-v1", "CloseJoint-v1", "SetJoint-v1"}
+    code = f"import asset_factory.envs, gymnasium\nassert {names} <= set(gymnasium.registry)"
+    assert modules_after(code).isdisjoint({"torch", "sapien", "mani_skill"})
 
 
 def test_judging_needs_no_torch():

@@ -19,24 +19,19 @@ def edited(registry, asset, change):
     return registry
 
 
-def test_every_asset_is_read_in_order_of_id(tmp_path):
+def test_every_asset_is_read_in_order_of_id_with_its_joints(tmp_path):
     registry = write_registry(tmp_path, oven(), cabinet(), valve())
     read = read_registry(registry)
     assert list(read) == ["cabinet", "oven", "valve"]
     assert [joint.name for joint in read["cabinet"].openable] == ["hinge", "slide"]
     assert read["cabinet"].urdf.is_file()
-
-
-def test_a_joint_without_end_gets_a_quarter_turn(tmp_path):
-    wheel = read_registry(write_registry(tmp_path, valve()))["valve"].joint("wheel")
+    # One without end gets a quarter turn.
+    wheel = read["valve"].joint("wheel")
     assert (wheel.lower, wheel.upper) == (0.0, np.pi / 2)
-
-
-def test_a_lever_is_the_distance_of_the_hold_from_the_axis(tmp_path):
-    read = read_registry(write_registry(tmp_path, cabinet(), valve()))
+    # A lever is the distance of the hold from the axis.
     assert read["cabinet"].joint("hinge").lever == pytest.approx(np.hypot(0.54, 0.01))
     assert read["cabinet"].joint("slide").lever == 0.0
-    assert read["valve"].joint("wheel").lever == pytest.approx(0.1)
+    assert wheel.lever == pytest.approx(0.1)
 
 
 @pytest.mark.parametrize("ends", [(0.0, float("inf")), (0.0, None), (0.3, 0.0)])
@@ -68,18 +63,12 @@ def test_the_surest_interaction_target_is_held_rather_than_the_handle(tmp_path):
     assert asset.joint("hinge").finger_opening is None
 
 
-def test_no_registry_is_said_so(tmp_path):
+def test_what_is_no_registry_and_a_damaged_manifest_are_told(tmp_path):
     with pytest.raises(RegistryError, match="no registry here"):
         read_registry(tmp_path)
-
-
-def test_an_empty_registry_is_said_so(tmp_path):
     (tmp_path / "assets").mkdir()
     with pytest.raises(RegistryError, match="a registry without assets"):
         read_registry(tmp_path)
-
-
-def test_a_damaged_manifest_is_named(tmp_path):
     registry = write_registry(tmp_path, oven())
     (registry / "assets/oven/asset.json").write_text(json.dumps({"joints": []}))
     with pytest.raises(RegistryError, match=r"oven.asset\.json: not a manifest.*missing"):

@@ -25,9 +25,11 @@ def test_links_move_as_the_factorys_own_kinematics_say(assets, hinge, slide):
         assert np.allclose(found[f"part_{part}"], pose, atol=1e-8)
 
 
-def test_boxes_are_those_of_the_hulls_standing_on_the_ground(assets):
+def test_boxes_are_those_of_the_hulls_standing_on_the_ground_and_move_with_their_joints(assets):
     boxes = hull_boxes(assets["cabinet"], {"slide": 0.1}, frozenset({"part_2"}))
     assert np.allclose(boxes, [[[-0.28, -0.322, 0.52], [0.28, -0.302, 0.78]]])
+    assert carried_links(assets["train"], "part_1") == {"part_1"}
+    assert carried_links(assets["train"], "part_0") == {"part_0", "part_1", "part_2"}
 
 
 def test_a_doors_handle_swings_about_its_hinge(assets):
@@ -37,11 +39,6 @@ def test_a_doors_handle_swings_about_its_hinge(assets):
     arms = np.linalg.norm((path - hinge.origin)[:, :2], axis=1)
     assert np.allclose(arms, arms[0])
     assert np.allclose(path[0], [0.26, -0.222, 0.25])
-
-
-def test_what_a_joint_carries_moves_with_it(assets):
-    assert carried_links(assets["train"], "part_1") == {"part_1"}
-    assert carried_links(assets["train"], "part_0") == {"part_0", "part_1", "part_2"}
 
 
 @pytest.mark.parametrize("robot", ["panda", "fetch"])

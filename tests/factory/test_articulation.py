@@ -75,13 +75,11 @@ def test_arrays_cannot_be_edited_in_place():
             array[0] = 1
 
 
-def test_an_unknown_joint_name_lists_the_known_ones():
+def test_a_quarter_turn_about_a_displaced_axis_and_of_an_unknown_joint():
+    turning = two_parts(hinge(origin=[1, 0, 0]))
     with pytest.raises(KeyError, match="hinge"):
-        two_parts(hinge()).poses({"door": 1.0})
-
-
-def test_a_quarter_turn_about_a_displaced_axis():
-    poses = two_parts(hinge(origin=[1, 0, 0])).poses({"hinge": np.pi / 2})
+        turning.poses({"door": 1.0})
+    poses = turning.poses({"hinge": np.pi / 2})
     np.testing.assert_allclose(poses[1] @ [2, 0, 0, 1], [1, 1, 0, 1], atol=1e-12)
     np.testing.assert_array_equal(poses[0], np.eye(4))
 

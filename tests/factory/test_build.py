@@ -25,16 +25,10 @@ def build(output, *arguments):
     return done, json.loads((output / "summary.json").read_text())
 
 
-@pytest.fixture(scope="module")
-def fridge(tmp_path_factory):
-    output = tmp_path_factory.mktemp("fridge")
+def test_an_example_passes_in_all_three_simulators(tmp_path):
+    output = tmp_path / "out"
     engines = "sapien,mujoco,pybullet"
     done, summary = build(output, "--input", EXAMPLES / "fridge.obj", "--sim", engines)
-    return output, done, summary
-
-
-def test_an_example_passes_in_all_three_simulators(fridge):
-    output, done, summary = fridge
     assert done.returncode == 0, done.stderr
     assert (summary["inputs"], summary["passed"], summary["rejected"]) == (1, 1, 0), summary
     (row,) = summary["assets"]
@@ -48,11 +42,8 @@ def test_an_example_passes_in_all_three_simulators(fridge):
     assert report["simulators"] == ["sapien", "mujoco", "pybullet"]
     assert list((output / ".staging").iterdir()) == []
     assert (output / "report" / "index.html").is_file()
-
-
-def test_lines_are_plain_where_there_is_no_terminal(fridge):
-    _, done, summary = fridge
-    assert f"[1/1] passed: {summary['assets'][0]['id']}" in done.stderr
+    # Lines are plain where there is no terminal.
+    assert f"[1/1] passed: {row['id']}" in done.stderr
     assert "1 inputs: 1 passed, 0 rejected, 0 could not be validated." in done.stdout
 
 
@@ -131,15 +122,10 @@ def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
     assert np.isclose(finding["limit"], 2.0)
 
 
-@pytest.fixture(scope="module")
-def skin(tmp_path_factory):
-    output = tmp_path_factory.mktemp("skin")
+def test_a_generated_skin_opens_in_all_three_simulators(tmp_path):
+    output = tmp_path / "out"
     asked = ("--input", GENERATED, "--sim", "sapien,mujoco,pybullet", "--no-report")
-    return output, build(output, *asked)[1]
-
-
-def test_a_generated_skin_opens_in_all_three_simulators(skin):
-    output, summary = skin
+    _, summary = build(output, *asked)
     (row,) = summary["assets"]
     assert (row["status"], row["joints"]) == ("passed", 2), row
     manifest = json.loads((output / "assets" / row["id"] / "asset.json").read_text())

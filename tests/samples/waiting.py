@@ -1,7 +1,9 @@
-"""What other processes do, waited for."""
+"""What other processes and threads do, waited for."""
 
 import time
+from contextlib import contextmanager
 from pathlib import Path
+from threading import Thread
 
 
 def until(true, seconds=60.0):
@@ -10,6 +12,16 @@ def until(true, seconds=60.0):
     while not true():
         assert time.monotonic() < end
         time.sleep(0.02)
+
+
+@contextmanager
+def running(server):
+    """A server that answers from a thread, until nobody asks any more."""
+    thread = Thread(target=server.run)
+    thread.start()
+    yield server
+    server.stop()
+    thread.join()
 
 
 def alive(pid):

@@ -24,12 +24,9 @@ def test_several_environments_without_a_gpu_are_told_so():
 
 
 @pytest.mark.parametrize("bounds", [(2.0, 1.0), (-1.0, 1.0), (0.0, float("inf"))])
-def test_a_range_that_is_none_is_refused(bounds):
+def test_a_range_that_is_none_and_a_share_beyond_it_are_refused(bounds):
     with pytest.raises(ConfigError, match="friction_range must be"):
         arguments.check_range("OpenJointEnv", "friction_range", bounds)
-
-
-def test_a_share_beyond_the_range_is_refused():
     with pytest.raises(ConfigError, match=r"goal must be a share"):
         arguments.check_share("SetJointEnv", "goal", 1.5)
 

@@ -113,9 +113,11 @@ def test_the_fault_is_marked_where_it_is(scene, pictures):
     assert pictures_of(scene).fault == b""
 
 
-def test_the_animation_goes_there_and_back(pictures):
+def test_the_animation_goes_there_and_back_and_what_is_fixed_has_none(scene, pictures):
     with Image.open(io.BytesIO(pictures.moving)) as moving:
         assert moving.n_frames == 2 * FRAMES - 2
+    fixed = tuple(replace(j, kind="fixed", lower=0.0, upper=0.0) for j in scene.joints)
+    assert pictures_of(replace(scene, joints=fixed)).moving == b""
 
 
 def test_hulls_have_a_colour_each(pictures):
@@ -123,11 +125,6 @@ def test_hulls_have_a_colour_each(pictures):
     colors = seen[seen[..., 3] == 255][:, :3]
     hue = np.argmax(colors, axis=1)
     assert len(np.unique(hue)) == 3
-
-
-def test_nothing_that_moves_has_no_animation(scene):
-    fixed = tuple(replace(j, kind="fixed", lower=0.0, upper=0.0) for j in scene.joints)
-    assert pictures_of(replace(scene, joints=fixed)).moving == b""
 
 
 def test_a_scene_without_surfaces_is_an_empty_picture(scene):

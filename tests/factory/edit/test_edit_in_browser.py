@@ -5,12 +5,12 @@ Slow, and it needs Chromium: ``make site-test``.
 
 import json
 from contextlib import contextmanager
-from threading import Thread
 
 import pytest
 from browser import CONTRAST, LAPTOP, PHONE, until
 from edited_mesh import write_oven
 from shown_registry import make_registry
+from waiting import running
 
 from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import BuildConfig
@@ -43,9 +43,7 @@ def rejected(tmp_path, capsys):
 def opened(browser, subject, builds):
     """A page; afterwards nothing may have been complained of on the console."""
     said = []
-    with editing(subject, BuildConfig(), builds) as server:
-        thread = Thread(target=server.run)
-        thread.start()
+    with editing(subject, BuildConfig(), builds) as server, running(server):
         context = browser.new_context(viewport=LAPTOP)
         page = context.new_page()
         page.on("console", lambda each: said.append(each.text) if each.type != "log" else None)
@@ -56,8 +54,6 @@ def opened(browser, subject, builds):
         page.subject = subject
         yield page
         context.close()
-        server.stop()
-        thread.join()
     # What the reader refuses, the browser calls an error of its own.
     assert [each for each in said if "422" not in each] == []
 

@@ -2,10 +2,10 @@
 
 import http.client
 import json
-from threading import Thread
 
 import pytest
 from edited_mesh import write_oven
+from waiting import running
 
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.edit.builds import Builds
@@ -15,7 +15,6 @@ from asset_factory.factory.intake.stated import MOST_BYTES
 from asset_factory.factory.report.site.server import HOST
 
 DOOR = {"kind": "flap", "side": "front", "box": [0.0, 0.0, 1.0, 0.82], "hinge": "bottom"}
-
 KNOB = {"kind": "knob", "side": "front", "box": [0.4, 0.85, 0.6, 0.95]}
 
 
@@ -43,12 +42,9 @@ def editor(tmp_path_factory):
     folder = tmp_path_factory.mktemp("edited")
     (folder / "secret.txt").write_text("secret")
     subject = Subject(write_oven(folder), folder / "out")
-    with editing(subject, BuildConfig(), Builds(("build", "--no-such-flag"))) as server:
-        thread = Thread(target=server.run)
-        thread.start()
+    builds = Builds(("build", "--no-such-flag"))
+    with editing(subject, BuildConfig(), builds) as server, running(server):
         yield Served(subject, server.url)
-        server.stop()
-        thread.join()
 
 
 @pytest.mark.parametrize("name", ["", "state", "edit.js", "sides/-y/front.png", "model.glb"])

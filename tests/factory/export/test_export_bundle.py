@@ -30,15 +30,15 @@ def test_exporting_again_leaves_nothing_of_the_bundle_before(tmp_path):
     assert folder_digests(tmp_path / "bundle") == folder_digests(tmp_path / "fresh")
 
 
-def test_everything_named_in_the_urdf_exists_inside_the_folder(tmp_path):
-    bundle = export_bundle(textured_cabinet(), PROVENANCE, tmp_path)
-    named = {mesh.get("filename", "") for mesh in ElementTree.parse(bundle.urdf).iter("mesh")}
-    on_disk = {name for name in folder_digests(tmp_path) if name.endswith(".obj")}
-    assert named == on_disk
-
-
-def test_parts_whose_textures_share_a_name_keep_their_own_picture(tmp_path):
-    export_bundle(textured_cabinet(), PROVENANCE, tmp_path)
+def test_the_urdf_names_what_is_in_the_folder_asks_for_no_renderer_and_each_part_has_its_texture(
+    tmp_path,
+):
+    tree = ElementTree.parse(export_bundle(textured_cabinet(), PROVENANCE, tmp_path).urdf)
+    named = {mesh.get("filename", "") for mesh in tree.iter("mesh")}
+    assert named == {name for name in folder_digests(tmp_path) if name.endswith(".obj")}
+    assert not list(tree.iter("material"))
+    assert {child.tag for geometry in tree.iter("geometry") for child in geometry} == {"mesh"}
+    # Also where textures share a name.
     pictures = []
     for part in range(3):
         library = (tmp_path / f"meshes/visual/part_{part}_0.mtl").read_text()
@@ -64,12 +64,6 @@ def test_only_handle_geometry_is_called_a_handle(tmp_path):
     assert (tmp_path / "meshes/visual/part_1_1.obj").read_text().count("\nf ") == 12
 
 
-def test_the_urdf_asks_for_no_renderer(tmp_path):
-    tree = ElementTree.parse(export_bundle(textured_cabinet(), PROVENANCE, tmp_path).urdf)
-    assert not list(tree.iter("material"))
-    assert {child.tag for geometry in tree.iter("geometry") for child in geometry} == {"mesh"}
-
-
 def test_a_continuous_joint_has_no_limits_to_hit(tmp_path):
     wheel = Joint("spin", JointKind.CONTINUOUS, 0, 1, [0, 0, 1], [0, 0, 2], -np.pi, np.pi)
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), box([0, 0, 2], [1, 1, 1])], (wheel,))
@@ -81,15 +75,12 @@ def test_a_continuous_joint_has_no_limits_to_hit(tmp_path):
     assert bundle.manifest.joints[0].upper == pytest.approx(np.pi)
 
 
-def test_excluded_pairs_reach_mjcf_and_manifest_once(tmp_path):
+def test_excluded_pairs_reach_mjcf_and_manifest_once_and_are_of_parts_there_are(tmp_path):
     pairs = (("part_1", "part_0"), ("part_0", "part_1"))
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path, pairs)
     (excluded,) = ElementTree.parse(bundle.mjcf).iter("exclude")
     assert excluded.attrib == {"body1": "part_0", "body2": "part_1"}
     assert bundle.manifest.excluded_pairs == (("part_0", "part_1"),)
-
-
-def test_an_excluded_pair_of_unknown_parts_is_refused_with_the_names_there_are(tmp_path):
     with pytest.raises(ValueError, match=r"no part .lid.; there are .*part_2"):
         export_bundle(cabinet(), PROVENANCE, tmp_path, (("part_0", "lid"),))
 

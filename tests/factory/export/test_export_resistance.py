@@ -16,11 +16,12 @@ def one_joint(joint, child_center=(0.0, 0.0, 2.0)):
     return boxes_asset([box([0, 0, 0], [1, 1, 1]), box(child_center, [0.4, 0.02, 0.6])], (joint,))
 
 
-def test_what_the_articulation_states_wins():
-    place = ([0, 0, 1], [0, 0, 2], 0, 1)
-    joint = Joint("j", JointKind.REVOLUTE, 0, 1, *place, damping=0.25, friction=0.0)
+def test_what_the_articulation_states_wins_and_a_fixed_joint_resists_nothing():
+    place = (0, 1, [0, 0, 1], [0, 0, 2])
+    joint = Joint("j", JointKind.REVOLUTE, *place, 0, 1, damping=0.25, friction=0.0)
     (resistance,) = joint_resistances(one_joint(joint))
     assert (resistance.damping, resistance.friction) == (0.25, 0.0)
+    assert joint_resistances(one_joint(Joint("j", JointKind.FIXED, *place)))[0].friction == 0.0
 
 
 def test_damping_that_explicit_engines_cannot_bear_is_lowered_and_told():
@@ -76,10 +77,12 @@ def test_damping_is_inertia_over_half_a_second_by_the_parallel_axis_theorem():
     assert resistance.armature == pytest.approx(0.01 * inertia)
 
 
-def test_a_door_that_gravity_would_open_is_held_closed():
+def test_a_door_that_gravity_would_open_is_held_closed_and_one_that_it_closes_is_not():
     hinge = Joint("j", JointKind.REVOLUTE, 0, 1, [1, 0, 0], [0.0, 0.0, 2.0], 0, 1.5)
     (resistance,) = joint_resistances(one_joint(hinge, child_center=(0.0, -0.5, 2.0)))
     assert resistance.friction == pytest.approx(1.2 * 2.0 * GRAVITY * 0.5)
+    lift = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 0, 1], [0.0, 0.0, 2.0], 0.0, 0.5)
+    assert joint_resistances(one_joint(lift))[0].friction == 1.0
 
 
 def weighing(asset, mass):
@@ -110,16 +113,6 @@ def test_what_is_stated_is_not_held_against_a_light_hand(stated, written):
     slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 2], 0, 0.3, friction=stated)
     (resistance,) = joint_resistances(weighing(one_joint(slide), 9.6))
     assert resistance.friction == written
-
-
-def test_gravity_that_closes_a_joint_adds_no_friction():
-    lift = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 0, 1], [0.0, 0.0, 2.0], 0, 0.5)
-    assert joint_resistances(one_joint(lift))[0].friction == 1.0
-
-
-def test_a_fixed_joint_resists_nothing():
-    fixed = one_joint(Joint("j", JointKind.FIXED, 0, 1, [0, 0, 1], [0, 0, 2]))
-    assert joint_resistances(fixed)[0].friction == 0.0
 
 
 def test_carried_parts_are_the_whole_subtree():

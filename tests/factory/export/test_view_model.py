@@ -25,6 +25,8 @@ def test_an_input_that_became_nothing_can_be_looked_at(tmp_path):
     folder = write_input(box([0, 0, 1], [1, 2, 3]), tmp_path / "input")
     scene = scene_from((folder / "view.glb").read_bytes())
     assert (scene.links, scene.movable, len(scene.visuals)) == (("object",), (), 1)
+    with pytest.raises(FileExistsError):
+        write_input(box([0, 0, 0], [1, 1, 1]), tmp_path)
 
 
 def test_what_was_rejected_keeps_what_is_shown_and_no_asset(tmp_path):
@@ -45,15 +47,7 @@ def test_what_was_rejected_keeps_what_is_shown_and_no_asset(tmp_path):
         result = register(registry, product)
     kept = {path.name for path in registry.folder(result.entry).iterdir()}
     assert kept == {*SHOWN, "report.json"}
-    assert verify(registry) == ()
-
-
-def test_a_rejection_without_a_folder_keeps_its_report_alone(tmp_path):
-    registry = Registry(tmp_path / "out", create=True)
+    # Of what became nothing there is the report alone.
     folder = registry.add(replace(REJECTED, id="chest-1"), BAD_REPORT)
     assert [path.name for path in folder.iterdir()] == ["report.json"]
-
-
-def test_a_product_of_nothing_has_no_folder(tmp_path):
-    with pytest.raises(FileExistsError):
-        write_input(box([0, 0, 0], [1, 1, 1]), tmp_path)
+    assert verify(registry) == ()

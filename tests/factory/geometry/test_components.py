@@ -1,6 +1,7 @@
 """Connected components: double-sided sheets hold together, boxes that touch stay apart."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plain_solids import box_between as box
@@ -8,38 +9,27 @@ from plain_solids import box_between as box
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.mesh import Mesh, concatenate
 
-
-def test_a_box_is_one_component():
-    assert connected_components(box((0, 0, 0), (1, 1, 1))).tolist() == [0] * 12
-
-
-def test_a_mesh_without_faces_has_no_labels():
-    nothing = Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))
-    assert connected_components(nothing).shape == (0,)
+BOX = box((0, 0, 0), (1, 1, 1))
+SEAMS = Mesh.from_triangles(BOX.vertices[BOX.faces].reshape(-1, 3), np.arange(36).reshape(-1, 3))
+SHEET = Mesh.from_triangles(
+    [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3], [2, 1, 0], [3, 2, 0]]
+)
 
 
-def test_vertices_repeated_at_a_seam_do_not_split_a_box():
-    welded = box((0, 0, 0), (1, 1, 1))
-    corners = welded.vertices[welded.faces].reshape(-1, 3)
-    loose = Mesh.from_triangles(corners, np.arange(36).reshape(-1, 3))
-    assert connected_components(loose).tolist() == [0] * 12
-
-
-def test_a_double_sided_sheet_is_one_component():
-    corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
-    sheet = Mesh.from_triangles(corners, [[0, 1, 2], [0, 2, 3], [2, 1, 0], [3, 2, 0]])
-    assert connected_components(sheet).tolist() == [0, 0, 0, 0]
-
-
-def test_boxes_that_share_only_an_edge_stay_apart():
-    pair = concatenate([box((0, 0, 0), (1, 1, 1)), box((1, 1, 0), (2, 2, 1))])
-    assert connected_components(pair).tolist() == [0] * 12 + [1] * 12
-
-
-def test_a_face_without_area_joins_the_component_at_its_vertex():
-    solid = box((0, 0, 0), (1, 1, 1))
-    mesh = Mesh.from_triangles(solid.vertices, np.vstack([solid.faces, [[0, 0, 1]]]))
-    assert connected_components(mesh).tolist() == [0] * 13
+@pytest.mark.parametrize(
+    ("mesh", "labels"),
+    [
+        (BOX, [0] * 12),
+        (Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3))), []),
+        (SEAMS, [0] * 12),
+        (SHEET, [0] * 4),
+        (concatenate([BOX, box((1, 1, 0), (2, 2, 1))]), [0] * 12 + [1] * 12),
+        (Mesh.from_triangles(BOX.vertices, np.vstack([BOX.faces, [[0, 0, 1]]])), [0] * 13),
+    ],
+    ids=["box", "nothing", "seams", "double-sided", "sharing an edge", "a face without area"],
+)
+def test_faces_are_labelled_by_what_they_hang_together_with(mesh, labels):
+    assert connected_components(mesh).tolist() == labels
 
 
 @settings(max_examples=25, deadline=None)

@@ -67,13 +67,10 @@ def urdf(folder):
     return folder / "box.urdf"
 
 
-def test_every_file_of_a_description_counts(tmp_path):
+def test_every_file_of_a_description_counts_and_so_does_an_annotation(tmp_path):
     source = load(urdf(tmp_path))
     meshes = {f"meshes/{name}" for name in ("cube.obj", "cube.mtl", "wood.png")}
     assert present(source) == {"box.urdf", "box.toml", *meshes}
-
-
-def test_an_annotation_counts(tmp_path):
     path = write_glb(tmp_path)
     np.savez(tmp_path / "pred.npz", face_part_ids=np.zeros(12, dtype=int))
     (tmp_path / "cube.toml").write_text('annotation = "pred.npz"')

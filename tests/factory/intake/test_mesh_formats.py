@@ -144,19 +144,17 @@ def test_obj_understands_negative_indices_and_missing_attributes(tmp_path):
     assert mesh.corner_normals is None
 
 
-def test_obj_without_its_library_loads_and_says_so(tmp_path):
+@pytest.mark.parametrize(
+    ("name", "told"), [("cube.mtl", "cube.mtl is missing"), ("wood.png", "wood.png")]
+)
+def test_an_obj_without_its_library_or_a_whole_texture_loads_and_says_so(tmp_path, name, told):
     path = write_obj(tmp_path)
-    (tmp_path / "cube.mtl").unlink()
+    if name == "wood.png":
+        (tmp_path / name).write_bytes(png()[:30])
+    else:
+        (tmp_path / name).unlink()
     visual = _load(path)
-    assert any("cube.mtl is missing" in note for note in visual.notes)
-    assert all(m.texture is None for m in visual.mesh.materials)
-
-
-def test_broken_texture_is_left_out_and_named(tmp_path):
-    path = write_obj(tmp_path)
-    (tmp_path / "wood.png").write_bytes(png()[:30])
-    visual = _load(path)
-    assert any("wood.png" in note for note in visual.notes)
+    assert any(told in note for note in visual.notes)
     assert all(m.texture is None for m in visual.mesh.materials)
 
 

@@ -41,26 +41,21 @@ def refused(tmp_path, text, name="fridge.parts.json"):
     return found.message
 
 
-def test_without_a_file_nothing_is_stated(tmp_path):
+def test_json_and_toml_state_the_same_and_no_file_nothing(tmp_path):
     assert read_stated(tmp_path / "fridge.glb", InputFiles(tmp_path, IntakeConfig())) is None
-
-
-def test_json_and_toml_state_the_same(tmp_path):
     by_json = read(tmp_path, json.dumps({"parts": [{**DOOR, "hinge": "left"}]}))
     (tmp_path / "fridge.parts.json").unlink()
     toml = '[[parts]]\nkind = "door"\nside = "front"\nbox = [0.1, 0.1, 0.9, 0.9]\nhinge = "left"\n'
     assert read(tmp_path, toml, "fridge.parts.toml") == by_json
     (part,) = by_json.parts
     assert (part.kind, part.side, part.hinge) == (PartKind.DOOR, Side.FRONT, Hinge.LEFT)
+    # A kind alone is enough.
+    assert stated_from({"parts": [{"kind": "drawer", "count": 3}]}).parts[0].count == 3
 
 
 def test_the_name_with_its_ending_wins(tmp_path):
     (tmp_path / "fridge.glb.parts.json").write_text('{"opens": false}')
     assert read(tmp_path, "{}").opens is False
-
-
-def test_a_kind_alone_is_enough():
-    assert stated_from({"parts": [{"kind": "drawer", "count": 3}]}).parts[0].count == 3
 
 
 @pytest.mark.parametrize(
@@ -104,19 +99,21 @@ def test_what_cannot_be_meant_is_refused_with_its_place(values, said):
     assert said in str(caught.value)
 
 
-@pytest.mark.parametrize("text", ["{", "[" * 100_000, "\x00", '{"parts": [{"kind": NaN}]}'])
-def test_broken_text_is_refused(tmp_path, text):
-    refused(tmp_path, text)
-
-
-def test_a_box_is_no_place_for_infinity(tmp_path):
-    for number in (math.inf, math.nan):
-        text = json.dumps({"parts": [{**DOOR, "box": [0.0, 0.0, number, 1.0]}]})
-        assert "box" in refused(tmp_path, text)
-
-
-def test_a_huge_file_is_refused_unread(tmp_path):
-    assert f"at most {MOST_BYTES}" in refused(tmp_path, " " * (MOST_BYTES + 1))
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        *((text, "") for text in ("{", "[" * 100_000, "\x00", '{"parts": [{"kind": NaN}]}')),
+        *(
+            (json.dumps({"parts": [{**DOOR, "box": [0.0, 0.0, number, 1.0]}]}), "box")
+            for number in (math.inf, math.nan)
+        ),
+        # It is not read.
+        (" " * (MOST_BYTES + 1), f"at most {MOST_BYTES}"),
+    ],
+    ids=range(7),
+)
+def test_broken_text_is_refused(tmp_path, text, said):
+    assert said in refused(tmp_path, text)
 
 
 def test_a_link_out_of_the_folder_is_refused(tmp_path):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from job_samples import PLAIN, Inline, job, made, pretend, write_inputs
+from job_samples import PLAIN, job, made, pretend, write_inputs
 
 from asset_factory.factory.errors import InputRejected, RegistryError
 from asset_factory.factory.intake import source as source_module
@@ -38,7 +38,7 @@ def _pretending(monkeypatch):
     monkeypatch.setattr(job_module, "POLL_S", 0.01)
 
 
-def test_the_same_job_again_does_nothing(tmp_path):
+def test_the_same_job_again_does_nothing_and_every_build_is_logged(tmp_path):
     inputs = write_inputs(tmp_path / "in", 5)
     first = list(job(inputs, tmp_path / "out").run())
     assert [result.attempts for result in first] == [1] * 5
@@ -47,6 +47,10 @@ def test_the_same_job_again_does_nothing(tmp_path):
     assert made(tmp_path / "in") == calls
     assert all(result.known and result.reused == ("build",) for result in again)
     assert [(r.input, r.entry) for r in again] == [(r.input, r.entry) for r in first]
+    lines = [json.loads(line) for line in (tmp_path / "out" / LOG_NAME).read_text().splitlines()]
+    assert [line["event"] for line in lines[:7]] == ["begun", *["built"] * 5, "ended"]
+    assert lines[1]["stages"][-1]["stage"] == "register"
+    assert lines[6] | {"state": "finished", "built": 5, "left": 0} == lines[6]
 
 
 def test_a_job_leaves_no_more_of_the_cache_than_its_settings_say(tmp_path):
@@ -80,17 +84,24 @@ def test_other_settings_are_another_build_but_other_limits_are_not(tmp_path):
     assert not any(result.known for result in job(inputs, tmp_path / "out", heavier).run())
 
 
-def test_a_moved_folder_and_a_lost_cache_change_nothing(tmp_path):
+def test_a_moved_folder_a_lost_cache_and_a_relative_path_change_nothing(tmp_path, monkeypatch):
     inputs = write_inputs(tmp_path / "in", 2)
     list(job(inputs, tmp_path / "out").run())
     (tmp_path / "in").rename(tmp_path / "moved")
     shutil.rmtree(tmp_path / "out" / ".cache", ignore_errors=True)
     moved = tuple(tmp_path / "moved" / path.name for path in inputs)
     assert all(result.known for result in job(moved, tmp_path / "out").run())
+    monkeypatch.chdir(tmp_path / "moved")
+    (result,) = job((Path("thing_0.stl"),), Path("../out")).run()
+    assert (result.known, result.input) == (True, "thing_0.stl")
 
 
-def test_a_limit_leaves_the_rest_to_the_next_job(tmp_path):
+def test_a_limit_leaves_the_rest_to_the_next_job_and_out_of_time_begins_nothing(tmp_path):
     inputs = write_inputs(tmp_path / "in", 5)
+    late = job(inputs, tmp_path / "out", budget=Budget(max_s=0.0))
+    assert list(late.run()) == []
+    assert (late.state, late.left) == ("out_of_time", 5)
+    assert made(tmp_path / "in") == []
     short = job(inputs, tmp_path / "out", budget=Budget(limit=2))
     assert len(list(short.run())) == 2
     assert (short.state, short.left) == ("limit_reached", 3)
@@ -101,14 +112,6 @@ def test_a_limit_leaves_the_rest_to_the_next_job(tmp_path):
     enough = job(inputs, tmp_path / "out", budget=Budget(limit=1))
     assert len(list(enough.run())) == 5
     assert (enough.state, enough.left) == ("finished", 0)
-
-
-def test_out_of_time_begins_nothing(tmp_path):
-    inputs = write_inputs(tmp_path / "in", 3)
-    late = job(inputs, tmp_path / "out", budget=Budget(max_s=0.0))
-    assert list(late.run()) == []
-    assert (late.state, late.left) == ("out_of_time", 3)
-    assert made(tmp_path / "in") == []
 
 
 def test_what_was_rejected_stays_rejected_until_somebody_asks(tmp_path):
@@ -226,23 +229,6 @@ def test_two_files_of_one_name_and_content_are_built_once(tmp_path):
     results = list(job(inputs, tmp_path / "out").run())
     assert sorted(Path(result.input).parent.name for result in results) == ["copy", "in"]
     assert len(made(tmp_path / "in") + made(tmp_path / "copy")) == 1
-
-
-def test_every_build_is_logged(tmp_path):
-    inputs = write_inputs(tmp_path / "in", 2)
-    list(job(inputs, tmp_path / "out").run())
-    lines = [json.loads(line) for line in (tmp_path / "out" / LOG_NAME).read_text().splitlines()]
-    assert [line["event"] for line in lines] == ["begun", "built", "built", "ended"]
-    assert lines[1]["stages"][-1]["stage"] == "register"
-    assert lines[-1] | {"state": "finished", "built": 2, "left": 0} == lines[-1]
-
-
-def test_a_relative_path_is_the_same_input(tmp_path, monkeypatch):
-    (path,) = write_inputs(tmp_path / "in", 1)
-    list(job((path,), tmp_path / "out").run())
-    monkeypatch.chdir(tmp_path / "in")
-    (result,) = job((Path(path.name),), Path("../out"), executor=Inline()).run()
-    assert (result.known, result.input) == (True, path.name)
 
 
 def test_what_an_input_without_rights_was_listed_as_goes_once_it_has_them(tmp_path, monkeypatch):

@@ -18,30 +18,29 @@ def machine(root, available, cgroup=""):
     return proc
 
 
-def group(folder, limit, used, unused=0):
+def group(folder, limit, used, unused):
+    """A group with that limit [GiB], of which so much is used, and of that so much is no loss."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "memory.max").write_text(f"{limit}\n")
-    (folder / "memory.current").write_text(f"{used}\n")
-    (folder / "memory.stat").write_text(f"anon 5\ninactive_file {unused}\n")
+    most = limit if limit == "max" else limit * GIB
+    (folder / "memory.max").write_text(f"{most}\n")
+    (folder / "memory.current").write_text(f"{used * GIB}\n")
+    (folder / "memory.stat").write_text(f"anon 5\ninactive_file {unused * GIB}\n")
 
 
-def test_without_cgroups_the_machine_decides(tmp_path):
-    assert free_memory(machine(tmp_path, 8 * GIB), tmp_path / "none") == 8 * GIB
-
-
-def test_the_tightest_of_all_groups_above_decides(tmp_path):
-    proc = machine(tmp_path, 64 * GIB, "0::/slurm/job/step\n")
-    groups = tmp_path / "groups"
-    group(groups / "slurm" / "job", str(8 * GIB), 5 * GIB, GIB)
-    group(groups / "slurm" / "job" / "step", "max", 0)
-    assert free_memory(proc, groups) == 4 * GIB
-
-
-def test_a_container_sees_its_own_group_at_the_root(tmp_path):
-    proc = machine(tmp_path, 64 * GIB, "0::/../outside\n")
-    groups = tmp_path / "groups"
-    group(groups, str(2 * GIB), GIB)
-    assert free_memory(proc, groups) == GIB
+@pytest.mark.parametrize(
+    ("cgroup", "groups", "free"),
+    [
+        # Without groups the machine decides, else the tightest of all above.
+        ("", {}, 64),
+        ("0::/slurm/job/step\n", {"slurm/job": (8, 5, 1), "slurm/job/step": ("max", 0, 0)}, 4),
+        # A container sees its own group at the root.
+        ("0::/../outside\n", {".": (2, 1, 0)}, 1),
+    ],
+)
+def test_the_tightest_limit_decides(tmp_path, cgroup, groups, free):
+    for name, (limit, used, unused) in groups.items():
+        group(tmp_path / "groups" / name, limit, used, unused)
+    assert free_memory(machine(tmp_path, 64 * GIB, cgroup), tmp_path / "groups") == free * GIB
 
 
 def test_groups_of_the_first_kind_are_read_too(tmp_path):

@@ -25,9 +25,7 @@ def test_scores_are_the_sum_of_both_ways():
     wanted = hidden @ network.outer + network.base + numbers @ network.direct
     assert network.scores(numbers) == pytest.approx(wanted)
     assert network.scores(np.stack([numbers, 0.0 * numbers])).shape == (2, 2)
-
-
-def test_a_linear_model_is_a_network_of_no_width():
+    # A linear model is a network of no width.
     assert linear(np.array([1.0, 2.0])).scores(np.array([3.0, 4.0])) == pytest.approx([11.0])
 
 

@@ -21,12 +21,19 @@ def registry(tmp_path):
     return Registry(tmp_path / "out", create=True)
 
 
-def test_a_published_asset_is_listed_and_whole(registry):
+def test_a_published_asset_is_listed_and_whole_and_its_report_has_the_entry(registry):
     folder = publish(registry)
     assert registry.entries() == (PASSED,)
     assert (folder / "meshes" / "a.obj").read_text() == "one"
-    assert json.loads((folder / "report.json").read_text())["passed"] is True
     assert list((registry.root / ".staging").iterdir()) == []
+    report = json.loads((folder / "report.json").read_text())
+    assert report["passed"] is True
+    assert report["files"] == folder_digests(folder, without=("report.json",))
+    assert report["entry"]["id"] == PASSED.id
+    assert report["entry"]["license"] == "CC0-1.0"
+    assert report["entry"]["split"] == PASSED.split
+    assert not {"tags", "solved"} & set(report["entry"])
+    assert registry.told(PASSED).report.passed
 
 
 def test_repairs_are_told_as_they_were_registered_and_of_older_reports_by_their_sentences(registry):
@@ -76,31 +83,36 @@ def test_a_bundle_that_cannot_be_renamed_publishes_nothing(
     assert list(registry.assets.iterdir()) == []
 
 
-def test_what_passed_has_files(registry):
+def test_what_passed_has_files_and_an_id_is_the_name_of_a_folder(registry):
     with pytest.raises(RegistryError, match="has passed, and has no files"):
         registry.add(PASSED, REPORT)
+    with pytest.raises(RegistryError, match=r"an entry's id must be .* not '\.\./up'"):
+        registry.add(replace(REJECTED, id="../up"), BAD_REPORT)
     assert registry.entries() == ()
+    assert not (registry.root / "up").exists()
 
 
-def test_an_unknown_id_far_from_any_says_how_many_there_are(registry):
-    publish(registry)
-    with pytest.raises(RegistryError, match="shows all 1"):
-        registry.entry("fridge")
-
-
-def test_a_registry_moves_with_its_folder(registry, tmp_path):
+def test_a_registry_moves_with_its_folder_and_who_may_not_write_can_read(
+    registry, tmp_path, monkeypatch
+):
     publish(registry)
     moved = Path(shutil.move(registry.root, tmp_path / "elsewhere"))
-    assert Registry(moved).entries() == (PASSED,)
+    for writable in (True, False):
+        monkeypatch.setattr("os.access", lambda path, mode, writable=writable: writable)
+        assert Registry(moved).entries() == (PASSED,)
+        assert Registry(moved).told(PASSED).report.passed
 
 
-def test_forgetting_spares_the_exception(registry):
+def test_forgetting_takes_the_note_too_and_spares_the_exception(registry):
     publish(registry)
+    registry.note(PASSED.id, tags=("a",))
     registry.forget(PASSED.id, except_id=PASSED.id)
-    assert registry.entries() == (PASSED,)
+    assert [entry.id for entry in registry.entries()] == [PASSED.id]
     registry.forget(PASSED.id)
     assert registry.entries() == ()
     assert list(registry.assets.iterdir()) == []
+    assert not (registry.root / "notes" / f"{PASSED.id}.json").exists()
+    registry.forget("never-there")
 
 
 def test_the_same_bytes_again_change_nothing(registry):
@@ -122,17 +134,6 @@ def test_without_an_exchanging_rename_two_do(registry, monkeypatch):
     assert list((registry.root / ".staging").iterdir()) == []
 
 
-def test_the_report_has_the_files_digests_and_the_entry(registry):
-    folder = publish(registry)
-    report = json.loads((folder / "report.json").read_text())
-    assert report["files"] == folder_digests(folder, without=("report.json",))
-    assert report["entry"]["id"] == PASSED.id
-    assert report["entry"]["license"] == "CC0-1.0"
-    assert report["entry"]["split"] == PASSED.split
-    assert not {"tags", "solved"} & set(report["entry"])
-    assert registry.told(PASSED).report.passed
-
-
 def test_what_the_files_know_better_completes_the_entry(registry):
     folder = publish(registry, entry=replace(PASSED, license=""))
     (folder.parent / "gone").mkdir()
@@ -145,12 +146,6 @@ def test_what_the_files_know_better_completes_the_entry(registry):
     assert registry.entry(PASSED.id).message == "5 mm deep"
 
 
-def test_an_id_that_is_no_folder_name_is_refused(registry):
-    with pytest.raises(RegistryError, match=r"an entry's id must be .* not '\.\./up'"):
-        registry.add(replace(REJECTED, id="../up"), BAD_REPORT)
-    assert not (registry.root / "up").exists()
-
-
 def test_a_full_disk_is_no_damaged_database(registry, monkeypatch):
     def full(*arguments):
         error = sqlite3.OperationalError("database or disk is full")
@@ -161,10 +156,3 @@ def test_a_full_disk_is_no_damaged_database(registry, monkeypatch):
     with pytest.raises(OSError, match="No space left on device") as caught:
         publish(registry)
     assert caught.value.errno == errno.ENOSPC
-
-
-def test_a_registry_that_nobody_can_write_to_can_be_read(registry, monkeypatch):
-    publish(registry)
-    monkeypatch.setattr("os.access", lambda path, mode: False)
-    assert Registry(registry.root).entries() == (PASSED,)
-    assert Registry(registry.root).told(PASSED).report.passed

@@ -27,9 +27,6 @@ def test_each_change_has_its_group():
     assert [(change.after.id, change.columns) for change in found.changed] == [("d", ("joints",))]
     assert found.same == 2
     assert found.to_dict()["newly_failed"][0]["after"]["message"] == "5 mm deep"
-
-
-def test_nothing_changes_within_one_registry():
     assert diff((PASSED,), (PASSED,)) == Diff(same=1)
 
 

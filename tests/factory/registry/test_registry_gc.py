@@ -62,17 +62,16 @@ def left(store):
     ]
 
 
-def test_the_cache_shrinks_by_age(registry):
-    store = cached(registry, (0, 1, 10, 100))
-    freed = collect_garbage(registry.root, older_than_s=5 * DAY).cache
-    assert freed.files == 2
-    assert left(store) == [0, 1]
-
-
-def test_files_from_the_future_are_not_kept_for_ever(registry):
-    store = cached(registry, (-400, 0.5))
-    assert collect_garbage(registry.root, older_than_s=30 * DAY).cache.files == 1
-    assert left(store) == [1]
+@pytest.mark.parametrize(
+    ("ages", "days", "kept"),
+    # Files from the future are not kept for ever.
+    [((0, 1, 10, 100), 5, [0, 1]), ((-400, 0.5), 30, [1])],
+)
+def test_the_cache_shrinks_by_age(registry, ages, days, kept):
+    store = cached(registry, ages)
+    freed = collect_garbage(registry.root, older_than_s=days * DAY).cache
+    assert freed.files == len(ages) - len(kept)
+    assert left(store) == kept
 
 
 def test_the_cache_shrinks_by_size_longest_unused_first(registry):

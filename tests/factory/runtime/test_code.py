@@ -83,14 +83,11 @@ def test_a_package_counts_as_all_that_is_in_it(digest, tmp_path):
     assert digest("kitchen.tools") != before
     (tmp_path / "kitchen/tools/spoons.py").write_text("spoon = 1\n")
     assert digest("kitchen.tools") == before
-    (tmp_path / "kitchen/tools/forks.py").write_text("")
-    assert digest("kitchen.tools") != before
-
-
-def test_a_package_counts_where_a_name_is_its_own(digest):
-    digest("kitchen.look")
+    # So it does where a name is its own.
     tools = {"kitchen.tools", "kitchen.tools.knives", "kitchen.tools.spoons"}
     assert modules_run_by("kitchen.look") == {"kitchen.look", *tools}
+    (tmp_path / "kitchen/tools/forks.py").write_text("")
+    assert digest("kitchen.tools") != before
 
 
 def test_line_ends_change_nothing(digest, tmp_path):
@@ -136,15 +133,11 @@ def _seen_by_python(tree, name, file):
     return {code._home(*each) for each in own}
 
 
-def test_articulators_imported_by_name_are_among_what_the_stage_runs():
+def test_articulators_imported_by_name_and_all_weights_are_among_what_the_stage_runs():
     (stage,) = (stage for stage in STAGES if stage.name == "articulate")
     for name in ("geometric.geometric", "seams.movers", "auto.articulator"):
         package = f"asset_factory.factory.articulate.{name.partition('.')[0]}."
         assert any(each.startswith(package) for each in modules_run_by(*stage.code))
-
-
-def test_all_weights_that_the_package_brings_are_in_the_key_of_the_stage_that_asks_them():
-    (stage,) = (stage for stage in STAGES if stage.name == "articulate")
     files = {f"weights/{file.name}" for file in WEIGHTS.iterdir() if file.suffix != ".md"}
     # The network's own are named in the settings.
     assert files - {"weights/small.safetensors"} <= {*stage.data}

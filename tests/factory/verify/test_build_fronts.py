@@ -48,9 +48,7 @@ def test_a_front_that_sticks_is_built_anew_once():
     assert plan.build_fronts
     assert [each.sentence for each in plan.repairs] == ["built fronts and body anew: drawer"]
     assert next_plan(rejected("rest_penetration"), plan, RepairConfig(), FRONTS) is None
-
-
-def test_nothing_is_built_for_other_faults_or_without_fronts():
+    # Nothing is built for other faults, or without fronts.
     assert next_plan(rejected("no_mass"), Plan(), RepairConfig(), FRONTS) is None
     assert next_plan(rejected("rest_penetration"), Plan(), RepairConfig(), Spare()) is None
 

@@ -57,9 +57,7 @@ def test_one_that_passes_without_a_joint_is_better_than_none_and_worse_than_whol
     best, (told,) = best_of(iter([lame, draft()]))
     assert best.whole
     assert "passes only without hinge" in told.message
-
-
-def test_where_none_passes_the_likeliest_is_rejected():
+    # Where none passes, the likeliest is rejected.
     first = draft(DEEP)
     assert best_of(iter([first, draft(DEEP)]))[0] is first
 

@@ -5,6 +5,8 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import pytest
+
 from asset_factory.factory.config import BuildConfig, HullsConfig
 from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.verify import rounds
@@ -47,31 +49,22 @@ def drafted(monkeypatch, cut_off, refused_below=0, fat=0):
     return draft, aims
 
 
-def test_what_cutting_adds_is_asked_for_less(monkeypatch):
-    draft, aims = drafted(monkeypatch, cut_off=30)
-    assert aims == [None, MOST, MOST - 30]
-    assert draft.asset.hull_count == MOST
-    assert draft.before.hull_count == 180
-
-
-def test_nothing_is_made_again_of_what_is_light(monkeypatch):
-    assert drafted(monkeypatch, cut_off=-50)[1] == [None]
-
-
-def test_what_passes_with_more_only_keeps_more(monkeypatch):
-    draft, aims = drafted(monkeypatch, cut_off=30, refused_below=120)
-    assert aims == [None, MOST, MOST - 30]
-    assert draft.asset.hull_count == 130
-
-
-def test_where_cutting_makes_more_than_may_be_the_least_is_kept(monkeypatch):
-    draft, aims = drafted(monkeypatch, cut_off=120)
-    assert aims == [None, MOST]
-    assert draft.asset.hull_count == 220
-
-
-def test_what_becomes_heavier_by_joining_stays_as_it_was(monkeypatch):
-    draft, aims = drafted(monkeypatch, cut_off=30, fat=90)
-    assert aims == [None, MOST]
-    assert draft.asset.hull_count == 180
-    assert draft.before is None
+@pytest.mark.parametrize(
+    ("made", "asked", "count", "before"),
+    [
+        # What cutting adds is asked for less.
+        ({"cut_off": 30}, [None, MOST, MOST - 30], MOST, 180),
+        ({"cut_off": -50}, [None], MOST, None),
+        # What passes with more only keeps more.
+        ({"cut_off": 30, "refused_below": 120}, [None, MOST, MOST - 30], 130, 180),
+        # Where cutting makes more than may be, the least is kept.
+        ({"cut_off": 120}, [None, MOST], 220, 270),
+        # What becomes heavier by joining stays as it was.
+        ({"cut_off": 30, "fat": 90}, [None, MOST], 180, None),
+    ],
+)
+def test_hulls_are_joined_to_as_many_as_may_be(monkeypatch, made, asked, count, before):
+    draft, aims = drafted(monkeypatch, **made)
+    assert aims == asked
+    assert draft.asset.hull_count == count
+    assert getattr(draft.before, "hull_count", None) == before

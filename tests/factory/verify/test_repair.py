@@ -90,16 +90,11 @@ def test_a_knuckle_that_remains_is_excluded_once():
     assert planned(given, plan) is None
 
 
-def test_a_joint_that_runs_into_something_late_ends_before():
-    given = blocked()
-    plan = planned(given)
+def test_a_joint_that_runs_into_something_late_ends_before_and_early_is_not_shortened_to_nothing():
+    plan = planned(blocked())
     assert plan.upper == {"hinge": 1.5}
     assert "ended hinge at 1.5 instead of 2 rad" in plan.repairs[-1].sentence
-
-
-def test_a_joint_that_runs_into_something_early_is_not_shortened_to_nothing():
-    given = blocked(clear_until=0.2)
-    assert planned(given) is None
+    assert planned(blocked(clear_until=0.2)) is None
 
 
 def test_a_small_blocked_part_is_frozen_and_says_after_how_much():
@@ -119,8 +114,7 @@ def test_one_hopeless_joint_makes_the_whole_hopeless():
     "code", ["rest_penetration", "no_collision", "limits_swapped", "simulator_crashed"]
 )
 def test_what_no_repair_mends_gets_no_plan(code):
-    given = blocked(hard(code))
-    assert planned(given) is None
+    assert planned(blocked(hard(code))) is None
 
 
 def lying_in(*parts):
@@ -144,6 +138,8 @@ def test_a_guessed_part_that_lies_in_a_known_one_is_given_up_and_two_known_ones_
     assert planned(verdict(lying_in("a", "base")), spare=GUESSES).given_up == {"a_hinge"}
     assert planned(verdict(lying_in("base", "shelf")), spare=GUESSES) is None
     assert planned(verdict(lying_in("a", "base"), hard("no_collision")), spare=GUESSES) is None
+    given_up = Plan(given_up=frozenset({"a_hinge"}))
+    assert planned(verdict(lying_in("a", "base")), given_up, GUESSES) is None
 
 
 def test_of_what_jams_only_the_guess_worth_least_is_given_up():
@@ -155,11 +151,6 @@ def test_of_what_jams_only_the_guess_worth_least_is_given_up():
     assert [each.sentence for each in plan.repairs] == ["gave up b_hinge: a jams"]
     alone = Finding("jammed", Severity.ERROR, "the best one jams", joint="best")
     assert planned(verdict(jammed, alone), spare=GUESSES) is None
-
-
-def test_what_was_given_up_and_still_overlaps_ends_the_repairs():
-    given = Plan(given_up=frozenset({"a_hinge"}))
-    assert planned(verdict(lying_in("a", "base")), given, GUESSES) is None
 
 
 def test_a_guessed_hinge_that_is_blocked_is_moved_to_the_front_edge_once():
@@ -196,15 +187,12 @@ def test_hulls_that_were_joined_are_left_apart_before_any_joint_is_changed():
     assert planned(given, plan).upper == {"hinge": 1.5}
 
 
-def test_joined_hulls_stay_joined_where_nothing_is_wrong_or_there_are_too_many():
+def test_joined_hulls_stay_joined_where_nothing_or_another_part_is_wrong_or_there_are_too_many():
     wrong = hard("rest_penetration")
     assert planned(verdict(JOINED)) is None
     assert planned(verdict(JOINED, wrong), Plan(fewer=10)) is None
     assert planned(verdict(wrong)) is None
-
-
-def test_joined_hulls_stay_joined_where_other_parts_are_wrong():
-    wrong = hard("rest_penetration", parts=("door", "handle"))
-    assert planned(verdict(JOINED, wrong)) is None
+    elsewhere = hard("rest_penetration", parts=("door", "handle"))
+    assert planned(verdict(JOINED, elsewhere)) is None
     unplaced = hard("simulator_crashed", parts=())
     assert planned(verdict(JOINED, unplaced)).closely

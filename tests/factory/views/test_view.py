@@ -31,15 +31,11 @@ OUTWARD = {
 
 
 @pytest.mark.parametrize("side", Side)
-def test_a_frame_turns_and_looks_inward(side):
+def test_a_frame_turns_and_looks_inward_and_a_box_is_a_flat_rectangle(side):
     assert np.allclose(side.frame @ side.frame.T, np.eye(3))
     assert np.allclose(side.frame[2], -np.array(OUTWARD[side]))
     # Right, up and away make a left-handed frame, as depth does behind any picture.
     assert np.isclose(abs(np.linalg.det(side.frame)), 1.0)
-
-
-@pytest.mark.parametrize("side", Side)
-def test_a_box_is_a_flat_rectangle(side):
     seen = elevation(BOX, side, pixels=80)
     raster = seen.raster
     width, height = (np.abs(side.frame[:2]) @ BOX.extents) / raster.pixel

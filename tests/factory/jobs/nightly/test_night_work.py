@@ -1,16 +1,23 @@
-"""Nights with the real registry and real jobs."""
+"""Nights with the real registry and real jobs, in which something was broken between them."""
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
-from registry_samples import publish
+import trimesh
+from registry_samples import named, publish
 
 from asset_factory.factory.cli.nightly import Nightly, night_config, run
+from asset_factory.factory.jobs.nightly import work
+from asset_factory.factory.jobs.nightly.run import run_night
 from asset_factory.factory.jobs.nightly.settings import NightBudget
 from asset_factory.factory.jobs.nightly.work import Work
 from asset_factory.factory.jobs.ray.executor import RayExecutor
-from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry import Entry, Registry
+from asset_factory.factory.registry.result import Result
+from asset_factory.factory.registry.verify import verify
+from asset_factory.factory.runtime.store import folder_digests
 
 pytest.importorskip("pyarrow")
 
@@ -19,9 +26,17 @@ pytest.importorskip("pyarrow")
 def command(tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "night.toml").write_text(
-        "inputs = ['in']\nsim = 'mujoco'\nworkers = 1\n[build]\narticulator = 'geometric'\n"
+        "inputs = ['in']\nsim = 'mujoco'\nworkers = 1\n[build]\narticulator = 'rigid'\n"
     )
     return Nightly(config=tmp_path / "night.toml", output=tmp_path / "out")
+
+
+def night(config):
+    return run_night(config, Work(config))
+
+
+def spoil(path):
+    path.write_bytes(bytes(path.stat().st_size))
 
 
 def test_a_night_without_inputs_makes_a_registry_and_says_so(command, capsys):
@@ -30,17 +45,6 @@ def test_a_night_without_inputs_makes_a_registry_and_says_so(command, capsys):
     assert told[0] == "Night 0001: 0 of 0 inputs passed; 0 s."
     assert told[-1] == str(command.output / "nights" / "0001" / "index.html")
     assert Registry(command.output).entries() == ()
-
-
-def test_damage_in_the_registry_is_found(command, capsys):
-    folder = publish(Registry(command.output, create=True))
-    assert run(command) == 0
-    (folder / "asset.urdf").write_text("<robot />")
-    assert run(command) == 4
-    assert "Damaged: 1 registered asset" in capsys.readouterr().out
-    data = json.loads((command.output / "nights" / "0002" / "summary.json").read_text())
-    assert [(item["id"], item["code"]) for item in data["damage"]] == [("cabinet-1", "altered")]
-    assert data["night"]["verified"] == 1
 
 
 def test_budgets_and_executors_are_those_of_jobs(command):
@@ -52,3 +56,56 @@ def test_budgets_and_executors_are_those_of_jobs(command):
     executor = Work(config).executor()
     assert isinstance(executor, RayExecutor)
     assert (executor.address, executor.workers) == ("head:6379", 4)
+
+
+def test_a_night_mends_what_it_can_and_withdraws_nothing_before_inputs_are_begun(command, capsys):
+    pytest.importorskip("mujoco")
+    trimesh.creation.box((0.4, 0.3, 0.5)).export(command.output.parent / "in" / "box.stl")
+    config = night_config(command)
+    (first,) = night(config).attempts
+    assert first.passed
+    asset = config.output / "assets" / first.id
+    before = folder_digests(asset)
+    (asset / "asset.xml").unlink()
+    short = night(replace(config, budget=replace(config.budget, max_hours=1e-9)))
+    assert (short.settled, short.night.exit_code) == ({first.id: "left"}, 4)
+
+    orphan = publish(Registry(config.output), entry=named("orphan-1"))
+    # Files altered and missing, the cache spoiled, what dead processes left.
+    spoil(asset / "asset.urdf")
+    (orphan / "asset.urdf").unlink()
+    for path in filter(Path.is_file, (config.output / ".cache").rglob("*")):
+        spoil(path)
+    (config.output / ".claims" / "of a dead job").touch()
+    (config.output / ".staging" / "of a dead job").mkdir()
+    assert run(command) == 4
+    assert "Damaged: 2 registered assets" in capsys.readouterr().out
+    told = json.loads((config.output / "nights" / "0003" / "summary.json").read_text())
+    became = {item["id"]: item["became"] for item in told["damage"]}
+    assert became == {first.id: "mended", "orphan-1": "withdrawn"}
+    figures = [told["night"][name] for name in ("verified", "damaged", "mended", "withdrawn")]
+    assert figures == [2, 2, 1, 1]
+    assert folder_digests(asset) == before
+    assert verify(Registry(config.output)) == ()
+    assert list((config.output / ".claims").iterdir()) == []
+    assert list((config.output / ".staging").iterdir()) == []
+    assert (config.output / "withdrawn" / "orphan-1" / "report.json").is_file()
+
+    again = night(config)
+    assert (again.night.exit_code, again.night.known, again.night.damaged) == (0, 1, 0)
+
+
+def test_a_night_without_a_terminal_says_how_far_it_is_by_the_pace_of_the_last_minutes(
+    monkeypatch, capsys
+):
+    assert work.pace([(0.0, 0), (60.0, 0)], 100) == "0 of 100"
+    told = work.pace([(100.0, 40), (160.0, 50)], 80)
+    assert told == "50 of 80, 10.0 a minute, about 3 min 00 s left"
+    entries = [Entry(f"a{n}", "a", "", "passed", "", 1, 1, 1) for n in range(3)]
+    results = [Result(f"meshes/{entry.id}.glb", entry) for entry in entries]
+    assert list(work.followed(iter(results), 3)) == results
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(work, "EVERY_S", 0.0)
+    assert list(work.followed(iter(results), 3)) == results
+    said = capsys.readouterr().err.splitlines()
+    assert [line.split(",")[0] for line in said] == ["1 of 3", "2 of 3", "3 of 3"]

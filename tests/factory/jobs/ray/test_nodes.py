@@ -50,12 +50,9 @@ def test_connections_to_a_dead_host_are_ended(connection):
     assert not is_open(connection)
 
 
-def test_those_to_a_host_with_another_node_stay(connection):
+def test_those_to_a_host_that_is_back_or_has_another_node_stay(connection):
     Nodes(Cluster(a=False, b=True)).hang_up()
     assert is_open(connection)
-
-
-def test_a_host_that_is_back_is_left_alone(connection):
     cluster = Cluster(a=True)
     nodes = Nodes(cluster)
     cluster.alive |= {"a": False, "b": True}

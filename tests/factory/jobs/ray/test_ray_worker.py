@@ -72,13 +72,15 @@ def test_a_node_without_room_for_an_input_is_full(sent, made, monkeypatch, numbe
     assert ordered(sent) == ("full", None)
 
 
-def test_a_node_without_room_for_an_asset_is_full(sent, made):
-    error = OSError(errno.ENOSPC, "No space left on device")
+@pytest.mark.parametrize(
+    ("error", "answer"),
+    [
+        (OSError(errno.ENOSPC, "No space left on device"), ("full", None)),
+        (ExchangeError("s3://bucket: no answer"), ("lost", "s3://bucket: no answer")),
+    ],
+)
+def test_an_asset_without_room_or_that_cannot_be_sent_is_no_failure_of_its_input(
+    sent, made, error, answer
+):
     made.outcome = Outcome(None, "raised", str(error), "", 0.0, error)
-    assert ordered(sent) == ("full", None)
-
-
-def test_an_asset_that_cannot_be_sent_is_lost_and_no_failure_of_its_input(sent, made):
-    error = ExchangeError("s3://bucket: no answer")
-    made.outcome = Outcome(None, "raised", str(error), "", 0.0, error)
-    assert ordered(sent) == ("lost", "s3://bucket: no answer")
+    assert ordered(sent) == answer

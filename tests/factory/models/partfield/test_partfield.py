@@ -42,12 +42,9 @@ def test_a_wrong_tensor_is_named(name, size, says):
         read_partfield_shape({**expected_tensors(TINY), name: size})
 
 
-def test_channels_that_cannot_be_normed_in_groups_are_refused():
+def test_what_cannot_be_normed_in_groups_or_lacks_layers_is_refused():
     with pytest.raises(ConfigError, match="40 channels do not divide into 32 groups"):
         read_partfield_shape(expected_tensors(replace(TINY, channels=40)))
-
-
-def test_what_lacks_layers_is_refused():
     tensors = expected_tensors(TINY)
     others = {name: tensors[name] for name in tensors if "transformer.layers" not in name}
     with pytest.raises(ConfigError, match="no PartField"):

@@ -28,19 +28,17 @@ def torch_file(folder, description, **members):
     return file
 
 
-KEY = pickled_text("0")
-
-
-def tensor(storage=b"ctorch\nFloatStorage\n", key=KEY, size=1):
-    stored = b"(" + pickled_text("storage") + storage + key + pickled_text("cpu") + b"K\1tQ"
+def tensor(size=1):
+    storage = b"ctorch\nFloatStorage\n" + pickled_text("0") + pickled_text("cpu")
+    stored = b"(" + pickled_text("storage") + storage + b"K\1tQ"
     sizes = b"(" + pickled_number(size) + b"t(K\1t"
     hooks = b"ccollections\nOrderedDict\n)R"
     rebuild = b"ctorch._utils\n_rebuild_tensor_v2\n("
     return rebuild + stored + b"K\0" + sizes + b"\x89" + hooks + b"tR"
 
 
-def one_tensor(**changes):
-    return b"\x80\x02}" + pickled_text("a") + tensor(**changes) + b"s."
+def one_tensor(size=1):
+    return b"\x80\x02}" + pickled_text("a") + tensor(size) + b"s."
 
 
 #: A pair of the pair before, twice, sixty times: a few bytes with 2^60 leaves. By DUP, which torch
@@ -59,21 +57,7 @@ def test_a_file_cannot_change_what_the_next_one_is_read_with(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "body",
-    [
-        b"}" + LAUGH + b"Ns",
-        b"}(" + LAUGH + b"Nu",
-        b"(" + LAUGH + b"Nd",
-        LAUGH + b"Q",
-        b"\x8f(" + LAUGH + b"\x90",
-        b"(" + LAUGH + b"\x91",
-        b"ccollections\nOrderedDict\n](" + LAUGH + b"N\x86e\x85R",
-        b"}" + pickled_text("a") + tensor(key=LAUGH) + b"s",
-        b"}" + pickled_text("a") + tensor(storage=LAUGH) + b"s",
-        LAUGH + b")R",
-        b"}" + REMEMBERED + b"Ns",
-        REMEMBERED + b")R",
-    ],
+    "body", [b"}" + LAUGH + b"Ns", b"}" + REMEMBERED + b"Ns", REMEMBERED + b")R"]
 )
 def test_shared_pairs_are_neither_hashed_nor_printed(body, tmp_path):
     started = time.process_time()

@@ -17,22 +17,21 @@ from asset_factory.factory.report.nightly.table import read_table, write_table
 from asset_factory.factory.runtime.store import write_json
 
 
-def test_the_table_read_back_is_the_rows(tmp_path):
-    pytest.importorskip("pyarrow")
-    write_table(tmp_path / "attempts.parquet", ATTEMPTS)
-    assert read_table(tmp_path / "attempts.parquet") == ATTEMPTS
-    write_table(tmp_path / "attempts.parquet", ())
-    assert read_table(tmp_path / "attempts.parquet") == ()
-    assert [path.name for path in tmp_path.iterdir()] == ["attempts.parquet"]
-
-
-def test_the_table_has_a_column_per_stage_and_types_for_others_to_use(tmp_path):
+def test_the_table_read_back_is_the_rows_with_columns_for_others_to_use(tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet")
-    write_table(tmp_path / "attempts.parquet", ATTEMPTS)
-    table = parquet.read_table(tmp_path / "attempts.parquet")
+    path = tmp_path / "attempts.parquet"
+    assert read_table(path) == ()
+    write_table(path, ATTEMPTS)
+    assert read_table(path) == ATTEMPTS
+    table = parquet.read_table(path)
     assert table.column("seconds_validate").to_pylist() == [2.0, None, None, None, None]
     assert table.column_names[-2:] == ["seconds_load", "seconds_validate"]
     assert str(table.schema.field("hulls").type) == "int32"
+    write_table(path, ())
+    assert read_table(path) == ()
+    assert list(tmp_path.iterdir()) == [path]
+    path.write_bytes(b"PAR1 no")
+    assert read_table(path) == ()
 
 
 def test_the_table_has_a_row_per_attempt_and_says_which_counts(tmp_path):
@@ -49,13 +48,6 @@ def test_the_table_has_a_row_per_attempt_and_says_which_counts(tmp_path):
     assert columns["seconds"] == [0.0, None, None, 2.0, 0.0]
     inputs = [row.input for row in read_table(tmp_path / "attempts.parquet")]
     assert inputs == ["meshes/a.glb", "meshes/b.glb"]
-
-
-def test_a_table_that_is_damaged_is_none(tmp_path):
-    pytest.importorskip("pyarrow")
-    (tmp_path / "attempts.parquet").write_bytes(b"PAR1 no")
-    assert read_table(tmp_path / "attempts.parquet") == ()
-    assert read_table(tmp_path / "nowhere.parquet") == ()
 
 
 def test_nights_are_numbered_and_named(tmp_path):

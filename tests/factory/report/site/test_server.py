@@ -1,9 +1,9 @@
 """The server gives one page to this machine, and nothing else to anybody."""
 
 import http.client
-from threading import Thread
 
 import pytest
+from waiting import running
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.report.site.alone import DroppedFiles, unpack_drop
@@ -14,12 +14,8 @@ PAGE = DroppedFiles("<p>here</p>", lambda file: None)
 
 @pytest.fixture
 def address():
-    with serve(PAGE) as server:
-        thread = Thread(target=server.run)
-        thread.start()
+    with serve(PAGE) as server, running(server):
         yield int(server.url.rsplit(":", 1)[1].strip("/"))
-        server.stop()
-        thread.join()
 
 
 def asked(port, path, **headers):

@@ -41,25 +41,22 @@ def pages(registry):
     return sorted((registry.root / "report").rglob("*.html"))
 
 
-def test_every_link_and_everything_loaded_is_there(registry):
+def test_every_link_and_everything_loaded_is_there_and_nothing_names_a_network(registry):
     assert len(pages(registry)) == 5
     for page in pages(registry):
-        parsed = Page(page.read_text())
+        text = page.read_text()
+        policy = re.search(r'Content-Security-Policy" content="([^"]*)"', text)
+        assert policy[1].startswith("default-src 'none'")
+        assert "http" not in policy[1]
+        parsed = Page(text)
         for address in (*parsed.links, *parsed.loaded):
             parts = urlsplit(address)
             assert (parts.scheme, parts.netloc) == ("", ""), address
             if parts.path:
                 assert (page.parent / unquote(parts.path)).exists(), f"{page}: {address}"
-
-
-def test_nothing_names_a_network(registry):
     for file in (registry.root / "report").rglob("*"):
         if file.suffix in (".html", ".css") or file.name in ("assets.js", "model.js"):
             assert not re.search(r"https?:|//[a-z]", file.read_text()), file
-    for page in pages(registry):
-        policy = re.search(r'Content-Security-Policy" content="([^"]*)"', page.read_text())
-        assert policy[1].startswith("default-src 'none'")
-        assert "http" not in policy[1]
 
 
 def test_names_of_inputs_are_text(registry):
@@ -92,21 +89,23 @@ def test_the_data_of_a_page_cannot_end_its_script(registry):
     assert told["sweeps"]["hinge"]["marks"][0]["mm"] == -4.2
 
 
-def test_what_was_rejected_has_its_place_and_its_picture(registry):
+def test_what_was_rejected_has_its_place_its_picture_and_its_findings_once_the_gravest_first(
+    registry,
+):
     folder = registry.root / "report/a/hitting-2"
     assert (folder / "fault.webp").is_file()
     assert (folder / "model.js").stat().st_size > 500
     page = asset_page(registry.root, registry.entry("hitting-2"))
     assert page.fault.point == POINT
     assert (registry.rejected / "hitting-2" / "view.glb").is_file()
-
-
-def test_findings_are_told_once_in_groups_the_gravest_first(registry):
-    page = asset_page(registry.root, registry.entry("hitting-2"))
     groups = [(group.severity, group.code, len(group.findings)) for group in page.groups]
     assert groups == [("error", "sweep_penetration", 1), ("warning", "articulation_note", 1)]
-    text = (registry.root / "report/a/hitting-2/index.html").read_text()
+    text = (folder / "index.html").read_text()
     assert re.findall(r"<h3>(\w+)</h3>", text) == ["Errors", "Warnings"]
+    # Without a model a page still says why.
+    text = (registry.root / "report/a/still-3/index.html").read_text()
+    assert "no_movable_joint" in text
+    assert "model.js" not in text
 
 
 def test_a_page_tells_size_units_and_how_to_load_an_asset(registry):
@@ -117,12 +116,6 @@ def test_a_page_tells_size_units_and_how_to_load_an_asset(registry):
     imported = re.findall(r"<code>import (\w+)", text)
     assert imported == ["mujoco", "gymnasium", "omni"]
     assert "import mujoco" not in (registry.root / "report/a/hitting-2/index.html").read_text()
-
-
-def test_without_a_model_the_page_still_says_why(registry):
-    text = (registry.root / "report/a/still-3/index.html").read_text()
-    assert "no_movable_joint" in text
-    assert "model.js" not in text
 
 
 def test_the_grid_knows_what_filters_ask_for(registry):

@@ -1,11 +1,11 @@
 """The page of one file in a real browser: alone, and served, where files are dropped on it."""
 
 import re
-from threading import Thread
 
 import pytest
 from browser import until
 from shown_registry import bundle_in
+from waiting import running
 
 from asset_factory.factory.report.site.alone import MOST_BYTES, DroppedFiles, page_of_file
 from asset_factory.factory.report.site.server import serve
@@ -76,9 +76,7 @@ def test_the_viewer_is_served_to_this_machine_and_shows_what_is_dropped_on_it(br
     answer = DroppedFiles(page_of_file(file, live=True), lambda path: page_of_file(path, live=True))
     link = "<link name='{}'><visual><geometry><box size='1 1 1'/></geometry></visual></link>"
     robot = f"<robot name='x'>{link.format('a')}{link.format('b')}{ENDLESS}</robot>"
-    with serve(answer, most_bytes=MOST_BYTES) as server:
-        thread = Thread(target=server.run)
-        thread.start()
+    with serve(answer, most_bytes=MOST_BYTES) as server, running(server):
         page = browser.new_page()
         page.goto(server.url)
         page.wait_for_selector("body.ready", timeout=60_000)
@@ -89,5 +87,3 @@ def test_the_viewer_is_served_to_this_machine_and_shows_what_is_dropped_on_it(br
         until(page, "document.title === 'robot.urdf' && document.body.matches('.ready')", 60.0)
         assert page.evaluate("factory.model.free.map((joint) => joint.name)") == ["turn"]
         page.close()
-        server.stop()
-        thread.join()
