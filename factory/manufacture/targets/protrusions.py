@@ -8,9 +8,9 @@ import numpy as np
 
 from ...geometry.edges import label_linked
 from ...geometry.rows import distinct_rows
-from ...mesh import BoolArray, FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from ..decompose.solids import component_labels
-from .shape import Moving, PartShape
+from .shape import Moving, PartShape, rectangle
 
 #: Faces within this angle of the panel's normal look outwards.
 LOOKS_OUT = float(np.cos(np.radians(30.0)))
@@ -72,11 +72,6 @@ def opening_direction(moving: Moving) -> FloatArray:
     return np.asarray(mean / np.linalg.norm(mean))
 
 
-def looking(shape: PartShape, outward: FloatArray) -> BoolArray:
-    """Return which faces look in a direction or against it, shape [face_count]."""
-    return np.asarray(np.abs(shape.normals @ outward) > LOOKS_OUT)
-
-
 def protrusions(moving: Moving, front: ProtrudingFront) -> list[IntArray]:
     """Find everything that sticks out of a front, the best handle first: faces of the shape.
 
@@ -109,21 +104,17 @@ def protrusions(moving: Moving, front: ProtrudingFront) -> list[IntArray]:
 
 
 def _outline(shape: PartShape, outward: FloatArray) -> float:
-    """Return the area of the part's box as seen along ``outward`` [m2]."""
-    across = np.linalg.svd(outward[None])[2][1:]
-    flat = shape.corners.reshape(-1, 3)
-    # Seen along a coordinate axis the box is the coordinate one; else the frame across is as good
-    # as any.
-    if np.abs(outward).max() > LOOKS_OUT:
-        across = np.delete(np.eye(3), int(np.abs(outward).argmax()), axis=0)
-    return float(np.prod(np.ptp(flat @ across.T, axis=0)))
+    """Return the area of the least rectangle around the part, seen along ``outward`` [m2]."""
+    corners = shape.corners.reshape(-1, 3)
+    return float(np.prod([np.ptp(corners @ side) for side in rectangle(corners, outward)]))
 
 
 def _panel(shape: PartShape, outward: FloatArray, height: FloatArray) -> tuple[float, float]:
     """Return the level of the front along ``outward`` [m], and how far from it is still it [m]."""
     size = float(np.ptp(shape.corners.reshape(-1, 3), axis=0).max())
     tolerance = float(np.clip(LEVEL_SHARE * size, *LEVEL_BOUNDS_M))
-    flat = looking(shape, outward)
+    # Sheets may face either way.
+    flat = np.abs(shape.normals @ outward) > LOOKS_OUT
     if not flat.any():
         return float(height.max()), tolerance
     levels = height[flat].mean(axis=1)

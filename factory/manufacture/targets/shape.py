@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.spatial import QhullError
+from trimesh.bounds import oriented_bounds_2D
 from trimesh.triangles import closest_point
 
 from ...articulation import Articulation, Joint, JointKind
@@ -158,15 +160,25 @@ def across(vector: FloatArray, normal: FloatArray) -> FloatArray:
     )
 
 
-def nearest_points(triangles: FloatArray, point: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the point of each triangle nearest to ``point`` [m], [n, 3], and how far it is [m]."""
+def nearest_point(triangles: FloatArray, point: FloatArray) -> FloatArray:
+    """Return the point of some triangles, shape [n, 3, 3], nearest to ``point`` [m], shape [3]."""
     on_surface = closest_point(triangles, np.tile(point, (len(triangles), 1)))
-    return on_surface, np.linalg.norm(on_surface - point, axis=1)
+    # Rounded, so that of triangles as near it is the first, turned as they may be.
+    distance = np.round(np.linalg.norm(on_surface - point, axis=1), 9)
+    return np.asarray(on_surface[int(distance.argmin())])
 
 
-def nearest_point(triangles: FloatArray, point: FloatArray) -> tuple[FloatArray, int]:
-    """Return the point of some triangles nearest to ``point`` [m], and the triangle's number."""
-    on_surface, distance = nearest_points(triangles, point)
-    # Rounded, so that of triangles that share the point it is the first, turned as they may be.
-    number = int(np.round(distance, 9).argmin())
-    return np.asarray(on_surface[number]), number
+def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the directions of the sides of the least rectangle around points, the narrow first.
+
+    The points [m], shape [n, 3], are seen along a unit ``normal``.
+    """
+    first = across(np.eye(3)[int(np.abs(normal).argmin())], normal)
+    basis = np.stack([first, np.cross(normal, first)])
+    try:
+        to_wide = oriented_bounds_2D(points @ basis.T)[0]
+    except QhullError:
+        # All on one line.
+        return basis[0], basis[1]
+    wide, narrow = to_wide[:2, :2] @ basis
+    return narrow, wide
