@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import Articulation
-from ...part import Handle
+from ...asset import Handle
 from .poses import far_side, fronts, on_protrusions, on_side
 from .shape import Moving, shape_of
 
