@@ -8,7 +8,7 @@ from openable_samples import cabinet, oven, train, valve, write_registry
 
 from asset_factory.envs.assets import read_registry
 from asset_factory.envs.geometry import carried_links, displacements, handle_path, hull_boxes
-from asset_factory.envs.placement import MARGIN, ROBOTS, facing_direction, find_place
+from asset_factory.envs.placement import MARGIN, ROBOTS, find_place
 
 
 @pytest.fixture(scope="module")
@@ -72,11 +72,3 @@ def test_no_moving_part_reaches_the_base(assets):
         (box,) = hull_boxes(asset, {"door": value}, frozenset({"part_1"}))
         nearest = np.clip(place.position[:2], box[0, :2], box[1, :2])
         assert np.linalg.norm(nearest - place.position[:2]) > radius
-
-
-def test_a_lid_pulled_upward_is_approached_from_where_its_handle_faces():
-    bounds = np.array([[-1.0, -1.0, 0.0], [1.0, 1.0, 1.0]])
-    up = np.array([0.0, 0.0, 1.0])
-    side = np.array([1.0, 0.0, 0.0])
-    assert np.allclose(facing_direction(np.array([1.0, 0.0, 1.0]), up, side, bounds), side)
-    assert np.allclose(facing_direction(np.array([0.0, 1.0, 1.0]), up, up, bounds), [0.0, 1.0, 0.0])
