@@ -48,15 +48,6 @@ class Motion:
         """Return the motion turned about the origin by ``rotation``, shape [3, 3]."""
         return replace(self, axis=self.axis @ rotation.T, origin=self.origin @ rotation.T)
 
-    def velocity(self, point: FloatArray) -> FloatArray:
-        """Return the direction in which a point, shape [3], first moves when the part opens.
-
-        Not of unit length; zero for a point of the axis.
-        """
-        if self.kind is JointKind.PRISMATIC:
-            return self.axis
-        return np.cross(self.axis, point - self.origin)
-
 
 @dataclass(frozen=True)
 class Proposal:

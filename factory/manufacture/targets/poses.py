@@ -163,7 +163,7 @@ def spread_against(moving: Moving, most: int) -> tuple[FloatArray, FloatArray]:
     first, each as far as can be from those before.
     """
     shape = moving.shape
-    speed = moving.velocity(shape.centers)
+    speed = moving.joint.velocity(shape.centers)
     length = np.maximum(np.linalg.norm(speed, axis=1), 1e-12)
     rows = np.flatnonzero(np.einsum("ij,ij->i", shape.normals, speed) / length < AGAINST)
     points, normals = _inset(moving, rows)

@@ -52,7 +52,7 @@ def front_of(shape: PartShape, outward: FloatArray) -> ProtrudingFront:
 def opening_direction(moving: Moving) -> FloatArray:
     """Return the normal of the part's front: the most common face direction ahead of it, [3]."""
     shape = moving.shape
-    ahead_of = moving.velocity(shape.center)
+    ahead_of = moving.joint.velocity(shape.center)
     forward = ahead_of / np.linalg.norm(ahead_of)
     if not moving.joint.turns:
         return np.asarray(forward)

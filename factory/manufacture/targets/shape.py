@@ -74,15 +74,9 @@ class Moving:
     joint: Joint
     shape: PartShape
 
-    def velocity(self, points: FloatArray) -> FloatArray:
-        """Return the velocity of points per unit of joint speed, opening; shape of ``points``."""
-        if self.joint.turns:
-            return np.asarray(np.cross(self.joint.axis, points - self.joint.origin))
-        return np.broadcast_to(self.joint.axis, points.shape)
-
     def pull(self, point: FloatArray) -> FloatArray:
         """Return the unit direction in which opening first moves a point; zero on the axis, [3]."""
-        speed = self.velocity(point)
+        speed = self.joint.velocity(point)
         length = float(np.linalg.norm(speed))
         return np.asarray(speed / length) if length > 1e-6 else np.zeros(3)
 
