@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
-from .protrusions import LOOKS_OUT, front_of, opening_direction, protrusions
+from .protrusions import LOOKS_OUT, opening_direction, protrusions
 from .shape import Moving, PartShape, across, middle_of, nearest_point, rectangle
 
 #: Most protrusions of one front that are looked at.
@@ -58,8 +58,7 @@ def find_poses(moving: Moving) -> Iterator[Pose]:
 
 def on_protrusions(moving: Moving, outward: FloatArray) -> Iterator[Pose]:
     """Yield places on what sticks out of the side that looks in a direction, the best first."""
-    front = front_of(moving.shape, outward)
-    for group in protrusions(moving, front)[:MOST_GROUPS]:
+    for group in protrusions(moving, outward)[:MOST_GROUPS]:
         yield from _on_protrusion(moving, moving.shape.only(group), outward)
 
 
@@ -85,36 +84,33 @@ def fronts(moving: Moving) -> list[FloatArray]:
         radial = across(across(shape.center - moving.joint.origin, axis), outward)
         return [outward, *([radial] if radial.any() else [])]
     # What slides in its own plane, like a window, is held on its faces.
-    sides = rectangle(shape.corners.reshape(-1, 3), outward)
-    widths = [float(np.ptp(shape.corners @ side)) for side in sides]
-    thin = sides[int(np.argmin(widths))]
-    sideways = min(widths) < 0.5 * float(np.ptp(shape.corners @ outward))
+    thin, _ = rectangle(shape.corners, outward)
+    sideways = np.ptp(shape.corners @ thin) < 0.5 * np.ptp(shape.corners @ outward)
     return [outward, *([thin, -thin] if sideways else [])]
 
 
 def _sides(moving: Moving) -> list[FloatArray]:
     """Return six directions that fit the part and its joint."""
-    first = moving.joint.axis if moving.spins else opening_direction(moving)
+    first = fronts(moving)[0]
     second = across(moving.joint.axis, first)
     if not second.any():
-        second = rectangle(moving.shape.corners.reshape(-1, 3), first)[0]
+        second, _ = rectangle(moving.shape.corners, first)
     third = np.cross(first, second)
     return [first, -first, second, -second, third, -third]
 
 
 def _on_protrusion(moving: Moving, thing: PartShape, outward: FloatArray) -> Iterator[Pose]:
-    corners = thing.corners.reshape(-1, 3)
-    axes = rectangle(corners, outward)
-    ends = [(float((corners @ axis).min()), float((corners @ axis).max())) for axis in axes]
-    top = float((corners @ outward).max())
-    middle = outward * top + sum(
-        axis * (low + high) / 2.0 for axis, (low, high) in zip(axes, ends, strict=True)
-    )
-    length = ends[1][1] - ends[1][0]
+    axes = rectangle(thing.corners, outward)
+    frame = np.stack([*axes, outward])
+    local = thing.corners @ frame.T
+    low = local.min(axis=(0, 1))
+    high = local.max(axis=(0, 1))
+    top = np.append((low + high)[:2] / 2.0, high[2]) @ frame
+    length = float(high[1] - low[1])
     surface = _surface_towards(thing, outward).corners
     fingers = _fingers(moving, outward, axes)
     for shift in (0.0, 0.25, -0.25) if length > LONG_M else (0.0,):
-        point = nearest_point(surface, middle + shift * length * axes[1])
+        point = nearest_point(surface, top + shift * length * axes[1])
         yield Pose(point, outward, fingers, thing.faces, True)
 
 
@@ -123,7 +119,7 @@ def on_side(moving: Moving, outward: FloatArray) -> Iterator[Pose]:
     side = _surface_towards(moving.shape, outward)
     height = side.corners @ outward
     outermost = side.only(height.max(axis=1) >= height.max() - SIDE_M)
-    fingers = _fingers(moving, outward, rectangle(outermost.corners.reshape(-1, 3), outward))
+    fingers = _fingers(moving, outward, rectangle(outermost.corners, outward))
     points = [nearest_point(outermost.corners, outermost.center)]
     if moving.joint.turns:
         reach = moving.lever(side.corners)

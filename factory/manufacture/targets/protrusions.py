@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...geometry.edges import label_linked
@@ -25,62 +23,34 @@ HANDLE_SHARE = 0.3
 TOUCH_M = 0.004
 
 
-@dataclass(frozen=True)
-class ProtrudingFront:
-    """A side of a part.
-
-    Attributes:
-        outward: unit direction that it looks in, shape [3].
-        height: of every face corner along ``outward`` [m], shape [face_count, 3].
-        level: of the panel along ``outward`` [m].
-        tolerance: how far from it still counts as it [m].
-    """
-
-    outward: FloatArray
-    height: FloatArray
-    level: float
-    tolerance: float
-
-
-def front_of(shape: PartShape, outward: FloatArray) -> ProtrudingFront:
-    """Return the side of a shape that looks in a direction."""
-    height = shape.corners @ outward
-    level, tolerance = _panel(shape, outward, height)
-    return ProtrudingFront(outward, height, level, tolerance)
-
-
 def opening_direction(moving: Moving) -> FloatArray:
     """Return the normal of the part's front: the most common face direction ahead of it, [3]."""
     shape = moving.shape
-    ahead_of = moving.joint.velocity(shape.center)
-    forward = ahead_of / np.linalg.norm(ahead_of)
+    forward = moving.pull(shape.center)
     if not moving.joint.turns:
-        return np.asarray(forward)
+        return forward
     # Sheets may face either way.
     normals = shape.normals * np.where(shape.normals @ forward < 0.0, -1.0, 1.0)[:, None]
     ahead = normals @ forward > np.cos(np.radians(45.0))
     if not ahead.any():
-        return np.asarray(forward)
+        return forward
     keys = np.round(normals[ahead] * 4.0)
     first, which = distinct_rows(keys)
     commonest = keys[first[np.bincount(which, shape.areas[ahead]).argmax()]]
     commonest = commonest / np.linalg.norm(commonest)
     alike = ahead & (normals @ commonest > LOOKS_OUT)
-    if not alike.any():
-        return np.asarray(commonest)
     mean = shape.areas[alike] @ normals[alike]
     return np.asarray(mean / np.linalg.norm(mean))
 
 
-def protrusions(moving: Moving, front: ProtrudingFront) -> list[IntArray]:
-    """Find everything that sticks out of a front, the best handle first: faces of the shape.
+def protrusions(moving: Moving, outward: FloatArray) -> list[IntArray]:
+    """Find everything that sticks out of the side that looks in a direction: faces of the shape.
 
-    The best one stands out furthest at the best place to pull.
+    The best handle first: it stands out furthest at the best place to pull.
     """
     shape = moving.shape
-    height = front.height
-    level = front.level
-    tolerance = front.tolerance
+    height = shape.corners @ outward
+    level, tolerance = _panel(shape, outward, height)
     standing = height.mean(axis=1) > level + tolerance
     label = component_labels(shape.welded)
     lowest = np.full(label.max() + 1, np.inf)
@@ -92,12 +62,12 @@ def protrusions(moving: Moving, front: ProtrudingFront) -> list[IntArray]:
     candidates = np.flatnonzero(standing | on_top[label])
     if not len(candidates):
         return []
-    whole = _outline(shape, front.outward)
+    whole = _outline(shape, outward)
     rated = []
     for group in _groups(shape, candidates):
         corners = shape.corners[group].reshape(-1, 3)
         reach = float(height[group].max()) - level
-        covered = _outline(shape.only(group), front.outward) / whole
+        covered = _outline(shape.only(group), outward) / whole
         if reach >= tolerance and covered <= HANDLE_SHARE:
             rated.append((reach * float(moving.place(corners.mean(axis=0))), group))
     return [group for _, group in sorted(rated, key=lambda pair: -pair[0])]
@@ -105,8 +75,8 @@ def protrusions(moving: Moving, front: ProtrudingFront) -> list[IntArray]:
 
 def _outline(shape: PartShape, outward: FloatArray) -> float:
     """Return the area of the least rectangle around the part, seen along ``outward`` [m2]."""
-    corners = shape.corners.reshape(-1, 3)
-    return float(np.prod([np.ptp(corners @ side) for side in rectangle(corners, outward)]))
+    sides = rectangle(shape.corners, outward)
+    return float(np.prod([np.ptp(shape.corners @ side) for side in sides]))
 
 
 def _panel(shape: PartShape, outward: FloatArray, height: FloatArray) -> tuple[float, float]:

@@ -25,7 +25,7 @@ class PartShape:
     """A part and all that is fixed to it.
 
     Attributes:
-        parts: indices of the parts.
+        parts: indices of the parts, the one that carries the others first.
         faces: of the mesh, shape [face_count].
         welded: their vertex indices, shape [face_count, 3].
         corners: [m], object frame at rest, shape [face_count, 3, 3].
@@ -39,6 +39,11 @@ class PartShape:
     corners: FloatArray
     normals: FloatArray
     areas: FloatArray
+
+    @property
+    def part(self) -> int:
+        """Return the part that the others are fixed to."""
+        return self.parts[0]
 
     @property
     def centers(self) -> FloatArray:
@@ -165,12 +170,13 @@ def nearest_point(triangles: FloatArray, point: FloatArray) -> FloatArray:
 def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the directions of the sides of the least rectangle around points, the narrow first.
 
-    The points [m], shape [n, 3], are seen along a unit ``normal``.
+    The points [m], shape [..., 3], are seen along a unit ``normal``.
     """
+    flat = points.reshape(-1, 3)
     first = across(np.eye(3)[int(np.abs(normal).argmin())], normal)
     basis = np.stack([first, np.cross(normal, first)])
     try:
-        to_wide = oriented_bounds_2D(points @ basis.T)[0]
+        to_wide = oriented_bounds_2D(flat @ basis.T)[0]
     except QhullError:
         # All on one line.
         return basis[0], basis[1]
