@@ -151,10 +151,9 @@ def _search(
     shares = np.linspace(0.0, 1.0, STATIONS)
     begin = handle_path(asset, joint, starts[1:2])
     path = begin if robot.mobile else np.concatenate([begin, handle_path(asset, joint, shares)])
-    moving = carried_links(asset, joint.child)
-    joints = asset.manifest.joints
-    everything = frozenset(other.child for other in joints) | {joints[0].parent}
-    still = hull_boxes(asset, closed_values(asset), everything - moving)
+    moving = carried_links(asset, joint)
+    others = frozenset(link.name for link in asset.manifest.links) - moving
+    still = hull_boxes(asset, closed_values(asset), others)
     opened = (opening_values(asset, joint, at) for at in (shares, np.unique(starts)))
     boxes = ((hull_boxes(asset, values, moving) for values in each) for each in opened)
     swept, start = (np.concatenate([still, *each]) for each in boxes)
