@@ -12,7 +12,12 @@ import numpy.typing as npt
 
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.errors import RegistryError
-from asset_factory.factory.export.manifest import Manifest, ManifestJoint, Row
+from asset_factory.factory.export.manifest import (
+    Manifest,
+    ManifestHandle,
+    ManifestJoint,
+    ManifestTarget,
+)
 from asset_factory.factory.runtime.store import digest_bytes
 
 FloatArray = npt.NDArray[np.float64]
@@ -170,40 +175,14 @@ def _read_asset(path: Path) -> RegisteredAsset:
 
     openable: list[OpenableJoint] = []
     unusable = {}
-    holds = _holds(manifest)
     for joint in manifest.movable.values():
-        found = _openable(joint, manifest.joints, holds)
+        found = _openable(joint, manifest)
         if isinstance(found, str):
             unusable[joint.name] = found
         else:
             openable.append(found)
 
     return RegisteredAsset(path.parent, manifest, digest_bytes(text), tuple(openable), unusable)
-
-
-@dataclass(frozen=True)
-class _Hold:
-    """Where to hold a link: an interaction target of the asset, or its handle."""
-
-    link: str
-    point: Row
-    normal: Row
-    pull: Row
-    opening_m: float | None = None
-
-
-def _holds(manifest: Manifest) -> dict[str, _Hold]:
-    """Return the best place to hold what a joint moves, by its child: a target, else a handle."""
-    best = {}
-    for joint in manifest.joints:
-        if (hold := joint.handle) is not None:
-            best[joint.child] = _Hold(joint.child, hold.point, hold.normal, hold.pull)
-    children = {joint.name: joint.child for joint in manifest.joints}
-    # The surest last, so that it is the one that stays.
-    for target in sorted(manifest.targets, key=lambda target: target.score):
-        vectors = (target.point, target.normal, target.pull)
-        best[children[target.joint]] = _Hold(target.part, *vectors, target.opening_m)
-    return best
 
 
 def _limits(joint: ManifestJoint) -> tuple[float, float] | None:
@@ -216,22 +195,20 @@ def _limits(joint: ManifestJoint) -> tuple[float, float] | None:
     return ends
 
 
-def _openable(
-    joint: ManifestJoint, joints: tuple[ManifestJoint, ...], holds: dict[str, _Hold]
-) -> OpenableJoint | str:
+def _openable(joint: ManifestJoint, manifest: Manifest) -> OpenableJoint | str:
     """Return the joint as a target, or why it cannot be one."""
     limits = _limits(joint)
     if limits is None:
         return f"its limits are [{joint.lower}, {joint.upper}], want finite ones, lower below upper"
-    carried = [joint.child]
-    for other in joints:
-        if other.parent in carried:
-            carried.append(other.child)
-    held = next((holds[link] for link in carried if link in holds), None)
+    targets = (target for target in manifest.targets if target.joint == joint.name)
+    target = max(targets, key=lambda target: target.score, default=None)
+    handle = _handle(joint, manifest)
+    held = target or handle
     if held is None:
         return "nothing that it moves can be held"
 
-    origins = {other.child: other.origin for other in joints}
+    origins = {other.child: other.origin for other in manifest.joints}
+    link = held.part if isinstance(held, ManifestTarget) else held.frame
     return OpenableJoint(
         name=joint.name,
         kind=str(joint.kind),
@@ -240,10 +217,21 @@ def _openable(
         upper=limits[1],
         axis=np.array(joint.axis),
         origin=np.array(joint.origin),
-        handle_link=held.link,
+        handle_link=link,
         point=np.array(held.point),
-        rest_point=np.array(held.point) + np.array(origins[held.link]),
+        rest_point=np.array(held.point) + np.array(origins[link]),
         normal=np.array(held.normal),
         pull=np.array(held.pull),
-        finger_opening=held.opening_m,
+        finger_opening=None if target is None else target.opening_m,
     )
+
+
+def _handle(joint: ManifestJoint, manifest: Manifest) -> ManifestHandle | None:
+    """Return the handle of the first link with one that a joint moves."""
+    carried = {joint.child}
+    for other in manifest.joints:
+        if other.parent in carried:
+            carried.add(other.child)
+        if other.child in carried and other.handle is not None:
+            return other.handle
+    return None

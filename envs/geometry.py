@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
-from defusedxml.ElementTree import parse
-from scipy.spatial.transform import Rotation
 
-from asset_factory.factory.articulation import JointKind
+from asset_factory.sim_checks.description import Link
+from asset_factory.sim_checks.geometry.kinematics import Tree, build_tree
+from asset_factory.sim_checks.read.document import parse_document
+from asset_factory.sim_checks.read.urdf import read_urdf
 
 from .assets import FloatArray, OpenableJoint, RegisteredAsset
 
@@ -18,58 +20,38 @@ from .assets import FloatArray, OpenableJoint, RegisteredAsset
 STATIONS = 7
 
 
-def closed_values(asset: RegisteredAsset) -> dict[str, float]:
-    """Return the value of every movable joint of the closed object [rad] or [m]."""
-    return {name: asset.closed_value(name) for name in asset.manifest.movable}
+def links_of(asset: RegisteredAsset) -> tuple[tuple[Link, ...], Tree]:
+    """Return an asset's links, without their visuals, and the tree that poses them.
+
+    They are read once from its URDF.
+    """
+    return _read_links(asset.urdf, asset.digest)
 
 
-def displacements(asset: RegisteredAsset, values: Mapping[str, float]) -> dict[str, FloatArray]:
-    """Return by link its transform from all joints at 0 to where it is now, shape [4, 4]."""
-    moved: dict[str, FloatArray] = {}
-    for joint in asset.manifest.joints:
-        motion = np.eye(4)
-        axis = np.asarray(joint.axis)
-        value = values.get(joint.name, 0.0)
-        if joint.kind is JointKind.PRISMATIC:
-            motion[:3, 3] = value * axis
-        elif joint.movable:
-            origin = np.asarray(joint.origin)
-            motion[:3, :3] = Rotation.from_rotvec(value * axis).as_matrix()
-            motion[:3, 3] = origin - motion[:3, :3] @ origin
-        parent = moved.setdefault(joint.parent, np.eye(4))
-        moved[joint.child] = parent @ motion
-    return moved
-
-
-def carried_links(asset: RegisteredAsset, link: str) -> frozenset[str]:
-    """Return ``link`` and everything it carries."""
-    carried = {link}
-    for joint in asset.manifest.joints:
-        if joint.parent in carried:
-            carried.add(joint.child)
-    return frozenset(carried)
+def carried_links(asset: RegisteredAsset, joint: OpenableJoint) -> frozenset[str]:
+    """Return the links that a joint moves."""
+    _, tree = links_of(asset)
+    return tree.below(next(line for line in tree.order if line.name == joint.name))
 
 
 def hull_boxes(
-    asset: RegisteredAsset, values: Mapping[str, float], links: frozenset[str] | None = None
+    asset: RegisteredAsset, values: Mapping[str, float], links: frozenset[str]
 ) -> FloatArray:
     """Return the box of every convex piece, the object on the ground [m], shape [hull_count, 2, 3].
 
     Args:
-        asset: whose; its hulls are read once from its URDF.
-        values: of the joints [rad] or [m]; those left out are at 0.
-        links: only these.
+        asset: whose.
+        values: of the joints [rad] or [m]; as for :meth:`.Tree.link_poses`.
+        links: whose pieces.
     """
-    origins = {joint.child: np.asarray(joint.origin) for joint in asset.manifest.joints}
-    moved = displacements(asset, values)
+    found, tree = links_of(asset)
+    poses = tree.link_poses(values)
     lift = np.array([0.0, 0.0, asset.manifest.ground_offset])
     boxes = [np.zeros((0, 2, 3))]
-    for link, hulls in _hulls(asset.urdf, asset.digest).items():
-        if links is not None and link not in links:
-            continue
-        pose = moved.get(link, np.eye(4))
-        for corners in hulls:
-            placed = (corners + origins.get(link, 0.0)) @ pose[:3, :3].T + pose[:3, 3] + lift
+    for link in found:
+        pose = poses[link.name]
+        for hull in link.collisions if link.name in links else ():
+            placed = hull.vertices @ pose[:3, :3].T + pose[:3, 3] + lift
             boxes.append(np.stack([placed.min(axis=0), placed.max(axis=0)])[None])
     return np.concatenate(boxes)
 
@@ -79,11 +61,17 @@ def handle_path(asset: RegisteredAsset, joint: OpenableJoint, shares: FloatArray
 
     The object stands on the ground.
     """
+    _, tree = links_of(asset)
     points = []
     for values in opening_values(asset, joint, shares):
-        pose = displacements(asset, values)[joint.handle_link]
-        points.append(pose[:3, :3] @ joint.rest_point + pose[:3, 3])
+        pose = tree.link_poses(values)[joint.handle_link]
+        points.append(pose[:3, :3] @ joint.point + pose[:3, 3])
     return np.asarray(np.array(points) + np.array([0.0, 0.0, asset.manifest.ground_offset]))
+
+
+def closed_values(asset: RegisteredAsset) -> dict[str, float]:
+    """Return the values of the closed object's joints that follow no other [rad] or [m]."""
+    return {joint.name: asset.closed_value(joint.name) for joint in links_of(asset)[1].free}
 
 
 def opening_values(
@@ -95,17 +83,17 @@ def opening_values(
     return [{**closed, joint.name: value} for value in values]
 
 
-@lru_cache(maxsize=256)
-def _hulls(urdf: Path, digest: str) -> dict[str, tuple[FloatArray, ...]]:
-    """Return corners of every collision mesh in its link's frame, by link; cached by ``digest``."""
-    robot = parse(urdf).getroot()
-    found = {}
+def drop_visuals(robot: ElementTree.Element) -> None:
+    """Take what is only seen out of a URDF."""
     for link in robot.iter("link"):
-        files = [mesh.get("filename", "") for mesh in link.iterfind("collision/geometry/mesh")]
-        found[link.get("name", "")] = tuple(_corners(urdf.parent / name) for name in files)
-    return found
+        for visual in link.findall("visual"):
+            link.remove(visual)
 
 
-def _corners(path: Path) -> FloatArray:
-    lines = path.read_text(encoding="utf-8").splitlines()
-    return np.array([line.split()[1:4] for line in lines if line.startswith("v ")], dtype=float)
+@lru_cache(maxsize=256)
+def _read_links(urdf: Path, digest: str) -> tuple[tuple[Link, ...], Tree]:
+    """Return what :func:`links_of` does; cached by ``digest``."""
+    robot = parse_document(urdf)
+    drop_visuals(robot)
+    description = read_urdf(urdf, robot)
+    return description.links, build_tree(description)

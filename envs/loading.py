@@ -13,6 +13,7 @@ from defusedxml.ElementTree import fromstring
 from asset_factory.sim_checks.simulators.sapien_backend import couple_as_written
 
 from .assets import RegisteredAsset
+from .geometry import drop_visuals
 from .integrity import check_unaltered
 
 #: Skin, wood and plastic against a rubber fingertip.
@@ -101,9 +102,7 @@ def invisible_robots(scene: Any) -> Iterator[None]:
 
     def parse_without_visuals(loader: Any, text: str) -> Any:
         robot = fromstring(text)
-        for link in robot.iter("link"):
-            for visual in link.findall("visual"):
-                link.remove(visual)
+        drop_visuals(robot)
         return parse(loader, ElementTree.tostring(robot, encoding="unicode"))
 
     with replaced(URDFLoader, "_parse_urdf", parse_without_visuals):

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from asset_factory.factory.manufacture.targets.standing import TURN_COST, TURNS, facing_direction
+
 from .assets import FloatArray, OpenableJoint, RegisteredAsset
 from .geometry import (
     STATIONS,
@@ -19,18 +21,15 @@ from .geometry import (
 
 #: Free space between a robot and the object, before the start is shaken by a few centimetres [m].
 MARGIN = 0.06
-#: The candidates: turned from straight ahead [rad], this far from the handle [m], this far below it
-#: [m]. A Panda reaches straight ahead from half a metre above its base, best at 0.7 m; lower its
-#: wrist's limit forbids it.
-TURNS = np.radians(np.arange(-90.0, 91.0, 15.0))
+#: The candidates: this far from the handle [m], this far below it [m]. A Panda reaches straight
+#: ahead from half a metre above its base, best at 0.7 m; lower its wrist's limit forbids it.
 DISTANCES = np.arange(0.35, 1.96, 0.05)
 DROPS = (0.7, 0.6, 0.5)
-#: What a metre beyond reach, at the start and on the way, of overlap, and a radian off straight
-#: ahead cost, in metres off the ideal distance.
+#: What a metre beyond reach, at the start and on the way, and of overlap cost, in metres off the
+#: ideal distance.
 REACH_COST = 10.0
 WAY_COST = 2.0
 OVERLAP_COST = 100.0
-TURN_COST = 0.15
 #: As many candidates at once are tried with the whole arm.
 ARM_TRIALS = 96
 CAMERA_FOV = 1.0
@@ -152,16 +151,14 @@ def _search(
     shares = np.linspace(0.0, 1.0, STATIONS)
     begin = handle_path(asset, joint, starts[1:2])
     path = begin if robot.mobile else np.concatenate([begin, handle_path(asset, joint, shares)])
-    moving = carried_links(asset, joint.child)
-    joints = asset.manifest.joints
-    everything = frozenset(other.child for other in joints) | {joints[0].parent}
-    still = hull_boxes(asset, closed_values(asset), everything - moving)
+    moving = carried_links(asset, joint)
+    others = frozenset(link.name for link in asset.manifest.links) - moving
+    still = hull_boxes(asset, closed_values(asset), others)
     opened = (opening_values(asset, joint, at) for at in (shares, np.unique(starts)))
     boxes = ((hull_boxes(asset, values, moving) for values in each) for each in opened)
     swept, start = (np.concatenate([still, *each]) for each in boxes)
 
-    facing = facing_direction(path[0], joint.pull, joint.normal, asset.standing_bounds)
-    places, turns = _candidates(path, facing, robot)
+    places, turns = _candidates(path, facing_of(asset, joint), robot)
     directions = path[0, :2] - places[:, :2]
     yaws = np.arctan2(directions[:, 1], directions[:, 0])
     stretch = _stretch(places, yaws, path, robot)
@@ -254,21 +251,14 @@ def _arm_clearance(
     return np.asarray(distance.min(axis=(1, 2), initial=np.inf) - robot.arm_radius)
 
 
-def facing_direction(
-    point: FloatArray, pull: FloatArray, normal: FloatArray, bounds: FloatArray
-) -> FloatArray:
-    """Return the horizontal unit direction from the object to who is about to open it, shape [3].
+def facing_of(asset: RegisteredAsset, joint: OpenableJoint) -> FloatArray:
+    """Return the level unit direction from an object to who is about to open a joint, shape [3].
 
     The way the handle is pulled, if that is sideways; else the way its surface faces; else from the
     middle of the object to the handle; else -y.
     """
-    from_middle = (point - bounds.mean(axis=0)) / max(float(np.ptp(bounds, axis=0).max()), 1e-9)
-    for candidate in (pull, normal, from_middle):
-        level = np.array([candidate[0], candidate[1], 0.0])
-        length = float(np.linalg.norm(level))
-        if length > 0.3:
-            return np.asarray(level / length)
-    return np.array([0.0, -1.0, 0.0])
+    from_middle = joint.rest_point - asset.bounds.mean(axis=0)
+    return facing_direction(joint.pull, joint.normal, from_middle)
 
 
 def camera_place(bounds: FloatArray, direction: FloatArray) -> tuple[FloatArray, FloatArray]:

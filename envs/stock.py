@@ -38,7 +38,7 @@ from asset_factory.sim_checks.simulators.sapien_backend import couple_as_written
 from .assets import FloatArray, RegisteredAsset, read_registry
 from .integrity import check_unaltered
 from .loading import invisible_robots, replaced, resist
-from .placement import facing_direction
+from .placement import facing_of
 from .selection import Wanted, select
 from .tasks.arguments import words
 
@@ -76,8 +76,7 @@ def described(asset: RegisteredAsset) -> ElementTree.Element:
                 joint.remove(mimic)
     names = (link.get("name", "") for link in robot.iter("link"))
     root = next(name for name in names if name not in children)
-    best = asset.openable[0]
-    front = facing_direction(best.rest_point, best.pull, best.normal, asset.bounds)
+    front = facing_of(asset, asset.openable[0])
     yaw = math.pi - math.atan2(front[1], front[0])
     robot.insert(0, ElementTree.Element("link", name=STAND))
     turn = ElementTree.SubElement(robot, "joint", name=f"{STAND}_turn", type="fixed")

@@ -113,6 +113,15 @@ class Joint:
             matrix[:3, 3] = self.axis * value
         return matrix
 
+    def velocity(self, points: FloatArray) -> FloatArray:
+        """Return how points at rest first move per unit of opening, shape as ``points``, [..., 3].
+
+        Zero for a point of the axis of what turns.
+        """
+        if self.turns:
+            return np.asarray(np.cross(self.axis, points - self.origin))
+        return np.broadcast_to(self.axis, points.shape)
+
 
 def rotation_about(axis: npt.ArrayLike, angle: float) -> FloatArray:
     """Return the rotation for ``angle`` [rad] about a unit ``axis``, [3, 3] (Rodrigues)."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -10,7 +10,6 @@ import numpy as np
 from .articulation import Articulation
 from .errors import InvalidAsset
 from .mesh import FloatArray, IntArray, cross, read_only
-from .part import Handle
 
 
 @dataclass(frozen=True)
@@ -93,6 +92,31 @@ class Inertial:
                 f"inertial: principal moments {moments.tolist()} kg m2 break the "
                 "triangle inequality"
             )
+
+
+@dataclass(frozen=True)
+class Handle:
+    """Where a moving part is held, object frame at rest: measured on the part that was made.
+
+    Attributes:
+        point: [m], shape [3], on the part's surface.
+        normal: unit, outward; a hand comes against it, shape [3].
+        pull: unit direction in which pulling there opens the joint, shape [3].
+        faces: mesh faces of what sticks out, or of the flat patch around an edge, shape
+            [face_count].
+        source: how it was found, e.g. ``protrusion`` or ``far_edge``.
+    """
+
+    point: FloatArray
+    normal: FloatArray
+    pull: FloatArray
+    faces: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    source: str = "far_edge"
+
+    def __post_init__(self) -> None:
+        for name in ("point", "normal", "pull"):
+            object.__setattr__(self, name, read_only(getattr(self, name)))
+        object.__setattr__(self, "faces", read_only(self.faces, np.int64))
 
 
 @dataclass(frozen=True)

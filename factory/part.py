@@ -1,4 +1,4 @@
-"""What a part is: its faces, its kind, its panel and handle, and who proposed it."""
+"""What a part is: its faces, its kind, its panel, and who proposed it."""
 
 from __future__ import annotations
 
@@ -117,43 +117,6 @@ class Panel:
 
 
 @dataclass(frozen=True)
-class Handle:
-    """Where a moving part is held, object frame at rest.
-
-    Whoever proposes a part may say where its handle is; what a robot takes hold of is measured on
-    the part that was made, and that answer goes with its body.
-
-    Attributes:
-        point: [m], shape [3], on the part's surface.
-        normal: unit outward direction of the surface there, shape [3].
-        pull: unit direction in which pulling there opens the joint, shape [3].
-        faces: mesh faces of a protruding handle, or of the flat patch around an edge, shape
-            [face_count]; empty where only the place is known.
-        source: how it was found, e.g. ``protrusion`` or ``far_edge``.
-    """
-
-    point: FloatArray
-    normal: FloatArray
-    pull: FloatArray
-    faces: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    source: str = "far_edge"
-
-    def __post_init__(self) -> None:
-        for name in ("point", "normal", "pull"):
-            object.__setattr__(self, name, read_only(getattr(self, name)))
-        object.__setattr__(self, "faces", read_only(self.faces, np.int64))
-
-    def turned(self, rotation: FloatArray) -> Handle:
-        """Return the handle turned about the origin by ``rotation``, shape [3, 3]."""
-        return replace(
-            self,
-            point=rotation @ self.point,
-            normal=rotation @ self.normal,
-            pull=rotation @ self.pull,
-        )
-
-
-@dataclass(frozen=True)
 class PartSource:
     """The proposal that a part comes from, so that a verdict can be traced back to it.
 
@@ -188,7 +151,6 @@ class Part:
             if it does not.
         kind: what it is.
         panel: its outline, where it closes an opening; ``None`` for other parts.
-        handle: where it is held, as far as its proposer knows; ``None`` if it says nothing.
         source: the proposal that it comes from; ``None`` for what nobody proposed, as the body.
     """
 
@@ -197,7 +159,6 @@ class Part:
     confidence: float | None = None
     kind: PartKind = PartKind.PART
     panel: Panel | None = None
-    handle: Handle | None = None
     source: PartSource | None = None
 
     def __post_init__(self) -> None:
@@ -208,8 +169,4 @@ class Part:
 
     def turned(self, rotation: FloatArray) -> Part:
         """Return the part of an object that is turned about the origin by ``rotation``, [3, 3]."""
-        return replace(
-            self,
-            panel=None if self.panel is None else self.panel.turned(rotation),
-            handle=None if self.handle is None else self.handle.turned(rotation),
-        )
+        return replace(self, panel=None if self.panel is None else self.panel.turned(rotation))

@@ -184,7 +184,7 @@ def read_world(task: Any) -> RobotWorld:
         joint=joint,
         degree=[other.name for other in part.active_joints].index(joint.name),
         mover=object_links.index(joint.child),
-        carried=tuple(sorted(map(object_links.index, carried_links(record, joint.child)))),
+        carried=tuple(sorted(map(object_links.index, carried_links(record, joint)))),
         targets=read_targets(record, joint, object_links),
     )
 
@@ -192,7 +192,7 @@ def read_world(task: Any) -> RobotWorld:
 def read_targets(
     record: RegisteredAsset, joint: OpenableJoint, links: Sequence[str]
 ) -> tuple[GraspTarget, ...]:
-    """Return a joint's interaction targets, best first; its handle if it has none."""
+    """Return a joint's interaction targets, best first."""
     named = enumerate(record.manifest.targets)
     own = ((number, target) for number, target in named if target.joint == joint.name)
     found = (GraspTarget(number, links.index(target.part), target) for number, target in own)

@@ -18,7 +18,7 @@ from asset_factory.factory.registry.entry import Split
 
 from ..assets import OpenableJoint, RegisteredAsset, read_registry
 from ..loading import build_ground, invisible_robots, load_asset, resist, warn_of_hulls
-from ..placement import CAMERA_FOV, Place, camera_place, facing_direction, find_place
+from ..placement import CAMERA_FOV, Place, camera_place, facing_of, find_place
 from ..selection import Wanted, select
 from ..targets import Targets
 from . import arguments
@@ -232,8 +232,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
     def _camera(self, name: str, pixels: int) -> CameraConfig:
         places = []
         for asset in self.assets:
-            joint = asset.openable[0]
-            direction = facing_direction(joint.rest_point, joint.pull, joint.normal, asset.bounds)
+            direction = facing_of(asset, asset.openable[0])
             places.append([end.tolist() for end in camera_place(asset.standing_bounds, direction)])
         eyes, middles = torch.tensor(places, device=self.device).unbind(1)
         pose = sapien_utils.look_at(eyes, middles, device=self.device)

@@ -66,7 +66,6 @@ def _part(name: str, faces: IntArray, proposal: Proposal) -> Part:
         proposal.existence,
         kind=proposal.kind,
         panel=proposal.panel,
-        handle=proposal.handle,
         source=proposal.source,
     )
 

@@ -11,7 +11,7 @@ from ..geometry.triangles import doubled_normals
 from ..mesh import FloatArray, Mesh
 from ..part import OpensBy, Panel, PartKind, PartSource, Proposer
 from ..views.raster import Side, side_facing
-from .proposal import Motion, proposal_id
+from .proposal import proposal_id
 
 #: What is narrower than this share of the object's longest side is a button or a lever, no panel.
 NARROWEST = 0.03
@@ -58,9 +58,8 @@ def _panel(mesh: Mesh, joint: Joint, part: Part, points: FloatArray) -> Panel | 
     """
     if joint.kind is JointKind.CONTINUOUS:
         return None
-    motion = Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
-    outward = motion.velocity(middle) * (1.0 if joint.upper >= -joint.lower else -1.0)
+    outward = joint.velocity(middle) * (1.0 if joint.upper >= -joint.lower else -1.0)
     # The middle of a high lid swings back more than up.
     side = Side.TOP if part.kind is PartKind.LID else side_facing(outward)
     local = points @ side.frame.T

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
 from ..mesh import BoolArray, FloatArray, read_only
-from ..part import Handle, Panel, PartKind, PartSource, Proposer
+from ..part import Panel, PartKind, PartSource, Proposer
 
 #: Digits of a metre or a radian, and of a proposal's digest, that its id depends on.
 ID_DECIMALS = 6
@@ -48,15 +48,6 @@ class Motion:
         """Return the motion turned about the origin by ``rotation``, shape [3, 3]."""
         return replace(self, axis=self.axis @ rotation.T, origin=self.origin @ rotation.T)
 
-    def velocity(self, point: FloatArray) -> FloatArray:
-        """Return the direction in which a point, shape [3], first moves when the part opens.
-
-        Not of unit length; zero for a point of the axis.
-        """
-        if self.kind is JointKind.PRISMATIC:
-            return self.axis
-        return np.cross(self.axis, point - self.origin)
-
 
 @dataclass(frozen=True)
 class Proposal:
@@ -70,7 +61,7 @@ class Proposal:
         notes: assumptions, each the end of a sentence that starts with the part's name.
         slide: how it slides in what it turns with, if it does both; ``None`` if not.
         proposer: who makes it.
-        panel, handle: as in :class:`~asset_factory.factory.part.Part`, as far as they are known.
+        panel: as in :class:`~asset_factory.factory.part.Part`, as far as it is known.
         existence: probability that there is such a part, 0 to 1; ``None`` if nobody rated it.
         probability: that there is such a part and that it moves so, likewise.
     """
@@ -83,7 +74,6 @@ class Proposal:
     slide: Motion | None = None
     proposer: Proposer = Proposer.RULES
     panel: Panel | None = None
-    handle: Handle | None = None
     existence: float | None = None
     probability: float | None = None
 

@@ -1,9 +1,9 @@
-"""A panel, a handle and the part that they belong to turn with the object."""
+"""A panel and the part that it belongs to turn with the object."""
 
 import numpy as np
 
 from asset_factory.factory.articulation import rotation_about
-from asset_factory.factory.part import Handle, OpensBy, Panel, Part, PartKind, PartSource, Proposer
+from asset_factory.factory.part import OpensBy, Panel, Part, PartKind, PartSource, Proposer
 from asset_factory.factory.runtime.packing import pack, unpack
 
 FRAME = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
@@ -13,7 +13,6 @@ DOOR = Part(
     0.7,
     kind=PartKind.DOOR,
     panel=Panel(FRAME, [0.1, 0.2], [0.5, 0.8], -0.3, 0.02, OpensBy.LEFT),
-    handle=Handle([0.45, -0.33, 0.5], [0.0, -1.0, 0.0], [0.0, -1.0, 0.0], source="protrusion"),
     source=PartSource("0123456789ab", Proposer.SIDES, 0.7, {"shown": 1.5}),
 )
 
@@ -27,7 +26,6 @@ def test_a_panel_knows_where_it_is_and_turns_with_its_part_and_handle():
     turned = DOOR.turned(turn)
     np.testing.assert_allclose(turned.panel.center, turn @ panel.center)
     np.testing.assert_allclose(turned.panel.outward, turn @ panel.outward)
-    np.testing.assert_allclose(turned.handle.point, turn @ DOOR.handle.point)
     back = turned.turned(turn.T)
     np.testing.assert_allclose(back.panel.frame, panel.frame, atol=1e-15)
 

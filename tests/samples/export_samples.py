@@ -9,10 +9,9 @@ from PIL import Image
 from plain_solids import parted
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
-from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
+from asset_factory.factory.asset import Asset, Handle, Hull, Inertial, PartBody
 from asset_factory.factory.intake.intake import Provenance
 from asset_factory.factory.mesh import Material, Mesh, Texture, concatenate
-from asset_factory.factory.part import Handle
 
 KINDS = (JointKind.REVOLUTE, JointKind.CONTINUOUS, JointKind.PRISMATIC, JointKind.FIXED)
 PROVENANCE = Provenance(input="cabinet.glb", digest="0" * 64, category="cabinet", license="CC0-1.0")

@@ -7,12 +7,11 @@ import export_samples
 import numpy as np
 
 from asset_factory.factory.articulation import Joint, JointKind
-from asset_factory.factory.asset import Asset
+from asset_factory.factory.asset import Asset, Handle
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Provenance
 from asset_factory.factory.manufacture.targets.find import find_targets
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.factory.part import Handle
 
 FRONT = np.array([0.0, -1.0, 0.0])
 RED = Material("red", (0.8, 0.02, 0.02, 1.0))

@@ -129,7 +129,6 @@ def _proposals(labels: IntArray, movers: Sequence[Mover]) -> tuple[Proposal, ...
             mover.motion,
             notes=mover.guesses,
             panel=mover.panel,
-            handle=mover.handle,
         )
         for index, mover in enumerate(movers)
     )

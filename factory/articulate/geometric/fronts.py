@@ -187,9 +187,7 @@ def _mover(
         if travel < scene.touch:
             return None
         motion = Motion(JointKind.PRISMATIC, np.array([0.0, -1.0, 0.0]), origin, 0.0, travel)
-        outline = panel.outline(side)
-        grip = panel.grip(motion)
-        return Mover(PartKind.DRAWER, motion, pieces, guesses, weight, outline, grip)
+        return Mover(PartKind.DRAWER, motion, pieces, guesses, weight, panel.outline(side))
     surroundings = points[~np.isin(owner, pieces)]
     axis, origin, turn = _hinge(scene, panel, side, surroundings)
     if turn < LEAST_TURN:
@@ -200,8 +198,7 @@ def _mover(
             f"opens only {np.degrees(turn):.0f} degrees before it meets its surroundings",
         )
     motion = Motion(JointKind.REVOLUTE, axis, origin, 0.0, turn)
-    outline = panel.outline(side)
-    return Mover(PartKind.DOOR, motion, pieces, guesses, weight, outline, panel.grip(motion))
+    return Mover(PartKind.DOOR, motion, pieces, guesses, weight, panel.outline(side))
 
 
 def _hinge(

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
-from ...part import Handle, Panel, PartKind
+from ...part import Panel, PartKind
 from ..proposal import Motion
 
 #: The commonest limit by far of those that people give to doors [rad].
@@ -26,7 +26,7 @@ class Mover:
         pieces: the pieces that move, shape [piece_count].
         guesses: assumptions, each the end of a sentence that starts with the part's name.
         weight: how much it speaks for the view it was found in.
-        panel, handle: as in :class:`~asset_factory.factory.part.Part`, where they were seen.
+        panel: as in :class:`~asset_factory.factory.part.Part`, where one was seen.
     """
 
     kind: PartKind
@@ -35,7 +35,6 @@ class Mover:
     guesses: tuple[str, ...] = ()
     weight: float = 0.0
     panel: Panel | None = None
-    handle: Handle | None = None
 
     def seen_from(self, rotation: FloatArray) -> Mover:
         """Return the mover in the frame that ``rotation``, shape [3, 3], turned into this one."""
@@ -45,5 +44,4 @@ class Mover:
             self,
             motion=replace(motion, axis=motion.axis / np.linalg.norm(motion.axis)),
             panel=None if self.panel is None else self.panel.turned(back),
-            handle=None if self.handle is None else self.handle.turned(back),
         )

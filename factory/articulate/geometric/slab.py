@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
-from ...part import Handle, OpensBy, Panel
-from ..proposal import Motion
+from ...part import OpensBy, Panel
 from .scene import FRONT, RECT, SIDEWAYS, UP
 
 #: Against rounding [m].
@@ -82,15 +81,6 @@ class FrontSlab:
         """Return it as a panel, in the view frame, that opens so."""
         across = [SIDEWAYS, UP]
         return Panel(VIEW, self.low[across], self.high[across], self.low[FRONT], self.depth, opens)
-
-    def grip(self, motion: Motion) -> Handle | None:
-        """Return the handle of a panel that moves so, in the view frame; ``None`` without one."""
-        if self.handle is None:
-            return None
-        point = self.handle.mean(axis=0)
-        point[FRONT] = self.handle[0, FRONT]
-        pull = motion.velocity(point)
-        return Handle(point, -VIEW[2], pull / np.linalg.norm(pull), source="protrusion")
 
 
 def overlap_area(

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...articulation import JointKind
 from ...mesh import BoolArray, FloatArray
-from ...part import Handle, OpensBy, Panel, PartKind, Proposer
+from ...part import OpensBy, Panel, PartKind, Proposer
 from ...views.raster import Side
 from ..proposal import Motion, Proposal
 from .cutting import Region
@@ -44,15 +44,14 @@ class OpeningPart:
         kind: what it is; names the part.
         region: what it fills.
         motion: how it opens.
-        panel, handle: as in :class:`~asset_factory.factory.part.Part`; ``None`` for parts that are
-            no panel of a side, or have no handle.
+        panel: as in :class:`~asset_factory.factory.part.Part`; ``None`` for parts that are no panel
+            of a side.
     """
 
     kind: PartKind
     region: Region
     motion: Motion
     panel: Panel | None = None
-    handle: Handle | None = None
 
     def turned(self, rotation: FloatArray) -> OpeningPart:
         """Return the same of an object turned about the origin by ``rotation``, shape [3, 3]."""
@@ -61,7 +60,6 @@ class OpeningPart:
             region=self.region.turned(rotation),
             motion=self.motion.turned(rotation),
             panel=None if self.panel is None else self.panel.turned(rotation),
-            handle=None if self.handle is None else self.handle.turned(rotation),
         )
 
     def proposal(self, faces: BoolArray, probability: float) -> Proposal:
@@ -72,7 +70,6 @@ class OpeningPart:
             self.motion,
             proposer=Proposer.SIDES,
             panel=self.panel,
-            handle=self.handle,
             existence=probability,
             probability=probability,
         )
@@ -160,23 +157,7 @@ def panel_mover(
         region=region,
         motion=motion,
         panel=Panel(raster.side.frame, low[::-1], high[::-1], rim, thickness, way),
-        handle=_handle(front, panel, motion),
     )
-
-
-def _handle(front: Front, panel: FrontPanel, motion: Motion) -> Handle | None:
-    """Return where a panel is held: on the outermost of its handle, in the handle's middle."""
-    found = panel.handle
-    if found is None:
-        return None
-    raster = front.relief.raster
-    right, up, away = raster.side.frame
-    height, across = raster.low[::-1] + found.center * raster.pixel
-    row, column = np.minimum(found.center.astype(np.int64), np.array(front.relief.shape) - 1)
-    depth = raster.near - (front.face.height[row, column] + found.height) * raster.pixel
-    point = across * right + height * up + depth * away
-    pull = motion.velocity(point)
-    return Handle(point, -away, pull / np.linalg.norm(pull), source="protrusion")
 
 
 def lid_mover(fronts: Mapping[Side, Front], row: int, hinge: Side) -> OpeningPart:

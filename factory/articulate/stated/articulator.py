@@ -150,7 +150,6 @@ class StatedArticulator(HypothesisMaker):
                 _from_closed(each.stated, mover.motion),
                 proposer=self._proposer,
                 panel=mover.panel if each.stated.drawn is None else None,
-                handle=mover.handle if each.stated.drawn is None else None,
                 existence=chance,
                 probability=chance,
             )

@@ -64,7 +64,6 @@ class Expected:
                     Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper),
                     proposer=Proposer.RULES if part.source is None else part.source.proposer,
                     panel=part.panel,
-                    handle=part.handle,
                     existence=part.confidence,
                     probability=joint.confidence,
                 )

@@ -8,9 +8,9 @@ from itertools import islice
 
 import numpy as np
 
-from ...articulation import Articulation, Joint
+from ...articulation import Articulation
 from ...asset import Hull, Target
-from .handles import find_handle
+from .handles import handle_of
 from .holds import HoldSearch, exposed, grasp, poke
 from .poses import AGAINST, find_poses, spread_against
 from .shape import Moving, shape_of
@@ -39,19 +39,15 @@ def find_targets(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) ->
     everything = surroundings_of(articulation, hulls)
     targets: list[Target] = []
     for joint in articulation.movable_joints:
-        part = held_part(articulation, joint)
-        if part is not None:
-            moving = Moving(joint, shape_of(articulation, part))
-            holds = _holds(HoldSearch(part, moving, everything))
-            chosen = _distinct(holds) or [_last_resort(articulation, part, moving)]
+        shapes = (shape_of(articulation, part) for part in articulation.carried(joint.child))
+        # What is held is the joint's child, or the first part with a surface that it carries.
+        shape = next((shape for shape in shapes if len(shape.faces)), None)
+        if shape is not None:
+            moving = Moving(joint, shape)
+            holds = _holds(HoldSearch(moving, everything))
+            chosen = _distinct(holds) or [_last_resort(moving)]
             targets += [replace(each, score=round(each.score, 4)) for each in chosen]
     return tuple(targets)
-
-
-def held_part(articulation: Articulation, joint: Joint) -> int | None:
-    """Return the first part with a surface that a joint moves: its child, or what that carries."""
-    carried = articulation.carried(joint.child)
-    return next((part for part in carried if len(shape_of(articulation, part).faces)), None)
 
 
 def _holds(task: HoldSearch) -> list[Target]:
@@ -80,18 +76,16 @@ def _distinct(holds: list[Target]) -> list[Target]:
     return kept[:MOST]
 
 
-def _last_resort(articulation: Articulation, part: int, moving: Moving) -> Target:
+def _last_resort(moving: Moving) -> Target:
     """Name where one would pull if one could: a handle, the far edge, the middle of a front."""
-    handle = find_handle(articulation, part)
-    axis = moving.joint.axis
-    point = moving.shape.center if handle is None else handle.point
-    normal = axis if handle is None else handle.normal
-    pull = moving.pull(point)
-    pull = pull if pull.any() else axis
+    handle = handle_of(moving)
+    normal = handle.normal
+    pull = handle.pull
     kind = "push" if float(normal @ pull) < AGAINST else "hook"
     side = np.cross(pull, normal)
     if np.linalg.norm(side) < 0.1:
         side = np.cross(np.eye(3)[int(np.abs(normal).argmin())], normal)
     fingers = np.asarray(side / np.linalg.norm(side))
-    score = HOPELESS * float(moving.place(point))
-    return Target(moving.joint.name, part, kind, point, normal, pull, fingers, 0.0, score)
+    score = HOPELESS * float(moving.place(handle.point))
+    held = (moving.joint.name, moving.shape.part)
+    return Target(*held, kind, handle.point, normal, pull, fingers, 0.0, score)

@@ -48,12 +48,10 @@ class HoldSearch:
     """A joint, the links that it moves, and their surroundings.
 
     Attributes:
-        part: index of the part that is held.
         moving: the joint, and the part's surface.
         everything: around it.
     """
 
-    part: int
     moving: Moving
     everything: Surroundings
 
@@ -86,8 +84,8 @@ class HoldSearch:
         pulled = point if at is None else at
         pull = self.moving.pull(pulled)
         score = WORTH[kind] * worth * self.worth(pulled, normal)
-        name = self.moving.joint.name
-        return Target(name, self.part, kind, point, normal, pull, fingers, opening, score)
+        held = (self.moving.joint.name, self.moving.shape.part)
+        return Target(*held, kind, point, normal, pull, fingers, opening, score)
 
     def worth(self, point: FloatArray, normal: FloatArray) -> float:
         """Rate a place, 0 to 1: how well it is pulled there, and how easily reached."""
@@ -101,12 +99,10 @@ class HoldSearch:
     def arm_is_free(self, point: FloatArray, axes: FloatArray) -> bool:
         """Tell whether what follows a palm gets out of the object, along the third axis."""
         low, high = self.everything.bounds
-        # How far the box around everything goes on in that direction.
         ahead = axes[2]
-        with np.errstate(divide="ignore"):
-            ways = (np.where(ahead > 0.0, high, low) - point) / ahead
-        way = np.where(np.abs(ahead) > 1e-9, ways, np.inf)
-        end = min(float(way.min()), GRIPPER.arm_reach)
+        # Nothing lies further on in that direction than the box around everything.
+        farthest = np.where(ahead > 0.0, high, low)
+        end = min(float((farthest - point) @ ahead), GRIPPER.arm_reach)
         if end <= GRIPPER.length:
             return True
         half = GRIPPER.arm

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from ...mesh import FloatArray, IntArray
-from .protrusions import LOOKS_OUT, front_of, opening_direction, protrusions
-from .shape import Moving, PartShape, across, middle_of, nearest_point
+from .protrusions import LOOKS_OUT, opening_direction, protrusions
+from .shape import Moving, PartShape, across, middle_of, nearest_point, rectangle
 
 #: Most protrusions of one front that are looked at.
 MOST_GROUPS = 4
@@ -36,29 +36,45 @@ class Pose:
         point: on the surface [m], shape [3].
         normal: the hand comes against it; unit, shape [3].
         fingers: unit directions to close along, across the normal; each shape [3].
-        protrudes: whether it is on something that sticks out.
+        faces: of the mesh, of the thing that it is on: what sticks out, or the outermost of a side,
+            shape [face_count].
+        protrudes: whether that sticks out.
     """
 
     point: FloatArray
     normal: FloatArray
     fingers: tuple[FloatArray, ...]
+    faces: IntArray
     protrudes: bool
 
 
-def find_poses(moving: Moving) -> list[Pose]:
-    """Find places on what sticks out of a part, and on its six sides."""
-    found: list[Pose] = []
-    for outward in _fronts(moving):
-        front = front_of(moving.shape, outward)
-        for group in protrusions(moving, front)[:MOST_GROUPS]:
-            found += _on_protrusion(moving, moving.shape.only(group), outward)
+def find_poses(moving: Moving) -> Iterator[Pose]:
+    """Yield places on what sticks out of a part, and on its six sides."""
+    for outward in fronts(moving):
+        yield from on_protrusions(moving, outward)
     for outward in _sides(moving):
-        found += _on_side(moving, outward)
-    return found
+        yield from on_side(moving, outward)
 
 
-def _fronts(moving: Moving) -> list[FloatArray]:
-    """Return the directions in which a handle may stand out."""
+def on_protrusions(moving: Moving, outward: FloatArray) -> Iterator[Pose]:
+    """Yield places on what sticks out of the side that looks in a direction, the best first."""
+    for group in protrusions(moving, outward)[:MOST_GROUPS]:
+        yield from _on_protrusion(moving, moving.shape.only(group), outward)
+
+
+def far_side(moving: Moving) -> FloatArray:
+    """Return the direction of the side where a part without a handle is held, shape [3].
+
+    The one far from its hinge, the highest of what turns on the spot, or the front.
+    """
+    if moving.spins:
+        sides = [across(candidate, moving.joint.axis) for candidate in np.eye(3)[[2, 0]]]
+        return next(side for side in sides if side.any())
+    return fronts(moving)[-1 if moving.joint.turns else 0]
+
+
+def fronts(moving: Moving) -> list[FloatArray]:
+    """Return the directions in which a handle may stand out, its opening first."""
     axis = moving.joint.axis
     if moving.spins:
         return [axis, -axis]
@@ -68,59 +84,56 @@ def _fronts(moving: Moving) -> list[FloatArray]:
         radial = across(across(shape.center - moving.joint.origin, axis), outward)
         return [outward, *([radial] if radial.any() else [])]
     # What slides in its own plane, like a window, is held on its faces.
-    sides = rectangle(shape.corners.reshape(-1, 3), outward)
-    widths = [float(np.ptp(shape.corners @ side)) for side in sides]
-    thin = sides[int(np.argmin(widths))]
-    sideways = min(widths) < 0.5 * float(np.ptp(shape.corners @ outward))
+    thin, _ = rectangle(shape.corners, outward)
+    sideways = np.ptp(shape.corners @ thin) < 0.5 * np.ptp(shape.corners @ outward)
     return [outward, *([thin, -thin] if sideways else [])]
 
 
 def _sides(moving: Moving) -> list[FloatArray]:
     """Return six directions that fit the part and its joint."""
-    first = moving.joint.axis if moving.spins else opening_direction(moving)
+    first = fronts(moving)[0]
     second = across(moving.joint.axis, first)
     if not second.any():
-        second = rectangle(moving.shape.corners.reshape(-1, 3), first)[0]
+        second, _ = rectangle(moving.shape.corners, first)
     third = np.cross(first, second)
     return [first, -first, second, -second, third, -third]
 
 
-def _on_protrusion(moving: Moving, thing: PartShape, outward: FloatArray) -> list[Pose]:
-    corners = thing.corners.reshape(-1, 3)
-    axes = rectangle(corners, outward)
-    ends = [(float((corners @ axis).min()), float((corners @ axis).max())) for axis in axes]
-    top = float((corners @ outward).max())
-    middle = outward * top + sum(
-        axis * (low + high) / 2.0 for axis, (low, high) in zip(axes, ends, strict=True)
-    )
-    lengths = [high - low for low, high in ends]
-    along = axes[int(np.argmax(lengths))]
-    length = max(lengths)
-    shifts = (0.0, 0.25, -0.25) if length > LONG_M else (0.0,)
-    facing = thing.normals @ outward > LOOKS_OUT
-    surface = thing.corners[facing] if facing.any() else thing.corners
+def _on_protrusion(moving: Moving, thing: PartShape, outward: FloatArray) -> Iterator[Pose]:
+    axes = rectangle(thing.corners, outward)
+    frame = np.stack([*axes, outward])
+    local = thing.corners @ frame.T
+    low = local.min(axis=(0, 1))
+    high = local.max(axis=(0, 1))
+    top = np.append((low + high)[:2] / 2.0, high[2]) @ frame
+    length = float(high[1] - low[1])
+    surface = _surface_towards(thing, outward).corners
     fingers = _fingers(moving, outward, axes)
-    return [
-        Pose(nearest_point(surface, middle + shift * length * along)[0], outward, fingers, True)
-        for shift in shifts
-    ]
+    for shift in (0.0, 0.25, -0.25) if length > LONG_M else (0.0,):
+        point = nearest_point(surface, top + shift * length * axes[1])
+        yield Pose(point, outward, fingers, thing.faces, True)
 
 
-def _on_side(moving: Moving, outward: FloatArray) -> list[Pose]:
-    facing = moving.shape.normals @ outward > LOOKS_OUT
-    if not facing.any():
-        return []
-    side = moving.shape.only(facing)
+def on_side(moving: Moving, outward: FloatArray) -> Iterator[Pose]:
+    """Yield places on the side of a part that looks in a direction: its middle, and its far end."""
+    side = _surface_towards(moving.shape, outward)
     height = side.corners @ outward
     outermost = side.only(height.max(axis=1) >= height.max() - SIDE_M)
-    fingers = _fingers(moving, outward, rectangle(outermost.corners.reshape(-1, 3), outward))
-    points = [nearest_point(outermost.corners, outermost.center)[0]]
+    fingers = _fingers(moving, outward, rectangle(outermost.corners, outward))
+    points = [nearest_point(outermost.corners, outermost.center)]
     if moving.joint.turns:
         reach = moving.lever(side.corners)
         target = middle_of(side.corners[reach >= FAR_SHARE * reach.max()])
         inward = across(moving.joint.origin - target, moving.joint.axis)
-        points.append(nearest_point(side.corners, target + INSET_M * inward)[0])
-    return [Pose(point, outward, fingers, False) for point in points]
+        points.append(nearest_point(side.corners, target + INSET_M * inward))
+    for point in points:
+        yield Pose(point, outward, fingers, outermost.faces, False)
+
+
+def _surface_towards(shape: PartShape, outward: FloatArray) -> PartShape:
+    """Return the faces that look in a direction; all of them where none does."""
+    facing = shape.normals @ outward > LOOKS_OUT
+    return shape.only(facing) if facing.any() else shape
 
 
 def _fingers(
@@ -139,33 +152,6 @@ def _fingers(
     return tuple(kept)
 
 
-def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the directions of the sides of the least rectangle around points, the narrow first.
-
-    The points [m], shape [n, 3], are seen along a unit ``normal``.
-    """
-    first_across = across(np.eye(3)[int(np.abs(normal).argmin())], normal)
-    basis = np.stack([first_across, np.cross(normal, first_across)])
-    flat = points @ basis.T
-    try:
-        outline = flat[ConvexHull(flat).vertices]
-    except QhullError:
-        outline = flat
-    edges = np.roll(outline, -1, axis=0) - outline
-    angles = np.unique(
-        np.round(np.arctan2(edges[:, 1], edges[:, 0]) % (np.pi / 2.0), 6) % round(np.pi / 2.0, 6)
-    )
-    turns = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    first = np.ptp(outline @ turns.T, axis=0)
-    second = np.ptp(outline @ np.stack([-turns[:, 1], turns[:, 0]]), axis=0)
-    # Rounded, so that a circle's many equal rectangles leave the first.
-    best = int(np.round(first * second / max(float((first * second).max()), 1e-12), 6).argmin())
-    one = turns[best] @ basis
-    other = np.cross(normal, one)
-    narrow = round(float(first[best]), 6) <= round(float(second[best]), 6)
-    return (one, other) if narrow else (other, one)
-
-
 def spread_against(moving: Moving, most: int) -> tuple[FloatArray, FloatArray]:
     """Spread points over surface that faces against the opening: a push there opens.
 
@@ -173,7 +159,7 @@ def spread_against(moving: Moving, most: int) -> tuple[FloatArray, FloatArray]:
     first, each as far as can be from those before.
     """
     shape = moving.shape
-    speed = moving.velocity(shape.centers)
+    speed = moving.joint.velocity(shape.centers)
     length = np.maximum(np.linalg.norm(speed, axis=1), 1e-12)
     rows = np.flatnonzero(np.einsum("ij,ij->i", shape.normals, speed) / length < AGAINST)
     points, normals = _inset(moving, rows)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...geometry.edges import label_linked
 from ...geometry.rows import distinct_rows
-from ...mesh import BoolArray, FloatArray, IntArray
+from ...mesh import FloatArray, IntArray
 from ..decompose.solids import component_labels
-from .shape import Moving, PartShape
+from .shape import Moving, PartShape, rectangle
 
 #: Faces within this angle of the panel's normal look outwards.
 LOOKS_OUT = float(np.cos(np.radians(30.0)))
@@ -25,67 +23,34 @@ HANDLE_SHARE = 0.3
 TOUCH_M = 0.004
 
 
-@dataclass(frozen=True)
-class ProtrudingFront:
-    """A side of a part.
-
-    Attributes:
-        outward: unit direction that it looks in, shape [3].
-        height: of every face corner along ``outward`` [m], shape [face_count, 3].
-        level: of the panel along ``outward`` [m].
-        tolerance: how far from it still counts as it [m].
-    """
-
-    outward: FloatArray
-    height: FloatArray
-    level: float
-    tolerance: float
-
-
-def front_of(shape: PartShape, outward: FloatArray) -> ProtrudingFront:
-    """Return the side of a shape that looks in a direction."""
-    height = shape.corners @ outward
-    level, tolerance = _panel(shape, outward, height)
-    return ProtrudingFront(outward, height, level, tolerance)
-
-
 def opening_direction(moving: Moving) -> FloatArray:
     """Return the normal of the part's front: the most common face direction ahead of it, [3]."""
     shape = moving.shape
-    ahead_of = moving.velocity(shape.center)
-    forward = ahead_of / np.linalg.norm(ahead_of)
+    forward = moving.pull(shape.center)
     if not moving.joint.turns:
-        return np.asarray(forward)
+        return forward
     # Sheets may face either way.
     normals = shape.normals * np.where(shape.normals @ forward < 0.0, -1.0, 1.0)[:, None]
     ahead = normals @ forward > np.cos(np.radians(45.0))
     if not ahead.any():
-        return np.asarray(forward)
+        return forward
     keys = np.round(normals[ahead] * 4.0)
     first, which = distinct_rows(keys)
     commonest = keys[first[np.bincount(which, shape.areas[ahead]).argmax()]]
     commonest = commonest / np.linalg.norm(commonest)
     alike = ahead & (normals @ commonest > LOOKS_OUT)
-    if not alike.any():
-        return np.asarray(commonest)
     mean = shape.areas[alike] @ normals[alike]
     return np.asarray(mean / np.linalg.norm(mean))
 
 
-def looking(shape: PartShape, outward: FloatArray) -> BoolArray:
-    """Return which faces look in a direction or against it, shape [face_count]."""
-    return np.asarray(np.abs(shape.normals @ outward) > LOOKS_OUT)
+def protrusions(moving: Moving, outward: FloatArray) -> list[IntArray]:
+    """Find everything that sticks out of the side that looks in a direction: faces of the shape.
 
-
-def protrusions(moving: Moving, front: ProtrudingFront) -> list[IntArray]:
-    """Find everything that sticks out of a front, the best handle first: faces of the shape.
-
-    The best one stands out furthest at the best place to pull.
+    The best handle first: it stands out furthest at the best place to pull.
     """
     shape = moving.shape
-    height = front.height
-    level = front.level
-    tolerance = front.tolerance
+    height = shape.corners @ outward
+    level, tolerance = _panel(shape, outward, height)
     standing = height.mean(axis=1) > level + tolerance
     label = component_labels(shape.welded)
     lowest = np.full(label.max() + 1, np.inf)
@@ -97,33 +62,29 @@ def protrusions(moving: Moving, front: ProtrudingFront) -> list[IntArray]:
     candidates = np.flatnonzero(standing | on_top[label])
     if not len(candidates):
         return []
-    whole = _outline(shape, front.outward)
+    whole = _outline(shape, outward)
     rated = []
     for group in _groups(shape, candidates):
         corners = shape.corners[group].reshape(-1, 3)
         reach = float(height[group].max()) - level
-        covered = _outline(shape.only(group), front.outward) / whole
+        covered = _outline(shape.only(group), outward) / whole
         if reach >= tolerance and covered <= HANDLE_SHARE:
             rated.append((reach * float(moving.place(corners.mean(axis=0))), group))
     return [group for _, group in sorted(rated, key=lambda pair: -pair[0])]
 
 
 def _outline(shape: PartShape, outward: FloatArray) -> float:
-    """Return the area of the part's box as seen along ``outward`` [m2]."""
-    across = np.linalg.svd(outward[None])[2][1:]
-    flat = shape.corners.reshape(-1, 3)
-    # Seen along a coordinate axis the box is the coordinate one; else the frame across is as good
-    # as any.
-    if np.abs(outward).max() > LOOKS_OUT:
-        across = np.delete(np.eye(3), int(np.abs(outward).argmax()), axis=0)
-    return float(np.prod(np.ptp(flat @ across.T, axis=0)))
+    """Return the area of the least rectangle around the part, seen along ``outward`` [m2]."""
+    sides = rectangle(shape.corners, outward)
+    return float(np.prod([np.ptp(shape.corners @ side) for side in sides]))
 
 
 def _panel(shape: PartShape, outward: FloatArray, height: FloatArray) -> tuple[float, float]:
     """Return the level of the front along ``outward`` [m], and how far from it is still it [m]."""
     size = float(np.ptp(shape.corners.reshape(-1, 3), axis=0).max())
     tolerance = float(np.clip(LEVEL_SHARE * size, *LEVEL_BOUNDS_M))
-    flat = looking(shape, outward)
+    # Sheets may face either way.
+    flat = np.abs(shape.normals @ outward) > LOOKS_OUT
     if not flat.any():
         return float(height.max()), tolerance
     levels = height[flat].mean(axis=1)

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.spatial import QhullError
+from trimesh.bounds import oriented_bounds_2D
 from trimesh.triangles import closest_point
 
 from ...articulation import Articulation, Joint, JointKind
@@ -23,7 +25,7 @@ class PartShape:
     """A part and all that is fixed to it.
 
     Attributes:
-        parts: indices of the parts.
+        parts: indices of the parts, the one that carries the others first.
         faces: of the mesh, shape [face_count].
         welded: their vertex indices, shape [face_count, 3].
         corners: [m], object frame at rest, shape [face_count, 3, 3].
@@ -37,6 +39,11 @@ class PartShape:
     corners: FloatArray
     normals: FloatArray
     areas: FloatArray
+
+    @property
+    def part(self) -> int:
+        """Return the part that the others are fixed to."""
+        return self.parts[0]
 
     @property
     def centers(self) -> FloatArray:
@@ -72,15 +79,9 @@ class Moving:
     joint: Joint
     shape: PartShape
 
-    def velocity(self, points: FloatArray) -> FloatArray:
-        """Return the velocity of points per unit of joint speed, opening; shape of ``points``."""
-        if self.joint.turns:
-            return np.asarray(np.cross(self.joint.axis, points - self.joint.origin))
-        return np.broadcast_to(self.joint.axis, points.shape)
-
     def pull(self, point: FloatArray) -> FloatArray:
         """Return the unit direction in which opening first moves a point; zero on the axis, [3]."""
-        speed = self.velocity(point)
+        speed = self.joint.velocity(point)
         length = float(np.linalg.norm(speed))
         return np.asarray(speed / length) if length > 1e-6 else np.zeros(3)
 
@@ -158,15 +159,26 @@ def across(vector: FloatArray, normal: FloatArray) -> FloatArray:
     )
 
 
-def nearest_points(triangles: FloatArray, point: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the point of each triangle nearest to ``point`` [m], [n, 3], and how far it is [m]."""
+def nearest_point(triangles: FloatArray, point: FloatArray) -> FloatArray:
+    """Return the point of some triangles, shape [n, 3, 3], nearest to ``point`` [m], shape [3]."""
     on_surface = closest_point(triangles, np.tile(point, (len(triangles), 1)))
-    return on_surface, np.linalg.norm(on_surface - point, axis=1)
+    # Rounded, so that of triangles as near it is the first, turned as they may be.
+    distance = np.round(np.linalg.norm(on_surface - point, axis=1), 9)
+    return np.asarray(on_surface[int(distance.argmin())])
 
 
-def nearest_point(triangles: FloatArray, point: FloatArray) -> tuple[FloatArray, int]:
-    """Return the point of some triangles nearest to ``point`` [m], and the triangle's number."""
-    on_surface, distance = nearest_points(triangles, point)
-    # Rounded, so that of triangles that share the point it is the first, turned as they may be.
-    number = int(np.round(distance, 9).argmin())
-    return np.asarray(on_surface[number]), number
+def rectangle(points: FloatArray, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the directions of the sides of the least rectangle around points, the narrow first.
+
+    The points [m], shape [..., 3], are seen along a unit ``normal``.
+    """
+    flat = points.reshape(-1, 3)
+    first = across(np.eye(3)[int(np.abs(normal).argmin())], normal)
+    basis = np.stack([first, np.cross(normal, first)])
+    try:
+        to_wide = oriented_bounds_2D(flat @ basis.T)[0]
+    except QhullError:
+        # All on one line.
+        return basis[0], basis[1]
+    wide, narrow = to_wide[:2, :2] @ basis
+    return narrow, wide

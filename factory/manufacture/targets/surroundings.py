@@ -20,8 +20,6 @@ from ..decompose.convex import depth_below
 
 #: What only touches a box is not in it [m].
 TOUCH_M = 1e-5
-#: Points of a box that are asked whether they lie within a hull: along each side.
-PROBES = np.stack(np.meshgrid(*[(-0.5, 0.0, 0.5)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
 @dataclass(frozen=True)
@@ -50,16 +48,13 @@ class Surroundings:
         """Return the box around everything [m], shape [2, 3]."""
         return np.stack([self.boxes[0].min(axis=0), self.boxes[1].max(axis=0)])
 
-    def inside(self, points: FloatArray) -> BoolArray:
-        """Return which points lie within a hull, deeper than a touch, shape [point_count]."""
-        found = np.zeros(len(points), dtype=bool)
+    def is_inside(self, point: FloatArray) -> bool:
+        """Return whether a point [m], shape [3], lies within a hull, deeper than a touch."""
         low = self.hull_boxes[:, 0]
         high = self.hull_boxes[:, 1]
-        near = ((low <= points.max(axis=0)) & (high >= points.min(axis=0))).all(axis=1)
         # Most hulls are nowhere near, and asking all of their planes is what takes long.
-        for hull in np.flatnonzero(near).tolist():
-            found |= depth_below(self.hulls[hull], points) > TOUCH_M
-        return found
+        near = np.flatnonzero(((low <= point) & (high >= point)).all(axis=1)).tolist()
+        return any(depth_below(self.hulls[hull], point[None])[0] > TOUCH_M for hull in near)
 
     def view(
         self, own: Sequence[int], point: FloatArray, axes: FloatArray, reach: float
@@ -140,8 +135,8 @@ class HandView:
             ((met >= low) & (met <= high)).all(axis=2).any() or meet_box(met, low, high).any()
         ):
             return False
-        probes = (low + high) / 2.0 + PROBES * (high - low) * 0.9
-        return not self.everything.inside(self.point + probes @ self.axes).any()
+        # Of a box that no surface meets all lies within a hull, or nothing.
+        return not self.everything.is_inside(self.point + (low + high) / 2.0 @ self.axes)
 
     def within(self, lowest: npt.ArrayLike, highest: npt.ArrayLike) -> FloatArray:
         """Return the own geometry in a box of the frame: triangles cut to it [m], [any, 3, 3]."""

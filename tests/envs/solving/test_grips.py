@@ -9,7 +9,7 @@ from asset_factory.envs.solving import make_episodes
 from asset_factory.envs.solving.grips import PRESS_ON, _hand_points, drags
 from asset_factory.envs.solving.world import read_world
 from asset_factory.factory.articulation import Joint, JointKind
-from asset_factory.factory.part import Handle
+from asset_factory.factory.asset import Handle
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 pytestmark = UNWARNED

@@ -8,7 +8,11 @@ from plain_solids import box
 from target_worlds import BAR, BODY, HINGE, PANEL, SLIDE, asset_of, best, moved, world
 
 from asset_factory.factory.asset import Asset, Hull, PartBody
-from asset_factory.factory.manufacture.targets.standing import BASE_RADIUS_M, standing_place
+from asset_factory.factory.manufacture.targets.standing import (
+    BASE_RADIUS_M,
+    facing_direction,
+    standing_place,
+)
 
 
 def place_of(articulation):
@@ -62,3 +66,11 @@ def test_without_room_there_is_no_place():
     bodies = (PartBody(hulls, plain[0].inertial), plain[1])
     asset = Asset("test", articulation, bodies)
     assert standing_place(asset, SLIDE, best(articulation)) is None
+
+
+def test_a_lid_pulled_upward_is_approached_from_where_its_handle_faces():
+    up = np.array([0.0, 0.0, 1.0])
+    side = np.array([1.0, 0.0, 0.0])
+    np.testing.assert_allclose(facing_direction(up, side), side)
+    np.testing.assert_allclose(facing_direction(up, up, np.array([0.0, 1.0, 1.0])), [0, 1, 0])
+    np.testing.assert_allclose(facing_direction(up, up, up), [0, -1, 0])
