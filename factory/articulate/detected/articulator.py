@@ -111,7 +111,10 @@ class DetectedArticulator(HypothesisMaker):
             guess, moves = self._agreed(guess, cells, detection.dense, least, sure)
         left = [part for part in rated if part not in sure]
         cells = CellParts.of(guess, faces)
-        guess = _without(guess, {*_misplaced(cells, sure), *_several_in_one(cells, sure)})
+        gone = _misplaced(cells, sure)
+        if MeshOrigin.of(mesh).is_shell:
+            gone += _several_in_one(cells, sure)
+        guess = _without(guess, gone)
         cells = CellParts.of(guess, faces)
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
         guess = _without(guess, _pulls(cells, beside))
@@ -278,7 +281,10 @@ def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
 
 
 def _several_in_one(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
-    """Return the parts in whose place several panels are seen."""
+    """Return the parts in whose place several panels are seen.
+
+    That is right of shells only: pieces that somebody modelled are parts as they are.
+    """
     panels = [part.found[0] for part in sure if part.stated.kind is not StatedKind.LID]
     return [
         joint.child

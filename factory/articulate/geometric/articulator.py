@@ -16,6 +16,7 @@ from ..assembly import assembled
 from ..proposal import Proposal
 from ..rigid import rigid_articulation
 from .fronts import find_fronts
+from .house_doors import find_house_doors
 from .knobs import find_top_knobs
 from .movers import Mover
 from .rounds import FROM_ABOVE, find_cap, find_turntables, find_wheels
@@ -92,7 +93,7 @@ def _best_view(scene: Scene) -> tuple[Mover, ...]:
     best_weight = 0.0
     for turns in range(4):
         view = scene.turned(quarter_turn(turns)) if turns else scene
-        movers = find_fronts(view)
+        movers = find_fronts(view) or find_house_doors(view)
         weight = sum(m.weight for m in movers)
         if weight > best_weight * (1.0 + 1e-9):
             best = tuple(m.seen_from(view.rotation) for m in movers)

@@ -1,4 +1,4 @@
-"""Doors of fridges and machines, and drawers in one piece."""
+"""Doors of rooms, fridges and machines, and drawers in one piece."""
 
 import numpy as np
 import pytest
@@ -9,14 +9,37 @@ from test_geometric import articulate
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.mesh import Mesh
 
+FRAME = [
+    box((0.0, 0.0, 0.0), (0.06, 0.12, 2.1)),
+    box((0.94, 0.0, 0.0), (1.0, 0.12, 2.1)),
+    box((0.06, 0.0, 2.04), (0.94, 0.12, 2.1)),
+]
+LEAF = box((0.065, 0.01, 0.005), (0.935, 0.05, 2.035))
+KNOB = box((0.85, -0.04, 1.0), (0.9, 0.01, 1.05))
 
-def test_a_picture_on_its_back_board_and_a_leaf_alone_stay():
+
+def test_a_room_door_hinges_across_from_its_knob_and_opens_to_its_flush_side():
+    articulation = articulate(*FRAME, LEAF, KNOB)
+    (joint,) = articulation.joints
+    assert joint.kind is JointKind.REVOLUTE
+    assert np.allclose(joint.axis, [0, 0, -1])
+    assert joint.origin[0] == pytest.approx(0.065)
+    assert np.array_equal(articulation.parts[1].faces, np.arange(36, 60))
+
+
+def test_a_pair_of_leaves_opens_away_from_each_other():
+    left = box((0.065, 0.01, 0.005), (0.499, 0.05, 2.035))
+    right = box((0.501, 0.01, 0.005), (0.935, 0.05, 2.035))
+    joints = articulate(*FRAME, left, right).joints
+    found = sorted((round(float(j.origin[0]), 3), round(float(j.axis[2]))) for j in joints)
+    assert found == [(0.065, -1), (0.935, 1)]
+
+
+def test_a_picture_on_its_back_board_and_a_leaf_without_a_frame_stay():
     board = box((0.0, 0.05, 0.0), (1.0, 0.07, 0.8))
     picture = box((0.1, 0.03, 0.1), (0.9, 0.05, 0.7))
     assert articulate(board, picture).joints == ()
-    leaf = box((0.065, 0.01, 0.005), (0.935, 0.05, 2.035))
-    knob = box((0.85, -0.04, 1.0), (0.9, 0.01, 1.05))
-    assert articulate(leaf, knob).joints == ()
+    assert articulate(LEAF, KNOB).joints == ()
 
 
 @pytest.mark.parametrize(("thickness", "degrees"), [(0.06, 180.0), (0.02, 90.0)])

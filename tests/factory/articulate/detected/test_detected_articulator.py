@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.samples import one_piece
 from tests.samples.says import Says
 
 pytest.importorskip("torch")
@@ -78,17 +79,22 @@ def front_of(mesh, share):
     return np.flatnonzero(middles < low + share * (high - low))
 
 
-@pytest.mark.parametrize(
-    ("kind", "proposer"),
-    [(PartKind.PART, Proposer.NETWORK), (PartKind.DOOR, Proposer.RULES)],
-)
-def test_one_part_that_others_are_sure_of_gives_way_to_drawers_seen_there(kind, proposer):
+def test_a_part_that_a_network_believes_gives_way_to_drawers_that_are_seen_there():
     said = unmoving("dresser", 1)
-    proposed = with_part(said, front_of(said.mesh, 0.1), confidence=0.9)
-    part = replace(proposed.parts[1], kind=kind, source=PartSource("0", proposer, 0.9, {}))
-    made = detected(replace(proposed, parts=(proposed.parts[0], part)))[0].articulation
+    believed = with_part(said, front_of(said.mesh, 0.1), confidence=0.9)
+    made = detected(believed)[0].articulation
     drawers = len(make_object("dresser", 1).movable_joints)
     assert [part.kind for part in made.parts[1:]] == [PartKind.DRAWER] * drawers
+
+
+def test_of_one_piece_what_rules_take_for_a_door_gives_way_to_drawers_that_are_seen_there():
+    mesh = one_piece.proud_drawers()
+    said = with_part(rigid_articulation(mesh, "auto", ()), front_of(mesh, 0.1))
+    door = replace(
+        said.parts[1], kind=PartKind.DOOR, source=PartSource("0", Proposer.RULES, 0.9, {})
+    )
+    made = detected(replace(said, parts=(said.parts[0], door)))[0].articulation
+    assert [part.kind for part in made.parts[1:]] == [PartKind.DRAWER] * 2
 
 
 @pytest.mark.parametrize("share", [0.0, 1.0])
