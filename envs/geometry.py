@@ -84,7 +84,7 @@ def opening_values(
 
 
 def drop_visuals(robot: ElementTree.Element) -> None:
-    """Take what is only seen out of a URDF."""
+    """Take the visuals out of a URDF."""
     for link in robot.iter("link"):
         for visual in link.findall("visual"):
             link.remove(visual)

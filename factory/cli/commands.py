@@ -45,7 +45,7 @@ class Command:
     """A command.
 
     Attributes:
-        name: what is typed after ``factory``.
+        name: the word after ``factory``.
         flags: a dataclass; its docstring is the help.
         run: does it; returns the exit code.
     """

@@ -1,4 +1,4 @@
-"""``factory predict``: what moves in one input."""
+"""``factory predict``: the moving parts of one input."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Predict(Printed):
 
 
 def run(command: Predict) -> int:
-    """Print what moves; returns the exit code."""
+    """Print the moving parts; returns the exit code."""
     from ..articulate.predict import predict
 
     config = input_config(command.loading)

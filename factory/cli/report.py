@@ -34,7 +34,7 @@ def run(command: ReportPages) -> int:
 
 
 def write_report(registry: Registry, workers: int | None) -> Path:
-    """Draw what is to be drawn, and say on stderr what could not be; returns the first page.
+    """Draw the pages, and say on stderr what could not be; returns the first page.
 
     Raises:
         ConfigError: a library is missing.

@@ -23,7 +23,7 @@ PLACE = 0.75
 def upright_edge(relief: Relief, panel: FrontPanel, panels: Sequence[FrontPanel]) -> OpensBy:
     """Return the edge that a door is hinged at, left or right.
 
-    Without a handle a door opens as what is above or below it, away from what is beside it, and
+    Without a handle a door opens as the panels above and below it, away from those beside it, and
     away from the middle. Of 163 doors that people labelled 157 are hinged so.
 
     Args:

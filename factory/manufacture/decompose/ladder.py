@@ -104,7 +104,7 @@ def _answer(attempt: _Attempt) -> tuple[list[Triangles], str | None]:
 
 
 def _attempts(solid: Manifold, error_m: float, config: DecomposeConfig) -> Iterator[_Attempt]:
-    """Yield every engine, the more faithful first; CoACD is not asked of what is intricate."""
+    """Yield every engine, the more faithful first; CoACD is not asked of intricate parts."""
     limits = Limits(wall_s=config.wall_s, memory_bytes=config.memory_bytes)
     light = simplified(solid, config.max_faces, 0.1 * error_m)
     # One pass leaves what the next one takes away.
