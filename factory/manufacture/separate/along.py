@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import chain
 
 import numpy as np
@@ -11,8 +12,10 @@ import numpy as np
 from ...asset import Hull
 from ...mesh import FloatArray
 from ..poses import moved
-from .clip import carved, cut_apart, depth_at, meeting
+from .clip import ROUNDING_M, carved, cut_apart, depth_at, meeting
 
+#: Most pieces that are kept of one hull around a pit: a floor and walls around what is round.
+MOST_WALLS = 10
 #: For each piece more a cut must lose less, by this share.
 PIECE_SHARE = 0.25
 
@@ -64,7 +67,7 @@ def _even(before: FloatArray, pose: FloatArray, other: FloatArray) -> bool:
 
 def cut_apart_along(
     a: Sequence[Hull], b: Sequence[Hull], poses: Sequence[FloatArray], clearance_m: float
-) -> tuple[list[Hull], list[Hull]]:
+) -> Sides:
     """Return both lists with every pair of hulls cut to the clearance at every pose.
 
     Args:
@@ -94,20 +97,22 @@ def carved_apart_along(
     b: Sequence[Hull],
     poses: Sequence[FloatArray],
     clearance_m: float,
-    whole: tuple[float, float] = (1.0, 1.0),
-) -> tuple[list[Hull], list[Hull]]:
-    """Return the same, but a hull may become several around what another takes of it.
+    giving: int | None = None,
+) -> Sides:
+    """Return the same, but a hull may become several around the room that another takes on its way.
 
-    Arguments as of :func:`cut_apart_along`; cuts of each part are weighed against ``whole`` [m3].
+    Arguments as of :func:`cut_apart_along`. Of each two hulls that meet the cut is made that takes
+    least. Where one of the two parts is ``giving`` way, 0 or 1, it alone is cut: it gets a pit, as
+    large as what turns or slides in it.
     """
     pieces_a = [[hull] for hull in a]
     pieces_b = [[hull] for hull in b]
-    for (i, j), way in when_near(a, b, steps_along(poses), clearance_m):
-        pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m, whole)
+    for (i, j), way in _when_near(a, b, steps_along(poses), clearance_m):
+        pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m, giving)
     return list(chain.from_iterable(pieces_a)), list(chain.from_iterable(pieces_b))
 
 
-def when_near(
+def _when_near(
     a: Sequence[Hull], b: Sequence[Hull], steps: Iterable[Step], margin: float
 ) -> list[tuple[tuple[int, int], list[Step]]]:
     """Return the numbers of every two hulls that may come too near, and at which steps, sorted."""
@@ -140,7 +145,7 @@ def _all_apart(
     others: list[Hull],
     way: list[Step],
     clearance_m: float,
-    whole: tuple[float, float],
+    giving: int | None,
 ) -> Sides:
     """Return the pieces of one hull cut apart from those of another."""
     i = 0
@@ -148,7 +153,7 @@ def _all_apart(
         j = 0
         while j < len(others):
             # What is apart stays so however it is cut, so nothing is looked at twice for long.
-            first, second = _apart(ones[i], others[j], way, clearance_m, whole)
+            first, second = _apart(ones[i], others[j], way, clearance_m, giving)
             ones[i : i + 1] = first
             others[j : j + 1] = second
             if not first:
@@ -160,26 +165,31 @@ def _all_apart(
 
 
 def _apart(
-    one: Hull, other: Hull, way: list[Step], clearance_m: float, whole: tuple[float, float]
+    one: Hull, other: Hull, way: list[Step], clearance_m: float, giving: int | None
 ) -> Sides:
     """Cut two hulls apart in the cheapest way: both by planes, pose by pose, or one carved."""
     depths = [meeting(one, other, step.pose, behind=step.behind).depth for step in way]
-    met = [step for step, depth in zip(way, depths, strict=True) if depth > -clearance_m]
+    near = ROUNDING_M - clearance_m
+    met = [step for step, depth in zip(way, depths, strict=True) if depth > near]
     if not met:
         return [one], [other]
+    # All the room that either takes as the other sees it.
+    ahead = np.concatenate([_seen(other, step.pose, step.behind) for step in met])
+    back = np.concatenate([_seen(one, *_from_the_other(step)) for step in met])
+    if giving == 0:
+        return carved(one, ahead, clearance_m, MOST_WALLS), [other]
+    if giving == 1:
+        return [one], carved(other, back, clearance_m, MOST_WALLS)
     first, second = _cut_by_planes(one, other, met, clearance_m)
     by_planes = [first] if first else [], [second] if second else []
     if max(depths) <= clearance_m:
         return by_planes
-    # All the room that either takes as the other sees it.
-    ahead = np.concatenate([_seen(other, step.pose, step.behind) for step in met])
-    back = np.concatenate([_seen(one, *_from_the_other(step)) for step in met])
-    ways: tuple[Sides, ...] = (
+    cuts: tuple[Sides, ...] = (
         by_planes,
         (carved(one, ahead, clearance_m), [other]),
         ([one], carved(other, back, clearance_m)),
     )
-    return min(ways, key=lambda sides: _cost(sides, (one, other), whole))
+    return min(cuts, key=partial(_cost, one.volume + other.volume))
 
 
 def _cut_by_planes(
@@ -213,13 +223,11 @@ def _from_the_other(step: Step) -> tuple[FloatArray, FloatArray]:
     return back, -back[:3, :3] @ step.behind
 
 
-def _cost(sides: Sides, before: tuple[Hull, Hull], whole: tuple[float, float]) -> float:
-    """Return the lost share of the uncut volume, more pieces counted in."""
-    lost = 0.0
-    for pieces, hull, of in zip(sides, before, whole, strict=True):
-        lost += (hull.volume - sum(piece.volume for piece in pieces)) / of
+def _cost(before_m3: float, sides: Sides) -> float:
+    """Return the volume that two hulls lost [m3], more pieces counted in."""
+    left = sum(piece.volume for pieces in sides for piece in pieces)
     extra = sum(max(0, len(pieces) - 1) for pieces in sides)
-    return lost * (1.0 + PIECE_SHARE * extra)
+    return (before_m3 - left) * (1.0 + PIECE_SHARE * extra)
 
 
 def near_pairs(

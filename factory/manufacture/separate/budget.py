@@ -185,12 +185,10 @@ class CutLimits:
     Attributes:
         free_m: off both together where nothing excuses it [m].
         trimmed_m: the same beside a hinge, or in a part that no joint holds it in [m].
-        share: of the collision volume of either.
     """
 
     free_m: float
     trimmed_m: float
-    share: float
 
 
 def overdone(
@@ -217,7 +215,7 @@ def overdone(
             )
     for name, each, encloses in zip(names, losses, solid, strict=True):
         trimmed = each.deepest_m > config.visible_m
-        shares = [(each.share, limits.share)] if encloses or trimmed else []
+        shares = [(each.share, config.most_cut)] if encloses or trimmed else []
         shares += [(each.open_share, config.planed_volume)] if encloses and trimmed else []
         for share, most in shares:
             if share > most:

@@ -35,8 +35,8 @@ ROUNDING_DECIMALS = 12
 MOST_PIECES = 4
 #: Of the room's planes those that leave most of the hull outside, by its farthest corner.
 PLANES_TRIED = 8
-#: Pieces of less than this share of the hull, or thinner than this [m], are splinters.
-SPLINTER_SHARE = 0.01
+#: Pieces of less than this share of the hull or the room, or thinner than this [m], are splinters.
+SPLINTER_SHARE = 0.001
 SPLINTER_M = 0.002
 
 
@@ -205,24 +205,19 @@ def clipped(hull: Hull, normal: FloatArray, offset: float) -> Hull | None:
 
 
 def carved(
-    solid: Hull,
-    room: FloatArray,
-    clearance_m: float,
-    most: int = MOST_PIECES,
-    least_m3: float | None = None,
+    solid: Hull, room: FloatArray, clearance_m: float, most: int = MOST_PIECES
 ) -> list[Hull]:
     """Return the rest of a hull outside some room, as at most so many convex pieces.
 
     Piece by piece the largest that one plane of the room leaves outside is kept. The room is the
-    convex hull of points [m], shape [n, 3], with the clearance around it. Pieces smaller than
-    ``least_m3`` are splinters [m3]; by default a share of the hull.
+    convex hull of points [m], shape [n, 3], with the clearance around it.
     """
     around = hull_of(room)
     if around is None:
         return []
     planes = around.planes.copy()
     planes[:, 3] += clearance_m
-    least = SPLINTER_SHARE * solid.volume if least_m3 is None else least_m3
+    least = SPLINTER_SHARE * min(solid.volume, around.volume)
     kept: list[Hull] = []
     rest: Hull | None = solid
     while rest is not None and len(kept) < most:

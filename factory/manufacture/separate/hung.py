@@ -14,6 +14,7 @@ from ..decompose.outside import outside
 from ..hinges import is_crooked
 from ..poses import arms_from
 from .budget import SeenSurface
+from .clip import clipped
 
 #: Around an axis a seat is looked at in so many directions.
 SEAT_SECTORS = 8
@@ -21,10 +22,8 @@ SEAT_SECTORS = 8
 #: farthest the other way, or in each direction: the axis is off the middle by a third of the radius
 #: at most.
 MIDDLE_SHARE = 0.5
-#: What turns in a seat as round as this is cut by surfaces of revolution; a lid on a box is not.
-ROUND_SHARE = 0.8
-#: A hub that stands deep in what holds it, rather than on it, need not sit as much in its middle.
-HUB_SHARE = 0.6
+#: What lies no further ahead than this is touched [m].
+MET_M = 0.003
 
 
 def well_hung(
@@ -92,3 +91,52 @@ def _reach(arms: FloatArray) -> tuple[float, float]:
     middle = (arms.min(axis=0) + arms.max(axis=0)) / 2.0
     along = arms @ middle / max(float(np.linalg.norm(middle)), 1e-9)
     return float(along.max()), -float(along.min())
+
+
+def stands_out_m(holder: Sequence[Hull], mover: Sequence[Hull], joint: Joint) -> float:
+    """Return how much further than its own travel a slide stands out of what it goes into [m].
+
+    Infinite where it goes into nothing. Negative for other parts: those would go in deeper than
+    they stand out, as a drawer that runs the wrong way does, or meet something further on.
+    """
+    points = np.concatenate([hull.vertices for hull in mover])
+    ways = [(joint.upper, joint.axis), (-joint.lower, -joint.axis)]
+    ways = [(travel, axis) for travel, axis in ways if travel > 0.0]
+    spare = (_spare(points @ axis, _before(holder, points, axis), way) for way, axis in ways)
+    return min(spare, default=np.inf)
+
+
+def _spare(heights: FloatArray, before: list[tuple[float, float]], travel: float) -> float:
+    """Return the same along one direction, in which the mover goes as far as it travels [m].
+
+    Its points have some heights, and hulls of the holder lie in its shadow between others [m].
+    """
+    first = float(heights.min())
+    lead = float(heights.max())
+    end = lead
+    begins = np.inf
+    for low, high in sorted(before):
+        if low > end + MET_M:
+            # A gap: what lies behind it is out of reach, or run into.
+            if low < lead + travel:
+                return -travel
+            break
+        begins = min(begins, low)
+        end = max(end, high)
+    return begins - first - travel if end > lead else np.inf
+
+
+def _before(
+    holder: Sequence[Hull], points: FloatArray, direction: FloatArray
+) -> list[tuple[float, float]]:
+    """Return from where to where along a direction hulls lie in the shadow of points [m]."""
+    across = np.linalg.svd(direction[None])[2][1:]
+    found = []
+    for hull in holder:
+        left: Hull | None = hull
+        for side in (*across, *-across):
+            left = left and clipped(left, side, float((points @ side).max()))
+        if left is not None:
+            heights = left.vertices @ direction
+            found.append((float(heights.min()), float(heights.max())))
+    return found

@@ -13,20 +13,23 @@ from ...articulation import Articulation, Joint
 from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
+from ..decompose.convex import hull_of
+from ..decompose.solids import volume_within
 from ..hinges import is_crooked
-from ..poses import held_by, jointed, joints_between, relative_poses
+from ..poses import held_by, jointed, joints_between, moved, relative_poses
 from ..repair import Pair
 from .along import Sides, hull_depth
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
 from .clip import SHEET_M
-from .hung import at_an_edge, seat_roundness, trimmed_limit, well_hung
+from .hung import at_an_edge, stands_out_m, trimmed_limit, well_hung
 from .overlap import overlap_m, part_solid, thickness_m
-from .pits import stands_out_m
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06
 #: A slide no longer than this is a button, which is pressed into what it stands on [m].
 PRESSED_M = 0.012
+#: What turns may need so many times the room that it takes where it is modelled: a square stem.
+TURNED_ROOM = 2.0
 
 
 @dataclass(frozen=True)
@@ -150,13 +153,23 @@ class PartPair:
         spare = [stands_out_m(*self.held, joint) for joint in slides]
         return all(-self.bodies.config.tolerance_m <= each < np.inf for each in spare)
 
-    def seat_roundness(self, joint: Joint) -> float:
-        """Return how round the seat is that a joint turns in, see :func:`~.hung.seat_roundness`."""
-        surface = self._moved_by(joint)
-        if not joint.turns or surface is None:
-            return 0.0
-        near_m = self.bodies.config.clearance_m
-        return seat_roundness(surface, joint, self.bodies.holding(joint), near_m)
+    @cached_property
+    def seated(self) -> bool:
+        """Tell whether one turns in its own place in the other, or goes in flush."""
+        if not (self.well_hung and self.goes_in_flush):
+            return False
+        if not any(joint.turns for joint in self.joints):
+            return True
+        return self._taken(self.poses) <= TURNED_ROOM * self._taken(self.poses[:1])
+
+    def _taken(self, poses: Sequence[FloatArray]) -> float:
+        """Return the volume of the holder in the room that each hull of the other takes [m3]."""
+        holder, mover = self.held
+        seen = poses if self.holder == 0 else [np.asarray(np.linalg.inv(pose)) for pose in poses]
+        rooms = [
+            hull_of(np.concatenate([moved(hull.vertices, pose) for pose in seen])) for hull in mover
+        ]
+        return volume_within(holder, [room for room in rooms if room is not None])
 
     def losses(self, after: Sides) -> list[Loss]:
         """Return what a cut takes of each that can be seen."""
@@ -169,13 +182,10 @@ class PartPair:
                 found.append(loss(surface, old, new, excuse, self.bodies.config))
         return found
 
-    def overdone(self, losses: Sequence[Loss], share: float) -> str | None:
-        """Return why a cut takes too much, or what can be seen; ``None`` if it does neither.
-
-        No more than a share of either's collision volume may go.
-        """
+    def overdone(self, losses: Sequence[Loss]) -> str | None:
+        """Return why a cut takes too much, or what can be seen; ``None`` if it does neither."""
         config = self.bodies.config
-        limits = CutLimits(self._free_m, self._trimmed_m + config.clearance_m, share)
+        limits = CutLimits(self._free_m, self._trimmed_m + config.clearance_m)
         # Of a closed sheet more may go than of a solid, where it hangs at an edge of its own.
         least_m = SHEET_M if self.hinges else 0.0
         solid = [thickness_m(self.bodies.solids[part]) > least_m for part in self.parts]

@@ -1,8 +1,8 @@
-"""The stage: which pairs are cut, by the first way that takes no more than it may."""
+"""The stage: which pairs are cut apart, by planes or carved, and how much that took."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from operator import is_
@@ -14,22 +14,17 @@ from ...mesh import FloatArray
 from ..decompose.convex import limit_vertices
 from ..decompose.merge import merge
 from ..decompose.pieces import SolidPieces
-from ..hinges import is_crooked
 from ..repair import Pair
 from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
 from .between import Cut, cut_between, poses_between
 from .budget import Loss, too_bare
 from .clip import ROUNDING_M
-from .hung import HUB_SHARE, ROUND_SHARE
 from .pair import PartPair, Workpieces
-from .pits import TURNED_ROOM, Pit, seen_from, swept_share
-from .turned import Turned
 
-#: A part of whose surface a cut would bare more than this is kept whole in a socket, of so many
-#: pieces more at most, and so little of what is seen around it, as deep as what may be cut back or
-#: this share of the part's diagonal: a toaster of four metres has a slot as large.
+#: A part of whose surface planes would bare more than this is kept whole in a socket that takes so
+#: little of what is seen around it, as deep as what may be cut back or this share of the part's
+#: diagonal: a toaster of four metres has a slot as large.
 SOCKET_SHARE = 0.05
-SOCKET_PIECES = 24
 SOCKET_RIM = 0.01
 SOCKET_DEEP = 0.01
 #: A plane that made room in one corner of a hull cuts through all of it: what is convex again but
@@ -134,45 +129,118 @@ def with_hulls(piece: SolidPieces, hulls: list[Hull], max_vertices: int) -> Soli
 
 
 @dataclass(frozen=True)
-class _Way:
-    """One way to cut two parts apart.
+class _Attempt:
+    """What two parts would become.
 
     Attributes:
-        cut: does it.
-        share: of the collision volume of either that it may take.
+        pair: the two.
+        after: their hulls.
+        losses: what each loses that can be seen.
+        overdone: why that is too much; ``None`` if it is not.
     """
 
-    cut: Cut
-    share: float
+    pair: PartPair
+    after: Sides
+    losses: Sequence[Loss]
+    overdone: str | None
+
+    @classmethod
+    def of(cls, pair: PartPair, after: Sides) -> _Attempt:
+        """Measure what a cut takes."""
+        losses = pair.losses(after)
+        return cls(pair, after, losses, pair.overdone(losses))
+
+    @property
+    def reason(self) -> str | None:
+        """Return why the two are not to be cut so; ``None`` if they are."""
+        return self.overdone or too_bare(self.pair.names, self.losses, self.pair.bodies.config)
+
+    @property
+    def bare_area(self) -> float:
+        """Return the largest share of a visible surface that is bared, hidden or not."""
+        return max(each.bare_area for each in self.losses)
+
+    @property
+    def is_a_rim(self) -> bool:
+        """Tell whether only the rim of a socket is cut off what can be seen."""
+        config = self.pair.bodies.config
+        surfaces = [self.pair.bodies.surfaces[part] for part in self.pair.parts]
+        deep = [SOCKET_DEEP * each.diagonal if each else 0.0 for each in surfaces]
+        return self.bare_area <= SOCKET_SHARE and all(
+            lost.area <= SOCKET_RIM and lost.deepest_m <= max(config.planed_m, most)
+            for lost, most in zip(self.losses, deep, strict=True)
+        )
 
 
 def _cut(found: Separation, bodies: Workpieces, names: Pair) -> None:
     """Cut two parts apart on all of their way, else at rest, if that takes no more than may."""
-    config = bodies.config
     pair = PartPair.of(bodies, names)
-    hidden = pair.at_rest_m > config.tolerance_m
+    hidden = pair.at_rest_m > bodies.config.tolerance_m
+    cut = None
     reason = pair.hopeless()
-    for way in ways(pair) if reason is None else ():
-        told = _try(found, pair, pair.poses, way)
-        if told is None:
-            reason = None
-            break
-        # Why a pit will not do says nothing of a part that is no knob.
-        reason = told if reason is None or way.share == config.most_cut else reason
-    cut = reason is None
-
-    if reason is not None:
+    if reason is None:
+        cut = _along(pair)
+        reason = cut.reason
+    if cut is None or reason is not None:
         # What is in the way along it is for the checks to see, and for other repairs.
-        at_rest = _Way(cut_apart_along, config.most_cut)
-        cut = _try(found, pair, pair.poses[:2], at_rest) is None
+        cut = _attempt(pair, cut_apart_along, pair.poses[:2])
         if hidden and not pair.jointed:
             reason = (
                 f"they overlap by {pair.at_rest_m * 1000:.2f} mm at rest and no joint holds "
                 f"one in the other; {reason}"
             )
-        found.refused[names] = SeparationRefusal(reason, pair.solid and hidden, cut)
-    if cut and hidden:
-        found.hidden[names] = pair.at_rest_m
+        at_rest = cut.reason is None
+        found.refused[names] = SeparationRefusal(str(reason), pair.solid and hidden, at_rest)
+    if cut.reason is None:
+        _keep(found, cut)
+        if hidden:
+            found.hidden[names] = pair.at_rest_m
+
+
+def _along(pair: PartPair) -> _Attempt:
+    """Cut two parts apart on all of their way, by the first cut that takes no more than it may.
+
+    That is by planes, which make the fewest pieces; or, of parts that a joint connects, around the
+    room that they need; or around what turns or is pressed in its own place in the other. Where
+    that bares much of a part it is kept whole in a socket: that another cut has little enough to
+    take says that the joint is sound, so only the socket's rim is looked at.
+    """
+    socket = partial(carved_apart_along, giving=pair.holder)
+    cuts: list[Cut] = [cut_apart_along]
+    if pair.jointed:
+        cuts += [carved_apart_along, *([socket] if pair.seated else [])]
+    for cut in cuts:
+        tried = _attempt(pair, cut, pair.poses)
+        if tried.overdone is None:
+            break
+    if pair.jointed and tried.overdone is None and tried.bare_area > SOCKET_SHARE:
+        kept = _attempt(pair, socket, pair.poses)
+        return replace(kept, overdone=None) if kept.is_a_rim else tried
+    return tried
+
+
+def _attempt(pair: PartPair, cut: Cut, poses: Sequence[FloatArray]) -> _Attempt:
+    """Cut two parts at some poses, and between those along a joint."""
+    cut = partial(cut, clearance_m=pair.bodies.config.clearance_m)
+    tried = _Attempt.of(pair, cut(*pair.before, poses))
+    if tried.overdone is not None or len(poses) <= 2:
+        return tried
+    closer = cut_between(cut, pair.before, tried.after, poses, poses_between(pair))
+    return tried if closer is None else _Attempt.of(pair, closer)
+
+
+def _keep(found: Separation, cut: _Attempt) -> None:
+    """Give two parts the hulls that a cut leaves of them, and tell what can be seen of it."""
+    pair = cut.pair
+    for part, hulls in zip(pair.parts, cut.after, strict=True):
+        pair.bodies.hulls[part] = hulls
+    trimmed = tuple(
+        CutBack(name, each.deepest_m, each.share, each.area)
+        for name, each in zip(pair.names, cut.losses, strict=True)
+        if each.deepest_m > pair.bodies.config.visible_m
+    )
+    if trimmed:
+        found.trimmed[pair.names] = trimmed
 
 
 def _came_near(bodies: Workpieces, names: Pair) -> bool:
@@ -181,104 +249,3 @@ def _came_near(bodies: Workpieces, names: Pair) -> bool:
     pair = PartPair.of(bodies, names)
     deepest = max(hull_depth(*pair.before, pose, least) for pose in pair.poses[:2])
     return deepest > ROUNDING_M - least
-
-
-def _try(found: Separation, pair: PartPair, poses: Sequence[FloatArray], way: _Way) -> str | None:
-    """Cut two parts at some poses, or say why not."""
-    config = pair.bodies.config
-    cut = partial(way.cut, clearance_m=config.clearance_m)
-    after = cut(*pair.before, poses)
-    losses = pair.losses(after)
-    reason = pair.overdone(losses, way.share)
-    between = poses_between(pair) if reason is None and len(poses) > 2 else []
-    closer = cut_between(cut, pair.before, after, poses, between)
-    if closer is not None:
-        after = closer
-        losses = pair.losses(after)
-        reason = pair.overdone(losses, way.share)
-    if reason is not None:
-        return reason
-    if max(each.bare_area for each in losses) > SOCKET_SHARE and pair.jointed:
-        after = _socketed(pair, poses) or after
-        losses = pair.losses(after)
-    reason = too_bare(pair.names, losses, config)
-    if reason is not None:
-        return reason
-    for part, hulls in zip(pair.parts, after, strict=True):
-        pair.bodies.hulls[part] = hulls
-    trimmed = tuple(
-        CutBack(name, each.deepest_m, each.share, each.area)
-        for name, each in zip(pair.names, losses, strict=True)
-        if each.deepest_m > config.visible_m
-    )
-    if trimmed:
-        found.trimmed[pair.names] = trimmed
-    return None
-
-
-def ways(pair: PartPair) -> Iterator[_Way]:
-    """Yield the ways to cut two parts apart, those of fewest pieces first."""
-    config = pair.bodies.config
-    yield _Way(cut_apart_along, config.most_cut)
-    for cut in finer_cuts(pair, pair.at_rest_m):
-        yield _Way(cut, config.most_cut)
-    if pair.pressed_m > 0.0:
-        yield _Way(_carved_by_share(pair), config.most_cut)
-    for pit in _pits(pair):
-        yield _Way(pit, config.planed_volume)
-
-
-def finer_cuts(pair: PartPair, at_rest_m: float) -> list[Cut]:
-    """Return what takes less than planes of parts that a joint connects, so deep at rest [m]."""
-    if not pair.jointed:
-        return []
-    straight = not any(is_crooked(joint.axis) for joint in pair.joints)
-    deep = straight and at_rest_m > pair.bodies.config.tolerance_m
-    share = HUB_SHARE if deep else ROUND_SHARE
-    seated = [joint for joint in pair.joints if pair.seat_roundness(joint) > share]
-    return [*map(Turned, seated[:1]), carved_apart_along]
-
-
-def _carved_by_share(pair: PartPair) -> Cut:
-    """Return carving that takes as small a share of either part as can be: behind a button."""
-    whole_a, whole_b = (sum(hull.volume for hull in hulls) for hulls in pair.before)
-    return partial(carved_apart_along, whole=(whole_a, whole_b))
-
-
-def _pits(pair: PartPair) -> list[Pit]:
-    """Return pits for what turns in its own place, or slides no deeper than it stands out."""
-    if not pair.well_hung:
-        return []
-    turns = any(joint.turns for joint in pair.joints)
-    way = seen_from(pair.holder, pair.poses)
-    if turns and swept_share(*pair.held, way) > TURNED_ROOM:
-        return []
-    if not pair.goes_in_flush:
-        return []
-    return [Pit(pair.holder, at_once) for at_once in (True, False)]
-
-
-def _socketed(pair: PartPair, poses: Sequence[FloatArray]) -> Sides | None:
-    """Return a stem kept whole in a socket, where planes would bare it, if few pieces do.
-
-    Planes had little enough to take for the joint to be sound; of what the socket takes only its
-    rim is looked at.
-    """
-    for cut in (_carved_by_share(pair), Pit(pair.holder, at_once=True)):
-        after = cut(*pair.before, poses, pair.bodies.config.clearance_m)
-        more = sum(map(len, after)) - sum(map(len, pair.before))
-        losses = pair.losses(after)
-        if more <= SOCKET_PIECES and all(map(partial(_is_a_rim, pair), pair.parts, losses)):
-            return after
-    return None
-
-
-def _is_a_rim(pair: PartPair, part: int, lost: Loss) -> bool:
-    """Tell whether only the rim of a socket was cut off a part's visible surface."""
-    surface = pair.bodies.surfaces[part]
-    deep = SOCKET_DEEP * surface.diagonal if surface else 0.0
-    return (
-        lost.bare_area <= SOCKET_SHARE
-        and lost.area <= SOCKET_RIM
-        and lost.deepest_m <= max(pair.bodies.config.planed_m, deep)
-    )

@@ -23,7 +23,7 @@ from asset_factory.factory.manufacture.separate.overlap import thickness_m
 from asset_factory.factory.mesh import Mesh
 
 CONFIG = SeparateConfig()
-LIMITS = CutLimits(free_m=0.006, trimmed_m=0.025, share=0.5)
+LIMITS = CutLimits(free_m=0.006, trimmed_m=0.025)
 NOTHING = Loss(*[0.0] * 7)
 
 

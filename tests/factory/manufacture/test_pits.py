@@ -94,7 +94,7 @@ def test_a_flap_in_a_solid_body_opens_outwards_and_never_inwards():
 
 
 def test_what_would_take_much_of_the_body_gets_none():
-    slim = [box((-0.08, 0.0, -0.08), (0.08, 0.6, 0.08))]
+    slim = [box((-0.0625, 0.0, -0.0625), (0.0625, 0.12, 0.0625))]
     assert PAIR in cut(slim, [knob(0.06)], TURN)[2].refused
 
 
@@ -103,3 +103,40 @@ def test_a_pit_does_not_open_what_can_be_seen_behind():
     front = [box((-0.5, 0.0, -0.5), (0.5, 0.02, 0.5))]
     button = box((-0.05, -0.03, -0.05), (0.05, 0.015, 0.05))
     assert PAIR in cut(front, [button], PRESS)[2].refused
+
+
+#: A knob of eight sides, 1 mm from the ring of as many boards around it, over a floor.
+SIDES = 8
+RADIUS = 0.1
+INNER = RADIUS * np.cos(np.pi / SIDES) + 0.001
+WIDTH = INNER * np.tan(np.pi / SIDES)
+FLOOR = box((-0.3, -0.3, -0.2), (0.3, 0.3, -0.06))
+KNOB = trimesh.creation.cylinder(RADIUS, 0.06, sections=SIDES)
+ROUND = Joint("turn", "revolute", 0, 1, UP, [0.0, 0.0, 0.0], -0.6, 0.6)
+
+
+def ring():
+    """The boards and the floor."""
+    boards = []
+    for angle in 2.0 * np.pi * (np.arange(SIDES) + 0.5) / SIDES:
+        board = box((INNER, -WIDTH, -0.02), (INNER + 0.02, WIDTH, 0.0))
+        boards.append(board.apply_transform(trimesh.transformations.rotation_matrix(angle, UP)))
+    return [*boards, FLOOR]
+
+
+def test_a_knob_in_a_ring_of_flat_boards_is_cut_free():
+    cut_free(ring(), [KNOB], ROUND)
+
+
+OFF_THE_RING = {
+    "shifted": replace(ROUND, origin=0.05 * 0.7 * SIDE),
+    "tilted": replace(
+        ROUND, axis=rotation_about(SIDE, np.radians(10.0)) @ UP, lower=0.0, upper=0.5
+    ),
+    "lying": replace(ROUND, axis=SIDE),
+}
+
+
+@pytest.mark.parametrize("name", OFF_THE_RING)
+def test_a_knob_that_turns_about_another_axis_than_its_ring_s_is_not_cut_free(name):
+    require_refused(ring(), [KNOB], OFF_THE_RING[name])

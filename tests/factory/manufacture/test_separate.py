@@ -26,6 +26,7 @@ from asset_factory.factory.manufacture.separate.clip import (
 from asset_factory.factory.mesh import Mesh
 
 CONFIG = SeparateConfig()
+PAIR = ("base", "mover")
 
 
 def hull(size, center=(0, 0, 0)):
@@ -66,7 +67,7 @@ def test_what_decomposition_added_is_taken_off():
 def test_hulls_that_are_apart_are_not_touched():
     tree = object_of(((1, 1, 0.1), (0, 0, 0)), ((1, 1, 0.1), (0, 0, 0.2)))
     pieces = pieces_of(hull((1, 1, 0.1)), hull((1, 1, 0.1), (0, 0, 0.2)))
-    after = separate(tree, pieces, [("base", "mover")], CONFIG, 64).pieces
+    after = separate(tree, pieces, [PAIR], CONFIG, 64).pieces
     assert all(a is b for a, b in zip(after, pieces, strict=True))
 
 
@@ -76,12 +77,12 @@ def stem_in_a_block(sunk):
     turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
     tree = object_of(((0.3, 0.3, 0.1), (0, 0, 0)), stem, turn)
     pieces = pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem))
-    return separate(tree, pieces, [("base", "mover")], CONFIG, 64)
+    return separate(tree, pieces, [PAIR], CONFIG, 64)
 
 
 def test_a_stem_loses_the_little_that_is_hidden_in_its_socket_and_the_depth_is_told():
     result = stem_in_a_block(sunk=0.006)
-    assert result.hidden[("base", "mover")] == pytest.approx(0.006, abs=0.002)
+    assert result.hidden[PAIR] == pytest.approx(0.006, abs=0.002)
     assert result.pieces[0].hulls[0].volume == pytest.approx(0.009, rel=1e-6)
     assert gap(result) >= CONFIG.clearance_m - 1e-9
 
@@ -112,7 +113,7 @@ def test_a_round_stem_that_nearly_fills_its_column_is_kept_whole_in_a_socket():
     turn = Joint("turn", JointKind.CONTINUOUS, 0, 1, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
     tree = parted({"base": [column], "mover": [stem]}, turn)
     hulls = [Hull(mesh.vertices, mesh.faces) for mesh in (column, stem)]
-    result = separate(tree, pieces_of(*hulls), [("base", "mover")], CONFIG, 64)
+    result = separate(tree, pieces_of(*hulls), [PAIR], CONFIG, 64)
     assert result.refused == {}
     assert result.trimmed == {}
     assert result.pieces[1].hulls[0].volume == pytest.approx(hulls[1].volume, rel=1e-6)
@@ -132,10 +133,10 @@ def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
     tree = parted({"base": solids[:2], "mover": solids[2:]}, slide)
     left, right, mover = (Hull(mesh.vertices, mesh.faces) for mesh in solids)
     pieces = (SolidPieces((left, right), "exact"), *pieces_of(mover))
-    result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
+    result = separate(tree, pieces, [PAIR], CONFIG, 64)
     assert result.refused == {}
     assert result.pieces[1].hulls[0].volume == pytest.approx(mover.volume, rel=1e-6)
-    (slot,) = result.trimmed[("base", "mover")]
+    (slot,) = result.trimmed[PAIR]
     assert slot.depth_m == pytest.approx(0.025 + CONFIG.clearance_m, abs=1e-4)
     assert slot.area < 0.01
 
@@ -144,8 +145,8 @@ def test_parts_that_get_deeper_along_the_joint_are_left_alone():
     # A drawer that slides 0.3 m towards a wall 0.1 m away.
     tree = object_of(((0.1, 1, 1), (0.65, 0, 0)), ((1, 0.5, 0.5), (0, 0, 0)))
     pieces = pieces_of(hull((0.1, 1, 1), (0.65, 0, 0)), hull((1, 0.5, 0.5)))
-    result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
-    assert "deeper than at rest" in result.refused[("base", "mover")].reason
+    result = separate(tree, pieces, [PAIR], CONFIG, 64)
+    assert "deeper than at rest" in result.refused[PAIR].reason
     assert result.pieces == pieces
 
 
@@ -188,13 +189,14 @@ def test_sheets_that_cross_at_a_slight_angle_are_not_cut_to_knife_s_edges():
 
 
 def test_a_cut_that_would_take_too_much_is_refused():
-    # A pit for all of its turn would take more than a twentieth of so slim a base.
+    # Planes take the stem; a pit for all of its turn would be as wide as so slim a base.
     stem = ((0.02, 0.02, 0.05), (0, 0, 0.04))
     turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
-    tree = object_of(((0.06, 0.06, 0.1), (0, 0, 0)), stem, turn)
-    pieces = pieces_of(hull((0.06, 0.06, 0.1)), hull(*stem))
-    refused = separate(tree, pieces, [("base", "mover")], CONFIG, 64).refused
-    assert "take 75% of 'mover'; at most 50% may go" in refused[("base", "mover")].reason
+    for width, refused in ((0.032, True), (0.06, False)):
+        base = (width, width, 0.1)
+        tree = object_of((base, (0, 0, 0)), stem, turn)
+        result = separate(tree, pieces_of(hull(base), hull(*stem)), [PAIR], CONFIG, 64)
+        assert (PAIR in result.refused) == refused
 
 
 def test_what_sticks_out_on_the_other_side_is_not_cut_off():
@@ -203,7 +205,7 @@ def test_what_sticks_out_on_the_other_side_is_not_cut_off():
     turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
     tree = object_of(((0.3, 0.3, 0.02), (0, 0, 0.1)), rod, turn)
     pieces = pieces_of(hull((0.3, 0.3, 0.02), (0, 0, 0.1)), hull(*rod))
-    result = separate(tree, pieces, [("base", "mover")], CONFIG, 64)
+    result = separate(tree, pieces, [PAIR], CONFIG, 64)
     assert result.refused == {}
     rods = result.pieces[1].hulls
     assert sum(each.volume for each in rods) == pytest.approx(0.02**2 * (0.4 - 0.025))
