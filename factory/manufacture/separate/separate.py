@@ -129,7 +129,7 @@ def with_hulls(piece: SolidPieces, hulls: list[Hull], max_vertices: int) -> Soli
 
 
 @dataclass(frozen=True)
-class _Attempt:
+class _CutPair:
     """What two parts would become.
 
     Attributes:
@@ -145,7 +145,7 @@ class _Attempt:
     overdone: str | None
 
     @classmethod
-    def of(cls, pair: PartPair, after: Sides) -> _Attempt:
+    def of(cls, pair: PartPair, after: Sides) -> _CutPair:
         """Measure what a cut takes."""
         losses = pair.losses(after)
         return cls(pair, after, losses, pair.overdone(losses))
@@ -197,7 +197,7 @@ def _cut(found: Separation, bodies: Workpieces, names: Pair) -> None:
             found.hidden[names] = pair.at_rest_m
 
 
-def _along(pair: PartPair) -> _Attempt:
+def _along(pair: PartPair) -> _CutPair:
     """Cut two parts apart on all of their way, by the first cut that takes no more than it may.
 
     That is by planes, which make the fewest pieces; or, of parts that a joint connects, around the
@@ -219,17 +219,17 @@ def _along(pair: PartPair) -> _Attempt:
     return tried
 
 
-def _attempt(pair: PartPair, cut: Cut, poses: Sequence[FloatArray]) -> _Attempt:
+def _attempt(pair: PartPair, cut: Cut, poses: Sequence[FloatArray]) -> _CutPair:
     """Cut two parts at some poses, and between those along a joint."""
     cut = partial(cut, clearance_m=pair.bodies.config.clearance_m)
-    tried = _Attempt.of(pair, cut(*pair.before, poses))
+    tried = _CutPair.of(pair, cut(*pair.before, poses))
     if tried.overdone is not None or len(poses) <= 2:
         return tried
     closer = cut_between(cut, pair.before, tried.after, poses, poses_between(pair))
-    return tried if closer is None else _Attempt.of(pair, closer)
+    return tried if closer is None else _CutPair.of(pair, closer)
 
 
-def _keep(found: Separation, cut: _Attempt) -> None:
+def _keep(found: Separation, cut: _CutPair) -> None:
     """Give two parts the hulls that a cut leaves of them, and tell what can be seen of it."""
     pair = cut.pair
     for part, hulls in zip(pair.parts, cut.after, strict=True):
