@@ -26,6 +26,7 @@ class FrontFace:
         depth: free depth behind the panel, or the box's [m].
         walls: how many of the five sides (left, right, below, above, back) a cavity has.
         solid: whether something is right behind the panel over most of it.
+        roomy: whether the space is about as wide as the panel, not just the inside of some post.
     """
 
     panel: FrontSlab
@@ -34,6 +35,7 @@ class FrontFace:
     depth: float
     walls: int
     solid: bool
+    roomy: bool = True
 
 
 def look_behind(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> FrontFace:
@@ -44,11 +46,11 @@ def look_behind(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -
         depth = float(scene.extents[body[0], FRONT])
         return FrontFace(panel, body, nothing, depth, _walls_around(scene, panel), False)
     box = nothing if panel.has_side_handle else _drawer_box(scene, panel, panels)
-    depth, walls, solid = _cavity(scene, panel, box)
+    depth, walls, solid, roomy = _cavity(scene, panel, box)
     if len(box):
         reach = float(scene.high[box, FRONT].max() - panel.high[FRONT])
-        return FrontFace(panel, box, nothing, max(reach, 0.0), walls, solid)
-    return FrontFace(panel, box, _attached(scene, panel, panels), depth, walls, solid)
+        return FrontFace(panel, box, nothing, max(reach, 0.0), walls, solid, roomy)
+    return FrontFace(panel, box, _attached(scene, panel, panels), depth, walls, solid, roomy)
 
 
 def _behind(
@@ -95,8 +97,8 @@ def _drawer_box(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -
     return np.zeros(0, dtype=np.int64)
 
 
-def _cavity(scene: Scene, panel: FrontSlab, box: IntArray) -> tuple[float, int, bool]:
-    """Return the depth, walls and solid of :class:`FrontFace`."""
+def _cavity(scene: Scene, panel: FrontSlab, box: IntArray) -> tuple[float, int, bool, bool]:
+    """Return the depth, walls, solid and roomy of :class:`FrontFace`."""
     ignored = np.union1d(panel.pieces, box)
     start = panel.center.copy()
     start[FRONT] = panel.high[FRONT] + scene.touch / 8.0
@@ -112,12 +114,17 @@ def _cavity(scene: Scene, panel: FrontSlab, box: IntArray) -> tuple[float, int, 
         depth = float(scene.box[1, FRONT] - start[FRONT])
     inner = panel.high[FRONT] + min(0.5 * depth, 0.3 * float(scene.size[FRONT]))
     sides = 0
+    roomy = False
     for u, v in INSIDE:
         start = np.array(
             [panel.low[SIDEWAYS] + u * panel.width, inner, panel.low[UP] + v * panel.height]
         )
-        sides = max(sides, int(np.isfinite(_around(scene, start, ignored)).sum()))
-    return depth, walls + sides, depth <= max(scene.touch, 0.1 * float(scene.size[FRONT]))
+        distances = _around(scene, start, ignored)
+        wide = bool(
+            distances[:2].sum() >= 0.5 * panel.width and distances[2:].sum() >= 0.1 * panel.height
+        )
+        sides, roomy = max((sides, roomy), (int(np.isfinite(distances).sum()), wide))
+    return depth, walls + sides, depth <= max(scene.touch, 0.1 * float(scene.size[FRONT])), roomy
 
 
 ACROSS = (0.21, 0.47, 0.78)

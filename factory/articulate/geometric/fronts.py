@@ -56,7 +56,7 @@ def _is_sure(scene: Scene, front: FrontFace) -> bool:
     if is_crowded(scene, front.panel):
         return False
     if front.panel.is_box:
-        return front.walls >= 3
+        return front.walls >= 3 and (front.panel.handle is not None or front.walls >= 4)
     if len(front.box_pieces):
         small = front.panel.area <= 0.8 * scene.size[SIDEWAYS] * scene.size[UP]
         return front.panel.handle is not None or bool(small and front.walls >= ALL_WALLS - 1)
@@ -64,8 +64,9 @@ def _is_sure(scene: Scene, front: FrontFace) -> bool:
         return False
     if _is_control_panel(scene, front.panel) or _has_carrying_grip(scene, front.panel):
         return False
+    deep = scene.size[FRONT] >= 2.0 * front.panel.depth
     wanted = ALL_WALLS - 1 if _covers_front_with_side_handle(scene, front.panel) else ALL_WALLS
-    return front.solid or front.walls >= wanted
+    return bool(deep and (front.solid or (front.walls >= wanted and front.roomy)))
 
 
 def _covers_front_with_side_handle(scene: Scene, panel: FrontSlab) -> bool:
@@ -80,6 +81,7 @@ def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace
         for c in candidates
         if c.panel.handle is not None
         and c.walls >= ALL_WALLS - 1
+        and c.roomy
         and not _is_control_panel(scene, c.panel)
     ]
     return front in open_backed and any(
@@ -99,12 +101,16 @@ def _is_control_panel(scene: Scene, panel: FrontSlab) -> bool:
 
 
 def _has_carrying_grip(scene: Scene, panel: FrontSlab) -> bool:
-    """Return a grip in the middle of a panel that is too narrow for a drawer: a crate's side."""
+    """Return a grip in the middle of a panel that is no drawer: a crate's side.
+
+    The panel is all of the front, or too narrow for a drawer.
+    """
     if panel.handle is None:
         return False
+    all_front = panel.area >= 0.65 * scene.size[SIDEWAYS] * scene.size[UP]
     offset = np.abs(panel.handle.mean(axis=0) - panel.center)
     central = bool(offset[SIDEWAYS] <= 0.1 * panel.width and offset[UP] <= 0.15 * panel.height)
-    return central and panel.width < WIDE * panel.height
+    return central and (all_front or panel.width < WIDE * panel.height)
 
 
 def _is_plausible(
@@ -113,8 +119,8 @@ def _is_plausible(
     """Tell whether a panel without handle closes a real space, beside others or alone."""
     panel = front.panel
     deep = front.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
-    closes = front.walls >= ALL_WALLS and deep
-    if panel.handle is not None or not closes:
+    closes = front.walls >= ALL_WALLS and front.roomy and deep
+    if panel.handle is not None or panel.is_box or is_crowded(scene, panel) or not closes:
         return False
     if max(panel.width, panel.height) > 6.0 * min(panel.width, panel.height):
         return False
@@ -155,7 +161,9 @@ def _stands_alone(scene: Scene, panel: FrontSlab) -> bool:
 
 
 def _beside(a: FrontSlab, b: FrontSlab, scene: Scene) -> bool:
-    """Tell whether two panels line up in a row or a column, a hair apart."""
+    """Tell whether two panels of one plane line up in a row or a column, a hair apart."""
+    if min(abs(a.low[FRONT] - b.low[FRONT]), abs(a.high[FRONT] - b.high[FRONT])) > scene.touch:
+        return False
     for along, across in ((SIDEWAYS, UP), (UP, SIDEWAYS)):
         gap = max(a.low[along] - b.high[along], b.low[along] - a.high[along])
         level = abs(a.low[across] - b.low[across]) + abs(a.high[across] - b.high[across])
