@@ -167,6 +167,9 @@ def _beside(a: FrontSlab, b: FrontSlab, scene: Scene) -> bool:
     for along, across in ((SIDEWAYS, UP), (UP, SIDEWAYS)):
         gap = max(a.low[along] - b.high[along], b.low[along] - a.high[along])
         level = abs(a.low[across] - b.low[across]) + abs(a.high[across] - b.high[across])
+        sides = sorted((a.high[along] - a.low[along], b.high[along] - b.low[along]))
+        if sides[0] < 0.85 * sides[1]:
+            continue
         if -scene.touch <= gap <= 0.08 * scene.size[along] and level <= 4.0 * scene.touch:
             return True
     return False
