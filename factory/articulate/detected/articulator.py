@@ -101,7 +101,8 @@ class DetectedArticulator(HypothesisMaker):
             return [self._noted(each, sure_kind) for each in made]
         least = self.agreement.least if self.least is None else self.least
         seen = seen_from(mesh, Stated().front)
-        rated = self._rated(detection, seen)
+        shell = MeshOrigin.of(mesh).is_shell
+        rated = self._rated(detection, seen, closed=shell)
         sure = [part for part in rated if part.probability >= least]
         guess = self.guess.articulate(mesh)
         faces = detection.faces if guess.mesh is mesh else look_at(guess.mesh).cells
@@ -112,7 +113,7 @@ class DetectedArticulator(HypothesisMaker):
         left = [part for part in rated if part not in sure]
         cells = CellParts.of(guess, faces)
         gone = _misplaced(cells, sure)
-        if MeshOrigin.of(mesh).is_shell:
+        if shell:
             gone += _several_in_one(cells, sure)
         guess = _without(guess, gone)
         cells = CellParts.of(guess, faces)
@@ -140,13 +141,15 @@ class DetectedArticulator(HypothesisMaker):
             looks_like=kind,
         )
 
-    def _rated(self, detection: Detection, seen: SeenMesh) -> list[DetectedPart]:
-        """Return the parts that the detector sees alone, the surest first."""
+    def _rated(self, detection: Detection, seen: SeenMesh, *, closed: bool) -> list[DetectedPart]:
+        """Return the parts that the detector sees alone, the surest first.
+
+        ``closed``: look at every rectangle that seams close as well.
+        """
         extents = seen.mesh.extents
         if not extents.min() > THINNEST * extents.max():
             return []
         dense = detection.dense
-        closed = MeshOrigin.of(seen.mesh).is_shell
         panels = []
         for found, signs in panels_of(dense, seen, closed=closed):
             chance = self.agreement.of_panel(signs)
