@@ -49,19 +49,16 @@ def _by_centred_handle(
     panel = front.panel
     aspect = panel.width / panel.height
     rise = (handle[:, UP].mean() - panel.center[UP]) / panel.height
-    spans = panel.width >= 0.6 * scene.size[SIDEWAYS]
     width, _, height = handle[1] - handle[0]
     narrowest = 0.55 if width >= max(3.0 * height, 0.4 * panel.width) else 0.65
-    if spans and narrowest <= aspect <= 1.9:
+    if panel.width >= 0.6 * scene.size[SIDEWAYS] and narrowest <= aspect <= 1.9:
         return OpensBy.BOTTOM, ()
     if aspect >= 1.2 and rise < -0.3:
         return OpensBy.TOP, ()
     if aspect >= WIDE:
         return OpensBy.OUT, (
-            (
-                "has no box behind its front; assumed to be a drawer, "
-                "since it is wide with a centred handle"
-            ),
+            "has no box behind its front; assumed to be a drawer, "
+            "since it is wide with a centred handle",
         )
     return _side_by_neighbours(front, fronts)
 
