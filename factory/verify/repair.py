@@ -45,11 +45,6 @@ GEOMETRY: frozenset[Repairer] = frozenset(
 )
 
 
-def allowed(repair: Repairer, kinds: str) -> bool:
-    """Return whether a repair is among those that were asked for, one of ``REPAIR_KINDS``."""
-    return kinds == "all" or (kinds == "geometry" and repair in GEOMETRY)
-
-
 def next_plan(
     verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare, asset: Asset | None = None
 ) -> Plan | None:
@@ -60,9 +55,7 @@ def next_plan(
     """
     evidence = RepairEvidence(verdict, config, spare, asset)
     for repair in REPAIRS:
-        if not allowed(repair, config.kinds):
-            continue
-        changed = repair(evidence, plan)
-        if changed is not None:
+        allowed = config.kinds == "all" or (config.kinds == "geometry" and repair in GEOMETRY)
+        if allowed and (changed := repair(evidence, plan)) is not None:
             return changed
     return None

@@ -10,6 +10,7 @@ from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.judge import Judge
 
 from ..articulation import Articulation
+from ..asset import Asset
 from ..errors import InputRejected, Unjudged
 from ..export.bundle import export_bundle
 from ..intake.intake import Intake
@@ -17,6 +18,7 @@ from ..manufacture.plan import Plan, Spare, dispensable_joints, first_plan
 from ..manufacture.stage import manufacture
 from ..runtime.stages import Stages
 from .drafts import HypothesisDraft, work_of
+from .drawn import close_guessed, reopened
 from .repair import next_plan
 from .validate import Verdict, inspect, validate
 
@@ -75,15 +77,37 @@ class Rounds:
                 break
             draft = replace(again, before=draft.before or draft.asset)
             verdict = self._validated(draft, others)
-        return (draft, verdict) if verdict.reason is None else first
+        return self._as_drawn(draft, verdict, others) if verdict.reason is None else first
+
+    def _as_drawn(
+        self, draft: HypothesisDraft, verdict: Verdict, others: tuple[Finding, ...]
+    ) -> tuple[HypothesisDraft, Verdict]:
+        """Return what passes with its rest as drawn, or else as it was made: closed."""
+        asset = reopened(draft.asset, self.articulation)
+        if asset is draft.asset:
+            return draft, verdict
+        made = self._exported(asset, draft.plan, draft.findings, "as_drawn", draft.work)
+        made = replace(made, before=draft.before)
+        again = self._validated(made, others)
+        return (made, again) if again.reason is None else (draft, verdict)
+
+    @cached_property
+    def _closed(self) -> Articulation:
+        return close_guessed(self.articulation)
 
     @cached_property
     def _spare(self) -> Spare:
-        return dispensable_joints(self.articulation, self.stages.config.repair.small_share)
+        return dispensable_joints(self._closed, self.stages.config.repair.small_share)
 
     def _made(self, plan: Plan, folder: str, done: int = 0) -> HypothesisDraft:
         """Make and inspect what a plan says; ``done`` is the work on it so far."""
-        asset, findings = manufacture(self.articulation, plan, self.intake, self.stages)
+        asset, findings = manufacture(self._closed, plan, self.intake, self.stages)
+        return self._exported(asset, plan, findings, folder, done + work_of(asset))
+
+    def _exported(
+        self, asset: Asset, plan: Plan, findings: tuple[Finding, ...], folder: str, work: int
+    ) -> HypothesisDraft:
+        """Write an asset and inspect it."""
         with self.stages.clock.stage("export"):
             bundle = export_bundle(
                 asset,
@@ -93,7 +117,6 @@ class Rounds:
                 self.stages.config.formats,
             )
         inspected = _said(inspect(bundle, self.judge, findings, self.stages))
-        work = done + work_of(asset)
         return HypothesisDraft(
             self.articulation, asset, bundle, plan, findings, inspected, work=work
         )

@@ -11,7 +11,7 @@ from msgspec import structs
 
 from ...articulation import Articulation, Joint, Weights
 from ...errors import InputRejected
-from ...geometry.posing import posed, rotated
+from ...geometry.posing import closed, posed, rotated
 from ...intake.stated import Hinge, Stated, StatedAlternative, StatedKind, StatedPart
 from ...mesh import Mesh
 from ...models.detector.canvas import Sort, look_at
@@ -30,6 +30,7 @@ from ..straight import straightening
 from .agreement import Agreement
 from .boxes import with_whole_drawers
 from .merging import DetectedPart, likely_hinges, seen_parts
+from .open_panels import open_panels, reopened, with_closed
 from .panels import panels_of
 from .rating import CARRIED, CellParts, support_of_box
 from .screens import open_screen
@@ -100,11 +101,17 @@ class DetectedArticulator(HypothesisMaker):
         if sure_kind == LAPTOP and (made := _with_screen(mesh, float(detection.kinds.max()))):
             return [self._noted(each, sure_kind) for each in made]
         least = self.agreement.least if self.least is None else self.least
-        seen = seen_from(mesh, Stated().front)
         shell = MeshOrigin.of(mesh).is_shell
+        if (drawn := open_panels(mesh, detection)) is not None:
+            shut = closed(drawn)
+            mesh = shut.mesh
+            detection = detect(mesh)
+        seen = seen_from(mesh, Stated().front)
         rated = self._rated(detection, seen, closed=shell)
         sure = [part for part in rated if part.probability >= least]
         guess = self.guess.articulate(mesh)
+        if drawn is not None:
+            guess = with_closed(guess, shut)
         faces = detection.faces if guess.mesh is mesh else look_at(guess.mesh).cells
         moves = bool(guess.movable_joints)
         if detection.kind not in STRANGE:
@@ -127,6 +134,9 @@ class DetectedArticulator(HypothesisMaker):
             self._still(mesh, guess, detection)
         ]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])
+        if drawn is not None:
+            open_ = [reopened(each, drawn) for each in open_]
+            notes += drawn.notes
         return [self._noted(each, sure_kind, notes) for each in open_]
 
     def _noted(
