@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import islice, product
+from itertools import chain, islice, product
 
 import numpy as np
 
@@ -22,9 +22,7 @@ from ..articulator import Articulator, HypothesisMaker, make_hypotheses
 from ..assembly import JOINT_SUFFIX, assembled
 from ..proposal import Hypothesis, Motion, Proposal
 from ..rigid import rigid_articulation
-from ..seams.cutting import CutMesh, inside
-from ..seams.movers import cut_along
-from ..seams.placing import OpeningPart
+from ..seams.cutting import CutMesh, Region, cut_along, inside
 from .boxed import NOT_FOUND, USUAL, label_of
 from .expecting import Expected, count_expected, find_expected, require_some
 from .placing import Placed, SeenMesh, place_parts, stated_unit
@@ -85,7 +83,7 @@ class StatedArticulator(HypothesisMaker):
             return self._filled(mesh, wanted)
         placed = _placed(self._seen or seen_from(mesh, self.stated.front), self.stated)
         chosen = list(islice(_with_cut(_choices(placed)), MOST_HYPOTHESES))
-        cut = cut_along(mesh, [_to_cut(ways) for ways in chosen])
+        cut = cut_along(mesh, chain.from_iterable(_to_cut(ways) for ways in chosen))
         return tuple(Hypothesis(self._articulation(cut, placed, ways)) for ways in chosen)
 
     def beside(self, guess: Articulation) -> tuple[Hypothesis, ...]:
@@ -104,7 +102,7 @@ class StatedArticulator(HypothesisMaker):
         """Return the placed parts beside those wanted of a guess, cut from the guess's mesh."""
         made = []
         for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
-            cut = cut_along(each.guess.mesh, [_to_cut(ways)])
+            cut = cut_along(each.guess.mesh, _to_cut(ways))
             filled = self._articulation(cut, each.placed, ways, each.proposals(cut), each.hosts)
             made.append(Hypothesis(replace(filled, weights=each.guess.weights)))
         return tuple(made)
@@ -235,9 +233,9 @@ def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedW
             yield tuple(StatedWay(way.cut or way.mover) for way in ways)
 
 
-def _to_cut(ways: Sequence[StatedWay]) -> tuple[OpeningPart, ...]:
-    """Return those parts that are cut out of the mesh."""
-    return tuple(way.mover for way in ways if not len(way.pieces))
+def _to_cut(ways: Sequence[StatedWay]) -> Iterator[Region]:
+    """Yield what those parts fill that are cut out of the mesh."""
+    return (way.mover.region for way in ways if not len(way.pieces))
 
 
 def _choices(placed: Sequence[Placed]) -> Iterator[tuple[StatedWay, ...]]:

@@ -6,7 +6,7 @@ from tests.samples import one_piece
 
 from asset_factory.factory.articulate.seams.controls import with_strips
 from asset_factory.factory.articulate.seams.handles import Face, Protrusion
-from asset_factory.factory.articulate.seams.movers import knobs_of
+from asset_factory.factory.articulate.seams.knobs import knobs_of
 from asset_factory.factory.articulate.seams.rectangles import Lines
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.part import PartKind
