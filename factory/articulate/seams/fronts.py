@@ -11,13 +11,10 @@ import numpy as np
 from ...mesh import FloatArray
 from ...views.raster import Side
 from .controls import with_strips
-from .evidence import Seams, level_seams, upright_seams
+from .evidence import seams_of
 from .handles import Face, Protrusion, cleared
 from .rectangles import SHORTEST, Lines, Rectangle, lines_of, rectangles_of
 from .relief import Relief
-
-#: A handle belongs to a panel if it is that far inside [pixels].
-INSIDE = 1.0
 
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
 OPPOSITE = {
@@ -43,21 +40,16 @@ class Front:
     behind: Relief
 
     @cached_property
-    def seams(self) -> Seams:
-        """Return the evidence for horizontal seams."""
-        return level_seams(self.relief, self.face)
-
-    @cached_property
     def level(self) -> Lines:
         """Return the candidates for horizontal lines."""
         first, last, _, _ = self.relief.box
-        return lines_of(self.seams, first, last)
+        return lines_of(seams_of(self.relief, self.face, upright=False), first, last)
 
     @cached_property
     def upright(self) -> Lines:
         """Return the candidates for vertical lines."""
         _, _, first, last = self.relief.box
-        return lines_of(upright_seams(self.relief, self.face), first, last)
+        return lines_of(seams_of(self.relief, self.face, upright=True), first, last)
 
     @cached_property
     def pulls(self) -> tuple[Protrusion, ...]:
@@ -69,7 +61,7 @@ class Front:
         inside = [
             handle
             for handle in self.pulls
-            if rectangle.holds(handle.low, INSIDE) and rectangle.holds(handle.high, INSIDE)
+            if (handle.low > rectangle.low).all() and (handle.high < rectangle.high).all()
         ]
         return tuple(sorted(inside, key=lambda h: -h.height * float(np.sqrt(h.size.prod()))))
 

@@ -29,7 +29,6 @@ class Relief:
         height: towards the viewer [pixels]; where nothing is seen, below all that is.
         facing: cosine between the surface and the viewer, 0 where nothing is seen.
         lab: colour (CIE L*a*b*), shape [rows, columns, 3].
-        piece: which of the mesh's pieces is seen, shape [rows, columns].
         depth: of the object, seen from this side [m].
     """
 
@@ -38,7 +37,6 @@ class Relief:
     height: FloatArray
     facing: FloatArray
     lab: FloatArray
-    piece: IntArray
     depth: float
 
     @property
@@ -74,7 +72,7 @@ def reliefs_of(views: Views) -> dict[Side, Relief]:
 
 
 def relief_of(view: View) -> Relief:
-    """Return one side of a mesh; its pieces are the view's parts."""
+    """Return one side of a mesh."""
     seen = view.seen
     # A pinhole of a mesh that is not quite closed is no gap between two things.
     seen_filled = (
@@ -93,7 +91,6 @@ def relief_of(view: View) -> Relief:
         np.where(seen_filled, height, lowest - BEHIND),
         np.where(seen_filled, np.clip(facing, 0.0, 1.0), 0.0),
         lab,
-        view.part[tuple(nearest)],
         float(np.abs(view.side.frame[2]) @ view.mesh.extents),
     )
 
