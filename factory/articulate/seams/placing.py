@@ -15,7 +15,7 @@ from ..proposal import Motion, Proposal
 from .cutting import Region
 from .edges import leaf_thickness, seen_thickness
 from .fronts import Front
-from .rectangles import FrontPanel
+from .rectangles import Rectangle
 
 #: A panel whose back edge nobody sees reaches so far behind its rim: share of the object's depth,
 #: and of the picture [pixels].
@@ -95,11 +95,11 @@ def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Re
     return box_behind(side, low, high).within(before)
 
 
-def rim_depth(front: Front, panel: FrontPanel) -> float:
+def rim_depth(front: Front, panel: Rectangle) -> float:
     """Return how far behind the nearest point the outer edge of a panel lies [pixels]."""
     rows, columns = (
         slice(int(start) + inset, int(stop) - inset + 1)
-        for start, stop in zip(panel.rectangle.low, panel.rectangle.high, strict=True)
+        for start, stop in zip(panel.low, panel.high, strict=True)
         for inset in (min(INSET, int(stop - start) // 2),)
     )
     borders = (
@@ -113,7 +113,7 @@ def rim_depth(front: Front, panel: FrontPanel) -> float:
 
 
 def panel_mover(
-    fronts: Mapping[Side, Front], side: Side, panel: FrontPanel, way: OpensBy
+    fronts: Mapping[Side, Front], side: Side, panel: Rectangle, way: OpensBy
 ) -> OpeningPart:
     """Return a panel of a front that opens in one way.
 
@@ -127,8 +127,8 @@ def panel_mover(
     behind = front.relief.depth
     raster = front.relief.raster
     right, up, away = raster.side.frame
-    low = raster.low[::-1] + panel.rectangle.low * raster.pixel
-    high = raster.low[::-1] + panel.rectangle.high * raster.pixel
+    low = raster.low[::-1] + panel.low * raster.pixel
+    high = raster.low[::-1] + panel.high * raster.pixel
     rim = raster.near + rim_depth(front, panel) * raster.pixel
     leaf = leaf_thickness(front, panel) if way is not OpensBy.OUT else None
     thickness = leaf or seen_thickness(fronts, side, panel, rim)

@@ -10,7 +10,8 @@ from ...intake.stated import StatedPart, StatedView
 from ...mesh import FloatArray
 from ...part import OpensBy, PartKind
 from ..seams.fronts import Front
-from ..seams.rectangles import FrontPanel, Rectangle
+from ..seams.handles import Protrusion
+from ..seams.rectangles import Rectangle
 
 NOT_FOUND = "stated_part_not_found"
 #: Of a stated box so much must show the mesh.
@@ -39,14 +40,16 @@ class StatedBox:
         place: in the list of parts.
         view: where it is seen.
         front: the side of the turned mesh that shows it.
-        panel: its rectangle and handles there.
+        rectangle: its outline there.
+        handle: that it is pulled by, the most prominent one; ``None`` without.
     """
 
     stated: StatedPart
     place: int
     view: StatedView
     front: Front
-    panel: FrontPanel
+    rectangle: Rectangle
+    handle: Protrusion | None
 
     @property
     def kind(self) -> PartKind:
@@ -61,7 +64,7 @@ class StatedBox:
     @property
     def corners(self) -> FloatArray:
         """Return its rectangle: right and up [m], low and high, shape [2, 2]."""
-        return self.panel.rectangle.corners(self.front.relief.raster)
+        return self.rectangle.corners(self.front.relief.raster)
 
     @property
     def label(self) -> str:
@@ -110,5 +113,5 @@ def boxed_in(front: Front, part: StatedPart, place: int, box: Rectangle) -> Stat
             unit="of its area",
             limit=LEAST_SHOWN,
         )
-    panel = FrontPanel(box, front.handles_in(box))
-    return StatedBox(part, place, part.view, front, panel)
+    handle = next(iter(front.handles_in(box)), None)
+    return StatedBox(part, place, part.view, front, box, handle)

@@ -57,7 +57,7 @@ def _control(part: StatedBox) -> OpeningPart:
         return _cap(part)
     relief = part.front.relief
     raster = relief.raster
-    box = part.panel.rectangle
+    box = part.rectangle
     if kind is PartKind.KNOB:
         for knob in knobs_on(relief, part.front.face):
             if box.holds(raster.pixels(knob.motion.origin)[:2]):
@@ -110,7 +110,7 @@ def _standing(part: StatedBox) -> tuple[float, BoolArray]:
     A wheel or a lever may hide most of what carries it: that is then the deeper one of two groups
     of depths, or, where there is one depth only, whatever is behind the part's own thickness.
     """
-    slices = part.panel.rectangle.window
+    slices = part.rectangle.window
     seen = part.front.relief.seen[slices]
     height = part.front.relief.height[slices]
     carrier = float(np.median(part.front.face.height[slices]))
@@ -137,7 +137,7 @@ def _parting(values: FloatArray) -> float:
 def _cap(part: StatedBox) -> OpeningPart:
     """Return all that is above the lower edge of a cap's box, turning about its middle."""
     raster = part.front.relief.raster
-    box = part.panel.rectangle
+    box = part.rectangle
     right, up, away = raster.side.frame
     height, across = raster.low[::-1] + box.low * raster.pixel
     middle = raster.low[0] + float(box.low[1] + box.high[1]) / 2.0 * raster.pixel

@@ -37,7 +37,7 @@ def lid_openings(fronts: Mapping[Side, Front], part: StatedBox) -> list[OpeningP
     side = part.front.relief.side
     others = [each for each in AROUND if each not in (side, OPPOSITE[side])]
     likely = [OPPOSITE[side], *others] if hinge is None else [HINGE_SIDES[hinge]]
-    row = int(part.panel.rectangle.low[0])
+    row = int(part.rectangle.low[0])
     bounds = _bounds(part)
     found = []
     for each in likely[:MOST_WAYS]:
@@ -56,8 +56,8 @@ def _bounds(part: StatedBox) -> Region:
     """Return the edges of a lid's box beyond which there is more of the mesh above its seam."""
     relief = part.front.relief
     raster = relief.raster
-    low = part.panel.rectangle.low
-    high = part.panel.rectangle.high
+    low = part.rectangle.low
+    high = part.rectangle.high
     first_row, last_row, first, last = relief.box
     off_rows = OFF * (last_row - first_row)
     off_columns = OFF * (last - first)

@@ -158,8 +158,7 @@ def _outlined(mesh: Mesh, pieces: SeenPieces, part: StatedBox) -> StatedBox:
         return part
     low, high = np.rint((outline - raster.low) / raster.pixel).astype(np.int64)[:, ::-1]
     limit = np.array(front.relief.shape) - 1
-    nothing = np.zeros(4)
-    box = Rectangle(np.clip(low, 0, limit), np.clip(high, 0, limit), nothing, nothing)
+    box = Rectangle(np.clip(low, 0, limit), np.clip(high, 0, limit), np.zeros(4))
     return boxed_in(front, part.stated, part.place, box)
 
 
@@ -167,8 +166,8 @@ def _refuse_shared(boxed: Sequence[StatedBox]) -> None:
     panels = [each for each in boxed if each.is_panel and each.stated.parent is None]
     for number, one in enumerate(panels):
         for other in panels[:number]:
-            smaller = max(min(one.panel.rectangle.area, other.panel.rectangle.area), 1.0)
-            share = one.panel.rectangle.shared(other.panel.rectangle) / smaller
+            smaller = max(min(one.rectangle.area, other.rectangle.area), 1.0)
+            share = one.rectangle.shared(other.rectangle) / smaller
             if one.front is other.front and share > MOST_SHARED:
                 raise InputRejected(
                     NOT_FOUND,
@@ -194,9 +193,8 @@ def _openings(
         if len(wanted) > 1:
             wanted = _likeliest_first(wanted, part, boxed)
         side = part.front.relief.side
-        made = [
-            tilted(panel_mover(fronts, side, part.panel, way), part) for way in wanted[:MOST_WAYS]
-        ]
+        movers = [panel_mover(fronts, side, part.rectangle, way) for way in wanted[:MOST_WAYS]]
+        made = [tilted(mover, part) for mover in movers]
     return [replace(each, kind=part.kind) for each in made]
 
 
@@ -214,10 +212,10 @@ def _likeliest_first(
 ) -> tuple[OpensBy, ...]:
     """Return ways in which a panel may open, first the one that its handle speaks for."""
     if part.kind is PartKind.DOOR:
-        beside = [each.panel for each in boxed if each.is_panel and each.front is part.front]
-        likely: OpensBy | None = upright_edge(part.front.relief, part.panel, beside)
+        beside = [each for each in boxed if each.is_panel and each.front is part.front]
+        likely: OpensBy | None = upright_edge(part, beside)
     else:
-        likely = level_edge(part.panel)
+        likely = level_edge(part)
     return tuple(sorted(wanted, key=lambda way: way is not likely))
 
 

@@ -81,17 +81,12 @@ def snap(front: Front, frame: StatedFrame, box: Box) -> Rectangle:
         ):
             # Both edges of something thin found the same seam.
             placed[:, axis] = stated[:, axis]
-    sides, relief = (
-        np.array(
-            [
-                _cover(lines[axis], int(placed[end, axis]), placed[:, 1 - axis], shape)
-                for axis in (0, 1)
-                for end in (0, 1)
-            ]
-        )
-        for shape in (False, True)
-    )
-    return Rectangle(placed[0], placed[1], sides, relief)
+    relief = [
+        _in_relief(lines[axis], int(placed[end, axis]), placed[:, 1 - axis])
+        for axis in (0, 1)
+        for end in (0, 1)
+    ]
+    return Rectangle(placed[0], placed[1], np.array(relief))
 
 
 def _nearest_seam(lines: Lines, stated: int, reach: float, start: int, stop: int) -> int | None:
@@ -105,10 +100,9 @@ def _nearest_seam(lines: Lines, stated: int, reach: float, start: int, stop: int
     return int(lines.at[near[value.argmax()]]) if value.any() else None
 
 
-def _cover(lines: Lines, at: int, along: IntArray, shape: bool) -> float:
-    """Return how far the line at a place is covered between two ends; 0 where there is no line."""
+def _in_relief(lines: Lines, at: int, along: IntArray) -> float:
+    """Return how far the shape covers the line at a place between two ends; 0 without a line."""
     index = np.flatnonzero(lines.at == at)
     if not len(index) or along[1] <= along[0]:
         return 0.0
-    covered = lines.in_relief if shape else lines.covered
-    return float(covered(index, along[0], along[1])[0])
+    return float(lines.in_relief(index, along[0], along[1])[0])

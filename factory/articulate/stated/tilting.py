@@ -80,7 +80,7 @@ def tilted(mover: OpeningPart, part: StatedBox) -> OpeningPart:
 
 def _plane_of(part: StatedBox) -> _Plane | None:
     """Return the plane of what a box shows; ``None`` if it is upright to the view, or no plane."""
-    rows, columns = part.panel.rectangle.window
+    rows, columns = part.rectangle.window
     raster = part.front.relief.raster
     seen = part.front.relief.seen[rows, columns]
     row, column = np.nonzero(seen)
