@@ -158,27 +158,3 @@ def panel_mover(
         motion=motion,
         panel=Panel(raster.side.frame, low[::-1], high[::-1], rim, thickness, way),
     )
-
-
-def lid_mover(fronts: Mapping[Side, Front], row: int, hinge: Side) -> OpeningPart:
-    """Return a lid above a row of the sides' pictures, hinged on one side."""
-    front = fronts[hinge]
-    raster = front.relief.raster
-    right, up, away = raster.side.frame
-    height = raster.low[1] + row * raster.pixel
-    near = _nearest_above(front, row)
-    _, _, left, last = front.relief.box
-    across = raster.low[0] + (left + last) / 2.0 * raster.pixel
-    origin = across * right + height * up + (raster.near + near) * away
-    return OpeningPart(
-        kind=PartKind.LID,
-        region=Region(-up[None, :], np.array([-height])),
-        motion=Motion(JointKind.REVOLUTE, right, origin, 0.0, TURN),
-    )
-
-
-def _nearest_above(front: Front, row: int) -> float:
-    """Return where the lid begins, seen from the side of its hinge: depth [m]."""
-    rows = slice(row + 1, row + 8)
-    depth = -front.face.height[rows][front.relief.seen[rows]]
-    return float(np.percentile(depth, 25)) * front.relief.raster.pixel if len(depth) else 0.0
