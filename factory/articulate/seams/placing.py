@@ -95,6 +95,24 @@ def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Re
     return box_behind(side, low, high).within(before)
 
 
+def edge_middle(low: FloatArray, high: FloatArray, way: OpensBy) -> FloatArray:
+    """Return the middle of the edge at which a rectangle is hinged, or of all of it.
+
+    Args:
+        low: up and to the right [m], shape [2].
+        high: likewise.
+        way: how it opens.
+    """
+    middle = (low + high) / 2.0
+    places = {
+        OpensBy.LEFT: (middle[0], low[1]),
+        OpensBy.RIGHT: (middle[0], high[1]),
+        OpensBy.BOTTOM: (low[0], middle[1]),
+        OpensBy.TOP: (high[0], middle[1]),
+    }
+    return np.asarray(places.get(way, middle))
+
+
 def rim_depth(front: Front, panel: Rectangle) -> float:
     """Return how far behind the nearest point the outer edge of a panel lies [pixels]."""
     rows, columns = (
@@ -136,13 +154,13 @@ def panel_mover(
         thickness = max(THICKNESS * behind, LEAST_THICKNESS * raster.pixel)
     back = rim + thickness if leaf is None else raster.near + behind
     region = box_before(raster.side, low, high, back)
-    middle = (low + high) / 2.0
-    across, height, axis = {
-        OpensBy.LEFT: (low[1], middle[0], -up),
-        OpensBy.RIGHT: (high[1], middle[0], up),
-        OpensBy.BOTTOM: (middle[1], low[0], right),
-        OpensBy.TOP: (middle[1], high[0], -right),
-        OpensBy.OUT: (middle[1], middle[0], -away),
+    height, across = edge_middle(low, high, way)
+    axis = {
+        OpensBy.LEFT: -up,
+        OpensBy.RIGHT: up,
+        OpensBy.BOTTOM: right,
+        OpensBy.TOP: -right,
+        OpensBy.OUT: -away,
     }[way]
     slides = way is OpensBy.OUT
     motion = Motion(

@@ -7,30 +7,22 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import JointKind
-from ...intake.stated import Hinge
+from ...geometry.posing import UP
 from ...mesh import BoolArray, FloatArray
-from ...part import PartKind
+from ...part import OpensBy, PartKind
 from ...views.raster import Side
 from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import thickness
 from ..seams.knobs import MARGIN, knobs_on
-from ..seams.placing import TURN, OpeningPart, box_before, box_behind
-from .boxed import StatedBox
+from ..seams.placing import TURN, OpeningPart, box_before, box_behind, edge_middle
+from .boxed import EDGES, StatedBox
 from .snapping import AT_OUTLINE
 
 #: How far a button is pressed [m].
 BUTTON_TRAVEL_M = 0.004
 #: Of what a box shows so much stands off from what carries it.
 LEAST_STANDING = 0.1
-_UP = np.array([0.0, 0.0, 1.0])
-#: Where on its box, across and up, a lever turns that is hinged so.
-_ENDS = {
-    Hinge.LEFT: (0.0, 0.5),
-    Hinge.RIGHT: (1.0, 0.5),
-    Hinge.BOTTOM: (0.5, 0.0),
-    Hinge.TOP: (0.5, 1.0),
-}
 
 
 def control_openings(part: StatedBox) -> list[OpeningPart]:
@@ -67,16 +59,12 @@ def _control(part: StatedBox) -> OpeningPart:
     back = raster.near - (carrier + MARGIN) * raster.pixel
     low = raster.low[::-1] + (box.low - MARGIN) * raster.pixel
     high = raster.low[::-1] + (box.high + MARGIN) * raster.pixel
-    height, across = (low + high) / 2.0
+    way = part.hinged(EDGES, "for a lever") if kind is PartKind.LEVER else None
+    height, across = edge_middle(low, high, way or OpensBy.OUT)
     if kind is PartKind.WHEEL and standing.any():
         rows, columns = np.nonzero(standing)
         height = low[0] + (rows.mean() + MARGIN) * raster.pixel
         across = low[1] + (columns.mean() + MARGIN) * raster.pixel
-    if kind is PartKind.LEVER and part.stated.hinge is not None:
-        if part.stated.hinge not in _ENDS:
-            raise part.opposed(_ENDS, "for a lever")
-        share = np.array(_ENDS[part.stated.hinge][::-1])
-        height, across = low + share * (high - low)
     origin = across * right + height * up + back * away
     # What is drawn to the outline has its thinnest ends too.
     ends = np.array(part.view.box).reshape(2, 2)[:, ::-1]
@@ -150,4 +138,4 @@ def _cap(part: StatedBox) -> OpeningPart:
         np.stack([-up, right, -right]),
         np.array([-height, 2.0 * middle - across, -across]),
     )
-    return OpeningPart(part.kind, region, Motion.endless(_UP, origin))
+    return OpeningPart(part.kind, region, Motion.endless(UP, origin))

@@ -34,12 +34,10 @@ def lid_openings(fronts: Mapping[Side, Front], part: StatedBox) -> list[OpeningP
     Raises:
         InputRejected: ``stated_part_not_found``: no lid is hinged so.
     """
-    hinge = part.stated.hinge
-    if hinge is not None and hinge not in HINGE_SIDES:
-        raise part.opposed(HINGE_SIDES, "for a lid")
+    hinge = part.hinged(HINGE_SIDES, "for a lid")
     side = part.front.relief.side
     others = [each for each in AROUND if each not in (side, OPPOSITE[side])]
-    likely = [OPPOSITE[side], *others] if hinge is None else [HINGE_SIDES[hinge]]
+    likely = [OPPOSITE[side], *others] if hinge is None else [hinge]
     bounds = _bounds(part)
     return [_opening(fronts, part, each, bounds) for each in likely[:MOST_WAYS]]
 

@@ -20,7 +20,7 @@ from ..seams.fronts import Front, fronts_of
 from ..seams.placing import OpeningPart, box_behind, panel_mover
 from ..seams.rectangles import Rectangle
 from ..seams.relief import reliefs_of
-from .boxed import MOST_WAYS, NOT_FOUND, USUAL, StatedBox, boxed_in
+from .boxed import EDGES, MOST_WAYS, NOT_FOUND, USUAL, StatedBox, boxed_in
 from .controls import control_openings
 from .hinging import level_edge, upright_edge
 from .lids import hinged_inside, lid_openings
@@ -30,11 +30,8 @@ from .wholes import SeenPieces, StatedWay
 
 #: Boxes of two panels of one side may share so much of the smaller one.
 MOST_SHARED = 0.25
-MM = 1000.0
-
-_WAYS = {edge: OpensBy(edge) for edge in (Hinge.LEFT, Hinge.RIGHT, Hinge.TOP, Hinge.BOTTOM)}
 #: From above the back is at the top of the picture.
-_WAYS_ABOVE = {**_WAYS, Hinge.BACK: OpensBy.TOP, Hinge.FRONT: OpensBy.BOTTOM}
+_EDGES_ABOVE = {**EDGES, Hinge.BACK: OpensBy.TOP, Hinge.FRONT: OpensBy.BOTTOM}
 #: Turns the top of an object to where its front is.
 FROM_ABOVE = rotation_about([1.0, 0.0, 0.0], np.pi / 2.0)
 
@@ -189,34 +186,22 @@ def _openings(
     elif not part.is_panel:
         made = control_openings(part)
     else:
-        wanted = _wanted_ways(part, _WAYS_ABOVE if above else _WAYS)
-        if len(wanted) > 1:
-            wanted = _likeliest_first(wanted, part, boxed)
+        way = part.hinged(_EDGES_ABOVE if above else EDGES)
+        wanted = _likeliest_first(part, boxed) if way is None else (way,)
         side = part.front.relief.side
         movers = [panel_mover(fronts, side, part.rectangle, way) for way in wanted[:MOST_WAYS]]
         made = [tilted(mover, part) for mover in movers]
     return [replace(each, kind=part.kind) for each in made]
 
 
-def _wanted_ways(part: StatedBox, ways: Mapping[Hinge, OpensBy]) -> tuple[OpensBy, ...]:
-    hinge = part.stated.hinge
-    if hinge is None:
-        return USUAL[part.kind]
-    if hinge not in ways:
-        raise part.opposed(ways)
-    return (ways[hinge],)
-
-
-def _likeliest_first(
-    wanted: Sequence[OpensBy], part: StatedBox, boxed: Sequence[StatedBox]
-) -> tuple[OpensBy, ...]:
+def _likeliest_first(part: StatedBox, boxed: Sequence[StatedBox]) -> tuple[OpensBy, ...]:
     """Return ways in which a panel may open, first the one that its handle speaks for."""
     if part.kind is PartKind.DOOR:
         beside = [each for each in boxed if each.is_panel and each.front is part.front]
         likely: OpensBy | None = upright_edge(part, beside)
     else:
         likely = level_edge(part)
-    return tuple(sorted(wanted, key=lambda way: way is not likely))
+    return tuple(sorted(USUAL[part.kind], key=lambda way: way is not likely))
 
 
 def _as_stated(mover: OpeningPart, part: StatedBox, mesh: Mesh) -> OpeningPart:
@@ -235,4 +220,4 @@ def _as_stated(mover: OpeningPart, part: StatedBox, mesh: Mesh) -> OpeningPart:
 
 def stated_unit(motion: Motion) -> float:
     """Return how many stated units, degrees or millimetres, are one of a joint's, rad or m."""
-    return MM if motion.kind is JointKind.PRISMATIC else float(np.degrees(1.0))
+    return 1000.0 if motion.kind is JointKind.PRISMATIC else float(np.degrees(1.0))
