@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain, islice, product
 
@@ -19,7 +19,7 @@ from ...intake.stated import Stated, StatedPart
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, HypothesisMaker, make_hypotheses
-from ..assembly import JOINT_SUFFIX, assembled
+from ..assembly import assembled
 from ..proposal import Hypothesis, Motion, Proposal
 from ..rigid import rigid_articulation
 from ..seams.cutting import CutMesh, Region, cut_along, inside
@@ -150,14 +150,16 @@ class StatedArticulator(HypothesisMaker):
                 panel=mover.panel if each.stated.drawn is None else None,
                 existence=chance,
                 probability=chance,
+                name=each.stated.name,
             )
             for number, (each, mover, chance) in enumerate(
                 zip(placed, movers, chances, strict=True), start=1
             )
         ]
-        stated = {
-            proposal.source.id: each.stated
+        drawn = {
+            proposal.source.id
             for proposal, each in zip(proposals, placed, strict=True)
+            if each.stated.drawn is not None
         }
         for proposal in guessed:
             left = proposal.faces & (owner == 0)
@@ -167,8 +169,7 @@ class StatedArticulator(HypothesisMaker):
             proposals.append(replace(proposal, faces=left))
             owner[left] = len(proposals)
         hosts += [len(placed) + host if host else 0 for host in guessed_hosts]
-        made = _named(assembled(cut.mesh, owner, proposals, NAME, hosts), stated)
-        return _closed(made, stated)
+        return _closed(assembled(cut.mesh, owner, proposals, NAME, hosts), drawn)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> StatedArticulator:
@@ -255,16 +256,14 @@ def _from_closed(part: StatedPart, motion: Motion) -> Motion:
     return replace(motion, lower=-by, upper=max(motion.upper - by, 0.0))
 
 
-def _closed(made: Articulation, stated: Mapping[str, StatedPart]) -> Articulation:
-    """Return an articulation whose parts that are drawn open are closed, its new rest."""
-    drawn = {
+def _closed(made: Articulation, drawn: Collection[str]) -> Articulation:
+    """Return an articulation whose parts of some proposals are closed: its new rest."""
+    values = {
         joint.name: joint.lower
         for joint in made.joints
-        if (source := made.parts[joint.child].source) is not None
-        and source.id in stated
-        and stated[source.id].drawn is not None
+        if (source := made.parts[joint.child].source) is not None and source.id in drawn
     }
-    return posed(made, drawn) if drawn else made
+    return posed(made, values) if values else made
 
 
 def _hosts(placed: Sequence[Placed], ways: Sequence[StatedWay]) -> list[int]:
@@ -325,26 +324,3 @@ def _faces_of(cut: CutMesh, placed: Placed, way: StatedWay) -> BoolArray:
     if len(way.pieces):
         return np.isin(placed.piece_of[cut.source], way.pieces)
     return inside(cut.mesh, way.mover.region)
-
-
-def _named(made: Articulation, stated: Mapping[str, StatedPart]) -> Articulation:
-    """Return an articulation whose parts are called as stated, by the id of their proposal.
-
-    A part without a stated name gets a number that no stated name has.
-    """
-    given = {part.name for part in stated.values()}
-    count: Counter[str] = Counter()
-    parts = []
-    for part in made.parts:
-        said = None if part.source is None else stated.get(part.source.id)
-        name = part.name if said is None or said.name is None else said.name
-        if part.kind is not PartKind.BODY and (said is None or said.name is None):
-            while (name := f"{part.kind}_{count[part.kind]}") in given:
-                count[part.kind] += 1
-            count[part.kind] += 1
-        parts.append(replace(part, name=name))
-    joints = [
-        replace(joint, name=f"{parts[joint.child].name}_{JOINT_SUFFIX[joint.kind]}")
-        for joint in made.joints
-    ]
-    return replace(made, parts=tuple(parts), joints=tuple(joints))

@@ -8,8 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ...articulation import JointKind, rotation_about
+from ...articulation import JointKind
 from ...errors import InputRejected
+from ...geometry.components import connected_components
 from ...intake.stated import Hinge, StatedPart, StatedView
 from ...mesh import IntArray, Mesh
 from ...part import OpensBy, PartKind
@@ -33,7 +34,7 @@ MOST_SHARED = 0.25
 #: From above the back is at the top of the picture.
 _EDGES_ABOVE = {**EDGES, Hinge.BACK: OpensBy.TOP, Hinge.FRONT: OpensBy.BOTTOM}
 #: Turns the top of an object to where its front is.
-FROM_ABOVE = rotation_about([1.0, 0.0, 0.0], np.pi / 2.0)
+FROM_ABOVE = Side.FRONT.frame.T @ Side.TOP.frame
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,12 +50,12 @@ class SeenMesh:
     @cached_property
     def pieces(self) -> SeenPieces:
         """Return the pieces that it is made of."""
-        return SeenPieces(self.mesh)
+        return SeenPieces(Views(self.mesh, connected_components(self.mesh)))
 
     @cached_property
     def around(self) -> dict[Side, Front]:
         """Return its upright sides."""
-        return fronts_of(reliefs_of(Views(self.mesh)))
+        return fronts_of(reliefs_of(self.pieces.views))
 
     @cached_property
     def above(self) -> dict[Side, Front]:
