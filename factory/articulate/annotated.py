@@ -77,6 +77,8 @@ class AnnotatedArticulator:
         lenient: a slide whose limits are missing gets usual ones, instead of a rejection.
     """
 
+    name = "annotated"
+
     annotation: Annotation
     transform: FloatArray
     source_faces: IntArray
@@ -89,11 +91,6 @@ class AnnotatedArticulator:
         scale = self.scale
         if not scale > 0.0 or not np.allclose(linear @ linear.T / scale**2, np.eye(3), atol=1e-6):
             raise ValueError("transform: want a rotation with a uniform, positive scale")
-
-    @property
-    def name(self) -> str:
-        """Return ``annotated``."""
-        return "annotated"
 
     @property
     def scale(self) -> float:
