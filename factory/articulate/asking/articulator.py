@@ -19,7 +19,7 @@ from ..annotated import annotated_articulator, annotation_of
 from ..articulator import Articulator, HypothesisMaker
 from ..proposal import Hypothesis
 from ..stated import StatedArticulator
-from .answers import KeptAnswer, answer_path, keep_answer, kept_answer
+from .answers import answer_path, keep_answer, kept_answer
 from .endpoint import Reply, ask, require_endpoint
 from .question import Question, question_of
 
@@ -62,7 +62,7 @@ class VlmArticulator(HypothesisMaker):
         read = written = 0
         for number in range(QUESTIONS):
             reply = ask(self._config, messages)
-            read, written = read + reply.tokens[0], written + reply.tokens[1]
+            read, written = read + reply.read, written + reply.written
             try:
                 found = _found(reply.text, mesh)
             except InputRejected as fault:
@@ -70,12 +70,12 @@ class VlmArticulator(HypothesisMaker):
                     raise
                 messages += _corrections(reply, fault)
                 continue
-            kept = KeptAnswer(reply.text, read, written)
+            kept = Reply(reply.text, read, written)
             keep_answer(path, kept)
             return self._noted(found, kept)
         raise AssertionError("unreachable")
 
-    def _noted(self, found: tuple[Hypothesis, ...], kept: KeptAnswer) -> tuple[Hypothesis, ...]:
+    def _noted(self, found: tuple[Hypothesis, ...], kept: Reply) -> tuple[Hypothesis, ...]:
         """Return hypotheses that say who proposed them, and what that cost."""
         host = urlsplit(self._config.url).hostname
         note = (
