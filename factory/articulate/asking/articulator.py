@@ -24,8 +24,6 @@ from .endpoint import Reply, ask, require_endpoint
 from .question import Question, question_of
 
 NAME = "vlm"
-#: How often a model is asked about one input: again with what was wrong.
-QUESTIONS = 2
 #: Longer answers are not read [letters].
 LONGEST = 64 * 1024
 _FENCED = re.compile(r"\s*```(?:json)?\s*(.*?)\s*```\s*", re.DOTALL)
@@ -59,21 +57,15 @@ class VlmArticulator(HypothesisMaker):
         if kept is not None:
             return self._noted(_found(kept.text, mesh), kept)
         messages = [_first_message(question)]
-        read = written = 0
-        for number in range(QUESTIONS):
-            reply = ask(self._config, messages)
-            read, written = read + reply.read, written + reply.written
-            try:
-                found = _found(reply.text, mesh)
-            except InputRejected as fault:
-                if number + 1 == QUESTIONS:
-                    raise
-                messages += _corrections(reply, fault)
-                continue
-            kept = Reply(reply.text, read, written)
-            keep_answer(path, kept)
-            return self._noted(found, kept)
-        raise AssertionError("unreachable")
+        reply = ask(self._config, messages)
+        try:
+            found = _found(reply.text, mesh)
+        except InputRejected as fault:
+            again = ask(self._config, [*messages, *_corrections(reply, fault)])
+            found = _found(again.text, mesh)
+            reply = Reply(again.text, reply.read + again.read, reply.written + again.written)
+        keep_answer(path, reply)
+        return self._noted(found, reply)
 
     def _noted(self, found: tuple[Hypothesis, ...], kept: Reply) -> tuple[Hypothesis, ...]:
         """Return hypotheses that say who proposed them, and what that cost."""
