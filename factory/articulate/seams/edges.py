@@ -14,10 +14,11 @@ from .rectangles import Rectangle
 #: A panel that ends so near the outline is seen from beside [pixels].
 AT_OUTLINE = 6
 #: Its back edge is so far behind its rim: pixels, share of the object's depth, and of the panel's
-#: shorter side.
+#: shorter side; where nobody sees it, that share of the depth.
 NEAREST = 3.0
 FARTHEST = 0.25
 SLENDER = 0.5
+USUAL = 0.04
 #: A seam beside it is covered so far along the panel; alone, where two could be seen, so far.
 COVERED = 0.7
 ALONE = 0.85
@@ -44,10 +45,10 @@ def leaf_thickness(front: Front, panel: Rectangle) -> float | None:
     return thick if thick <= LEAF * shorter else None
 
 
-def seen_thickness(
+def thickness_behind(
     fronts: Mapping[Side, Front], side: Side, panel: Rectangle, rim: float
-) -> float | None:
-    """Return how far behind its rim a panel ends [m], as the seams beside it show; else ``None``.
+) -> float:
+    """Return how far behind its rim a panel ends [m], as the seams beside it show, or usually.
 
     Args:
         fronts: the four sides.
@@ -55,16 +56,16 @@ def seen_thickness(
         panel: one that may reach to the outline.
         rim: depth of its outer edge in that side's frame [m].
     """
+    relief = fronts[side].relief
+    usual = max(USUAL * relief.depth, NEAREST * relief.raster.pixel)
     beside = _beside(fronts, side, panel)
     found = [_seams(fronts[side], panel, rim, other) for other in beside]
     pair = _agreeing(found, fronts[side])
     if pair is not None:
         return pair
     seen = [_best(each) for each in found if len(each)]
-    if not seen:
-        return None
-    thickness, cover = max(seen, key=lambda each: each[1])
-    return thickness if len(beside) == 1 or cover >= ALONE else None
+    thickness, cover = max(seen, key=lambda each: each[1], default=(usual, 0.0))
+    return thickness if len(beside) == 1 or cover >= ALONE else usual
 
 
 def _best(seams: FloatArray) -> tuple[float, float]:

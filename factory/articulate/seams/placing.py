@@ -13,14 +13,10 @@ from ...part import OpensBy, Panel, PartKind, Proposer
 from ...views.raster import Side
 from ..proposal import Motion, Proposal
 from .cutting import Region
-from .edges import leaf_thickness, seen_thickness
+from .edges import leaf_thickness, thickness_behind
 from .fronts import Front
 from .rectangles import Rectangle
 
-#: A panel whose back edge nobody sees reaches so far behind its rim: share of the object's depth,
-#: and of the picture [pixels].
-THICKNESS = 0.04
-LEAST_THICKNESS = 3.0
 #: A panel's outer edge is looked at so far inside of its outline [pixels].
 INSET = 4
 #: What a panel is that opens so.
@@ -149,9 +145,7 @@ def panel_mover(
     high = raster.low[::-1] + panel.high * raster.pixel
     rim = raster.near + rim_depth(front, panel) * raster.pixel
     leaf = leaf_thickness(front, panel) if way is not OpensBy.OUT else None
-    thickness = leaf or seen_thickness(fronts, side, panel, rim)
-    if thickness is None:
-        thickness = max(THICKNESS * behind, LEAST_THICKNESS * raster.pixel)
+    thickness = leaf or thickness_behind(fronts, side, panel, rim)
     back = rim + thickness if leaf is None else raster.near + behind
     region = box_before(raster.side, low, high, back)
     height, across = edge_middle(low, high, way)
