@@ -31,8 +31,6 @@ from .wholes import StatedWay
 NAME = "stated"
 #: Whole hypotheses that are worth trying.
 MOST_HYPOTHESES = 4
-#: A part must keep so much of the surface in its region that others claim too.
-LEAST_OWN = 0.5
 #: Sides of the mesh that was stated may differ so much from this one's, of the longest.
 SAME_SHAPE = 0.05
 #: Quarter turns about z that bring a stated front to -Y.
@@ -296,7 +294,8 @@ def _owners(
     """Return the part of each face, 0 for the body; carried parts claim their faces first.
 
     Raises:
-        InputRejected: ``stated_part_not_found``: a part gets nothing, or hardly any of its own.
+        InputRejected: ``stated_part_not_found``: a part gets nothing, or less than half of the
+            surface in its region.
     """
     mesh = cut.mesh
     owner = np.zeros(len(mesh.faces), dtype=np.int64)
@@ -308,7 +307,7 @@ def _owners(
         carried = [number for number, host in enumerate(hosts, start=1) if host == index + 1]
         claimed = float(areas[within].sum())
         kept = float(areas[within & ((owner == 0) | np.isin(owner, carried))].sum())
-        if not own.any() or kept < LEAST_OWN * claimed:
+        if not own.any() or kept < claimed / 2.0:
             taken = 100.0 * (1.0 - kept / claimed) if claimed else 100.0
             why = f"other stated parts take {taken:.0f} % of its surface"
             found = why if within.any() else "no surface of the mesh is in its box"
