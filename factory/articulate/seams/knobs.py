@@ -6,10 +6,10 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...mesh import Mesh
-from ...part import PartKind
+from ...part import PartKind, Proposer
 from ...views.view import Views
 from ..assembly import assembled
-from ..proposal import Motion
+from ..proposal import Motion, Proposal
 from ..rigid import rigid_articulation
 from .cutting import cut_along, inside
 from .handles import FEWEST, Face, Protrusion, cleared
@@ -44,7 +44,15 @@ def knobs_of(mesh: Mesh, articulator: str) -> Articulation:
     for number, mover in enumerate(movers, start=1):
         owner[inside(made, mover.region) & (owner == 0)] = number
     proposals = [
-        mover.proposal(owner == number, LIKELY) for number, mover in enumerate(movers, start=1)
+        Proposal(
+            mover.kind,
+            owner == number,
+            mover.motion,
+            proposer=Proposer.SIDES,
+            existence=LIKELY,
+            probability=LIKELY,
+        )
+        for number, mover in enumerate(movers, start=1)
     ]
     return assembled(made, owner, proposals, articulator)
 

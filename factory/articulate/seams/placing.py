@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh import BoolArray, FloatArray
-from ...part import OpensBy, Panel, PartKind, Proposer
+from ...mesh import FloatArray
+from ...part import OpensBy, Panel, PartKind
 from ...views.raster import Side
-from ..proposal import Motion, Proposal
+from ..proposal import Motion
 from .cutting import Region
 from .edges import leaf_thickness, thickness_behind
 from .fronts import Front
@@ -34,7 +34,7 @@ SLIDE = 0.8
 
 @dataclass(frozen=True, eq=False)
 class OpeningPart:
-    """A proposal whose faces are not cut out yet, object frame [m].
+    """A part that may open and is not cut out yet, object frame [m].
 
     Attributes:
         kind: what it is; names the part.
@@ -56,18 +56,6 @@ class OpeningPart:
             region=self.region.turned(rotation),
             motion=self.motion.turned(rotation),
             panel=None if self.panel is None else self.panel.turned(rotation),
-        )
-
-    def proposal(self, faces: BoolArray, probability: float) -> Proposal:
-        """Return the proposal that these faces, shape [face_count], open so; probably, 0 to 1."""
-        return Proposal(
-            self.kind,
-            faces,
-            self.motion,
-            proposer=Proposer.SIDES,
-            panel=self.panel,
-            existence=probability,
-            probability=probability,
         )
 
 

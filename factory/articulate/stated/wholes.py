@@ -9,7 +9,7 @@ import numpy as np
 from ...articulation import JointKind
 from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, IntArray
-from ...part import OpensBy, PartKind
+from ...part import OpensBy, Panel, PartKind
 from ...views.raster import Side, side_facing
 from ...views.view import Views
 from ..seams.cutting import Region, centred_in
@@ -104,11 +104,12 @@ class SeenPieces:
             own &= self._share_within(mover.region) >= ABOVE
         if shown[own].sum() < enough or own.all():
             return StatedWay(mover)
-        if mover.panel is not None and np.allclose(mover.panel.frame, part.view.side.frame):
-            ends = outlines.low[own].min(axis=0), outlines.high[own].max(axis=0)
-            mover = _hung_at(mover, ends[0][:2], ends[1][:2])
+        low, high = outlines.low[own].min(axis=0), outlines.high[own].max(axis=0)
+        panel = mover.panel
+        if panel is not None and np.allclose(panel.frame, part.view.side.frame):
+            mover = _hung_at(mover, panel, low[:2], high[:2])
         if part.stated.range is None and mover.motion.kind is JointKind.PRISMATIC:
-            mover = _in_its_rails(mover, float(outlines.high[own, 2].max()))
+            mover = _in_its_rails(mover, float(high[2]))
         return StatedWay(mover, np.flatnonzero(own))
 
     def _shows_its_back(self, outlines: PieceOutlines, piece: int) -> bool:
@@ -146,11 +147,8 @@ class SeenPieces:
         return np.asarray(inner / np.maximum(whole, 1e-12))
 
 
-def _hung_at(mover: OpeningPart, low: FloatArray, high: FloatArray) -> OpeningPart:
+def _hung_at(mover: OpeningPart, panel: Panel, low: FloatArray, high: FloatArray) -> OpeningPart:
     """Return a panel in the outline [m] of its pieces, hinged there: a stated box may be off."""
-    panel = mover.panel
-    if panel is None:
-        return mover
     (left, bottom), (right, top) = off = np.array([low - panel.low, high - panel.high])
     if np.abs(off).max() > 2.0 * OFF * panel.size.max():
         return mover
