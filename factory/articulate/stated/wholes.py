@@ -104,7 +104,8 @@ class SeenPieces:
             own &= self._share_within(mover.region) >= ABOVE
         if shown[own].sum() < enough or own.all():
             return StatedWay(mover)
-        low, high = outlines.low[own].min(axis=0), outlines.high[own].max(axis=0)
+        low = outlines.low[own].min(axis=0)
+        high = outlines.high[own].max(axis=0)
         panel = mover.panel
         if panel is not None and np.allclose(panel.frame, part.view.side.frame):
             mover = _hung_at(mover, panel, low[:2], high[:2])
