@@ -8,12 +8,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from .handles import ALIKE, FEWEST, IN_ROW, LONGEST, Face, Protrusion
+from .handles import FEWEST, LONGEST, Face, Protrusion, are_beside
 from .rectangles import COVERED, Lines
 
-#: A strip ends above and below its knobs within so many times their size, along such a line.
+#: A strip ends above and below its knobs within so many times their size.
 STRIP = 4.0
-EDGE = 0.7
 
 
 def with_strips(face: Face, level: Lines, upright: Lines) -> Face:
@@ -28,18 +27,12 @@ def with_strips(face: Face, level: Lines, upright: Lines) -> Face:
     longest = LONGEST * max(face.height.shape)
     small = [handle for handle in face.handles if handle.size.max() <= longest]
     for one in small:
-        row = sorted((other for other in small if _level(one, other)), key=lambda h: h.center[1])
+        row = [other for other in small if are_beside(one, other, 0)]
+        row.sort(key=lambda handle: float(handle.center[1]))
         if len(row) >= FEWEST and _on_strip(row, level) and not _parted(row, upright):
             controls |= set(row)
     handles = (replace(h, control=True) if h in controls else h for h in face.handles)
     return replace(face, handles=tuple(handles))
-
-
-def _level(one: Protrusion, other: Protrusion) -> bool:
-    """Return whether two are of one size, side by side."""
-    sizes = sorted([float(one.size.max()), float(other.size.max())])
-    apart = abs(float(other.center[0] - one.center[0]))
-    return sizes[1] <= ALIKE * sizes[0] and apart <= IN_ROW * sizes[0]
 
 
 def _on_strip(row: Sequence[Protrusion], level: Lines) -> bool:
@@ -52,7 +45,7 @@ def _on_strip(row: Sequence[Protrusion], level: Lines) -> bool:
     start = np.array([int(row[0].low[1])])
     stop = np.array([int(row[-1].high[1])])
     return all(
-        bool((level.covered(np.flatnonzero(near), start, stop) >= EDGE).any())
+        bool((level.covered(np.flatnonzero(near), start, stop) >= COVERED).any())
         for near in (below, above)
     )
 

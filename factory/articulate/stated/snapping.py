@@ -71,10 +71,9 @@ def snap(front: Front, frame: StatedFrame, box: Box) -> Rectangle:
             if abs(ends[end, axis] - end) <= AT_OUTLINE:
                 placed[end, axis] = outline[end, axis]
             else:
-                at = _nearest_seam(
-                    lines[axis], stated[end, axis], reach[axis], int(start), int(stop)
+                placed[end, axis] = _nearest_seam(
+                    lines[axis], int(stated[end, axis]), reach[axis], int(start), int(stop)
                 )
-                placed[end, axis] = stated[end, axis] if at is None else at
         if (
             2 * np.ptp(placed[:, axis]) < np.ptp(stated[:, axis])
             or placed[0, axis] > placed[1, axis]
@@ -89,15 +88,18 @@ def snap(front: Front, frame: StatedFrame, box: Box) -> Rectangle:
     return Rectangle(placed[0], placed[1], np.array(relief))
 
 
-def _nearest_seam(lines: Lines, stated: int, reach: float, start: int, stop: int) -> int | None:
-    """Return the line within reach that covers an edge best, the nearer counting more."""
+def _nearest_seam(lines: Lines, stated: int, reach: float, start: int, stop: int) -> int:
+    """Return the line within reach that covers an edge best, the nearer counting more.
+
+    The edge stays where it was stated if there is none.
+    """
     away = np.abs(lines.at - stated)
     near = np.flatnonzero(away <= reach)
     if not len(near) or stop <= start:
-        return None
+        return stated
     cover = lines.covered(near, np.int64(start), np.int64(stop))  # type: ignore[arg-type]
     value = np.where(cover >= COVERED, cover * (1.0 - 0.5 * away[near] / reach), 0.0)
-    return int(lines.at[near[value.argmax()]]) if value.any() else None
+    return int(lines.at[near[value.argmax()]]) if value.any() else stated
 
 
 def _in_relief(lines: Lines, at: int, along: IntArray) -> float:
