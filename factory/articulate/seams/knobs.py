@@ -81,9 +81,9 @@ def _mover(relief: Relief, face: Face, knob: Protrusion) -> OpeningPart:
     rows, columns = (slice(int(a), int(b) + 1) for a, b in zip(knob.low, knob.high, strict=True))
     carrier = float(np.median(face.height[rows, columns]))
     back = raster.near - (carrier + MARGIN) * raster.pixel
-    low = raster.low[::-1] + (knob.low - MARGIN) * raster.pixel
-    high = raster.low[::-1] + (knob.high + MARGIN) * raster.pixel
-    height, across = (low + high) / 2.0
+    low = raster.low + (knob.low[::-1] - MARGIN) * raster.pixel
+    high = raster.low + (knob.high[::-1] + MARGIN) * raster.pixel
+    across, height = (low + high) / 2.0
     return OpeningPart(
         kind=PartKind.KNOB,
         region=box_before(raster.side, low, high, back),

@@ -64,13 +64,12 @@ def box_behind(side: Side, low: FloatArray, high: FloatArray) -> Region:
 
     Args:
         side: that is looked at.
-        low: up and to the right, shape [2].
+        low: to the right and up, shape [2].
         high: likewise.
     """
     right, up, _ = side.frame
-    return Region(
-        np.stack([right, -right, up, -up]), np.array([high[1], -low[1], high[0], -low[0]])
-    )
+    offsets = np.array([high[0], -low[0], high[1], -low[1]])
+    return Region(np.stack([right, -right, up, -up]), offsets)
 
 
 def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Region:
@@ -83,16 +82,16 @@ def edge_middle(low: FloatArray, high: FloatArray, way: OpensBy) -> FloatArray:
     """Return the middle of the edge at which a rectangle is hinged, or of all of it.
 
     Args:
-        low: up and to the right [m], shape [2].
+        low: to the right and up [m], shape [2].
         high: likewise.
         way: how it opens.
     """
     middle = (low + high) / 2.0
     places = {
-        OpensBy.LEFT: (middle[0], low[1]),
-        OpensBy.RIGHT: (middle[0], high[1]),
-        OpensBy.BOTTOM: (low[0], middle[1]),
-        OpensBy.TOP: (high[0], middle[1]),
+        OpensBy.LEFT: (low[0], middle[1]),
+        OpensBy.RIGHT: (high[0], middle[1]),
+        OpensBy.BOTTOM: (middle[0], low[1]),
+        OpensBy.TOP: (middle[0], high[1]),
     }
     return np.asarray(places.get(way, middle))
 
@@ -129,14 +128,13 @@ def panel_mover(
     behind = front.relief.depth
     raster = front.relief.raster
     right, up, away = raster.side.frame
-    low = raster.low[::-1] + panel.low * raster.pixel
-    high = raster.low[::-1] + panel.high * raster.pixel
+    low, high = panel.corners(raster)
     rim = raster.near + rim_depth(front, panel) * raster.pixel
     leaf = leaf_thickness(front, panel) if way is not OpensBy.OUT else None
     thickness = leaf or thickness_behind(fronts, side, panel, rim)
     back = rim + thickness if leaf is None else raster.near + behind
     region = box_before(raster.side, low, high, back)
-    height, across = edge_middle(low, high, way)
+    across, height = edge_middle(low, high, way)
     axis = {
         OpensBy.LEFT: -up,
         OpensBy.RIGHT: up,
@@ -156,5 +154,5 @@ def panel_mover(
         kind=KINDS[way],
         region=region,
         motion=motion,
-        panel=Panel(raster.side.frame, low[::-1], high[::-1], rim, thickness, way),
+        panel=Panel(raster.side.frame, low, high, rim, thickness, way),
     )

@@ -57,17 +57,18 @@ def _control(part: StatedBox) -> OpeningPart:
     right, up, away = raster.side.frame
     carrier, standing = _standing(part)
     back = raster.near - (carrier + MARGIN) * raster.pixel
-    low = raster.low[::-1] + (box.low - MARGIN) * raster.pixel
-    high = raster.low[::-1] + (box.high + MARGIN) * raster.pixel
+    low, high = part.corners
+    low = low - MARGIN * raster.pixel
+    high = high + MARGIN * raster.pixel
     way = part.hinged(EDGES, "for a lever") if kind is PartKind.LEVER else None
-    height, across = edge_middle(low, high, way or OpensBy.OUT)
+    across, height = edge_middle(low, high, way or OpensBy.OUT)
     if kind is PartKind.WHEEL and standing.any():
         rows, columns = np.nonzero(standing)
-        height = low[0] + (rows.mean() + MARGIN) * raster.pixel
-        across = low[1] + (columns.mean() + MARGIN) * raster.pixel
+        across = low[0] + (columns.mean() + MARGIN) * raster.pixel
+        height = low[1] + (rows.mean() + MARGIN) * raster.pixel
     origin = across * right + height * up + back * away
     # What is drawn to the outline has its thinnest ends too.
-    ends = np.array(part.view.box).reshape(2, 2)[:, ::-1]
+    ends = np.array(part.view.box).reshape(2, 2)
     low = np.where(ends[0] <= AT_OUTLINE, -np.inf, low)
     high = np.where(ends[1] >= 1.0 - AT_OUTLINE, np.inf, high)
     if _depth_is_bounded(part):
@@ -125,17 +126,14 @@ def _parting(values: FloatArray) -> float:
 def _cap(part: StatedBox) -> OpeningPart:
     """Return all that is above the lower edge of a cap's box, turning about its middle."""
     raster = part.front.relief.raster
-    box = part.rectangle
     right, up, away = raster.side.frame
-    height, across = raster.low[::-1] + box.low * raster.pixel
-    middle = raster.low[0] + float(box.low[1] + box.high[1]) / 2.0 * raster.pixel
-    rows, columns = box.window
-    nearest = float(part.front.face.height[rows, columns].max())
-    width = float(box.high[1] - box.low[1]) / 2.0
-    depth = raster.near + (width - nearest) * raster.pixel
-    origin = middle * right + height * up + depth * away
+    low, high = part.corners
+    middle = (low[0] + high[0]) / 2.0
+    nearest = float(part.front.face.height[part.rectangle.window].max())
+    depth = raster.near + (high[0] - low[0]) / 2.0 - nearest * raster.pixel
     region = Region(
         np.stack([-up, right, -right]),
-        np.array([-height, 2.0 * middle - across, -across]),
+        np.array([-low[1], high[0], -low[0]]),
     )
+    origin = middle * right + low[1] * up + depth * away
     return OpeningPart(part.kind, region, Motion.endless(UP, origin))

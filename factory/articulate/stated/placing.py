@@ -208,8 +208,7 @@ def _likeliest_first(part: StatedBox, boxed: Sequence[StatedBox]) -> tuple[Opens
 def _as_stated(mover: OpeningPart, part: StatedBox, mesh: Mesh) -> OpeningPart:
     """Return a part with the limits and depth that were stated, in the mesh's frame."""
     for view in part.stated.also:
-        low, high = StatedFrame.of(mesh, view.side).place(view.box)
-        bounds = box_behind(view.side, low[::-1], high[::-1])
+        bounds = box_behind(view.side, *StatedFrame.of(mesh, view.side).place(view.box))
         mover = replace(mover, region=mover.region.within(bounds))
     if mover.kind in (PartKind.LID, PartKind.SCREEN) and mover.panel is None:
         mover = hinged_inside(mover)
