@@ -12,11 +12,11 @@ import numpy as np
 from ...articulation import Articulation, rotation_about
 from ...config import BuildConfig
 from ...errors import InputRejected
-from ...geometry.posing import posed
+from ...geometry.posing import UP, posed
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
 from ...intake.stated import Stated, StatedPart
-from ...mesh import BoolArray, FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, IntArray, Mesh
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, HypothesisMaker, make_hypotheses
 from ..assembly import assembled
@@ -79,7 +79,7 @@ class StatedArticulator(HypothesisMaker):
         wanted = count_expected(self.stated.parts)
         if wanted:
             return self._filled(mesh, wanted)
-        placed = _placed(self._seen or seen_from(mesh, self.stated.front), self.stated)
+        placed = self._placed_on(mesh)
         chosen = list(islice(_with_cut(_choices(placed)), MOST_HYPOTHESES))
         cut = cut_along(mesh, chain.from_iterable(_to_cut(ways) for ways in chosen))
         return tuple(Hypothesis(self._articulation(cut, placed, ways)) for ways in chosen)
@@ -92,9 +92,12 @@ class StatedArticulator(HypothesisMaker):
         """
         if not guess.movable_joints:
             return self.hypotheses(guess.mesh)
-        seen = self._seen or seen_from(guess.mesh, self.stated.front)
-        placed = _placed(seen, self.stated)
-        return self._beside(Expected(guess, placed, guess.joints))
+        return self._beside(Expected(guess, self._placed_on(guess.mesh), guess.joints))
+
+    def _placed_on(self, mesh: Mesh) -> list[Placed]:
+        """Return the stated parts that have a place, found on a mesh."""
+        seen = self._seen or seen_from(mesh, self.stated.front)
+        return place_parts(seen, self.stated.parts)
 
     def _beside(self, each: Expected) -> tuple[Hypothesis, ...]:
         """Return the placed parts beside those wanted of a guess, cut from the guess's mesh."""
@@ -115,12 +118,7 @@ class StatedArticulator(HypothesisMaker):
                 "every part, or an articulator that looks for it, as auto does",
             )
         guesses = [each.articulation for each in make_hypotheses(self.guess, mesh)]
-        found = [
-            find_expected(
-                guess, wanted, _placed(seen_from(guess.mesh, self.stated.front), self.stated)
-            )
-            for guess in guesses
-        ]
+        found = [find_expected(each, wanted, self._placed_on(each.mesh)) for each in guesses]
         made: list[Hypothesis] = []
         for each in require_some(found, wanted):
             made += (Hypothesis(each.guess),) if each.is_whole else self._beside(each)
@@ -205,20 +203,8 @@ def _refuse_other_size(mesh: Mesh, stated: Stated) -> None:
 
 def seen_from(mesh: Mesh, front: str) -> SeenMesh:
     """Return a mesh turned so that a stated front is -Y."""
-    return SeenMesh(mesh.turned(_turn(front)))
-
-
-def _turn(front: str) -> FloatArray:
-    return rotation_about([0.0, 0.0, 1.0], _TURNS[front] * np.pi / 2.0)
-
-
-def _placed(seen: SeenMesh, stated: Stated) -> list[Placed]:
-    """Return the stated parts, found on the turned mesh, turned back."""
-    back = _turn(stated.front).T
-    return [
-        replace(each, ways=tuple(way.turned(back) for way in each.ways))
-        for each in place_parts(seen, stated.parts)
-    ]
+    turn = rotation_about(UP, _TURNS[front] * np.pi / 2.0)
+    return SeenMesh(mesh.turned(turn), turn.T)
 
 
 def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedWay, ...]]:

@@ -12,7 +12,7 @@ from ...articulation import JointKind
 from ...errors import InputRejected
 from ...geometry.components import connected_components
 from ...intake.stated import Hinge, StatedPart, StatedView
-from ...mesh import IntArray, Mesh
+from ...mesh import FloatArray, IntArray, Mesh
 from ...part import OpensBy, PartKind
 from ...views.raster import Side
 from ...views.view import Views
@@ -43,9 +43,11 @@ class SeenMesh:
 
     Attributes:
         mesh: whose front is -Y.
+        back: rotation of the mesh to where its front was stated to be, shape [3, 3].
     """
 
     mesh: Mesh
+    back: FloatArray
 
     @cached_property
     def pieces(self) -> SeenPieces:
@@ -87,7 +89,7 @@ class Placed:
 
 
 def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
-    """Return every stated part that has a box, found on a mesh.
+    """Return every stated part that has a box, found on a mesh, where its front was stated to be.
 
     Raises:
         InputRejected: ``stated_part_not_found``: a box shows nothing, or two take the same place.
@@ -119,7 +121,8 @@ def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
                         replace(way, cut=_as_stated(mover.turned(turn.T), cut, mesh))
                         for way, mover in zip(ways, movers, strict=True)
                     ]
-                found[cut.place] = Placed(cut.stated, cut.label, tuple(ways), pieces.of_faces)
+                back = tuple(way.turned(seen.back) for way in ways)
+                found[cut.place] = Placed(cut.stated, cut.label, back, pieces.of_faces)
     return [found[place] for place in sorted(found)]
 
 
