@@ -15,8 +15,8 @@ from .rectangles import COVERED, Lines
 STRIP = 4.0
 
 
-def with_strips(face: Face, level: Lines, upright: Lines) -> Face:
-    """Return a face whose knobs on one strip without a seam between them are controls.
+def with_strips(face: Face, level: Lines, upright: Lines) -> tuple[Protrusion, ...]:
+    """Return a face's handles; knobs on one strip without a seam between them are controls.
 
     Args:
         face: a side without handles.
@@ -31,8 +31,7 @@ def with_strips(face: Face, level: Lines, upright: Lines) -> Face:
         row.sort(key=lambda handle: float(handle.center[1]))
         if len(row) >= FEWEST and _on_strip(row, level) and not _parted(row, upright):
             controls |= set(row)
-    handles = (replace(h, control=True) if h in controls else h for h in face.handles)
-    return replace(face, handles=tuple(handles))
+    return tuple(replace(h, control=True) if h in controls else h for h in face.handles)
 
 
 def _on_strip(row: Sequence[Protrusion], level: Lines) -> bool:

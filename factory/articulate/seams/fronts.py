@@ -54,7 +54,8 @@ class Front:
     @cached_property
     def pulls(self) -> tuple[Protrusion, ...]:
         """Return the handles that are no controls, such as knobs on one strip."""
-        return with_strips(self.face, self.level, self.upright).pulls
+        told = with_strips(self.face, self.level, self.upright)
+        return tuple(handle for handle in told if not handle.control)
 
     def handles_in(self, rectangle: Rectangle) -> tuple[Protrusion, ...]:
         """Return the pulls in a rectangle, the most prominent first."""

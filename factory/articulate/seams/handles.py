@@ -96,11 +96,6 @@ class Face:
     covered: BoolArray
     handles: tuple[Protrusion, ...]
 
-    @property
-    def pulls(self) -> tuple[Protrusion, ...]:
-        """Return the handles that are no controls."""
-        return tuple(handle for handle in self.handles if not handle.control)
-
 
 def cleared(relief: Relief) -> Face:
     """Take handles off a relief, the thin ones first.

@@ -28,7 +28,7 @@ def test_knobs_far_apart_on_one_strip_turn_unless_seams_part_them(parted, wanted
     face = Face(np.zeros((120, 200)), np.zeros((120, 200), np.bool_), knobs)
     level = lines([75, 110], 200)
     upright = lines([60, 130] if parted else [], 120)
-    assert all(each.control is wanted for each in with_strips(face, level, upright).handles)
+    assert all(each.control is wanted for each in with_strips(face, level, upright))
 
 
 @pytest.mark.parametrize(
