@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from .handles import FEWEST, LONGEST, Face, Protrusion, are_beside
+from .handles import ALIKE, FEWEST, IN_ROW, LONGEST, Face, Protrusion
 from .rectangles import COVERED, Lines
 
 #: A strip ends above and below its knobs within so many times their size.
@@ -27,11 +27,17 @@ def with_strips(face: Face, level: Lines, upright: Lines) -> tuple[Protrusion, .
     longest = LONGEST * max(face.height.shape)
     small = [handle for handle in face.handles if handle.size.max() <= longest]
     for one in small:
-        row = [other for other in small if are_beside(one, other, 0)]
-        row.sort(key=lambda handle: float(handle.center[1]))
+        row = sorted((other for other in small if _level(one, other)), key=lambda h: h.center[1])
         if len(row) >= FEWEST and _on_strip(row, level) and not _parted(row, upright):
             controls |= set(row)
     return tuple(replace(h, control=True) if h in controls else h for h in face.handles)
+
+
+def _level(one: Protrusion, other: Protrusion) -> bool:
+    """Return whether two are of one size, side by side."""
+    sizes = sorted([float(one.size.max()), float(other.size.max())])
+    apart = abs(float(other.center[0] - one.center[0]))
+    return sizes[1] <= ALIKE * sizes[0] and apart <= IN_ROW * sizes[0]
 
 
 def _on_strip(row: Sequence[Protrusion], level: Lines) -> bool:

@@ -206,7 +206,7 @@ def _with_controls(found: list[Protrusion], relief: Relief) -> tuple[Protrusion,
     for handle in found:
         fewest = FEWEST if _is_round(handle) else FEWEST_LONG
         for along, spacing in enumerate(_spacings(handle, relief)):
-            row = [j for j, other in enumerate(found) if are_beside(handle, other, along)]
+            row = [j for j, other in enumerate(found) if _beside(handle, other, along)]
             if len(row) >= fewest and _close(found, row, 1 - along, spacing):
                 controls |= set(row)
     return tuple(replace(h, control=i in controls) for i, h in enumerate(found))
@@ -226,8 +226,7 @@ def _spacings(handle: Protrusion, relief: Relief) -> tuple[float, float]:
     return SPACING_LONG, SPACING_LONG if above else 0.0
 
 
-def are_beside(one: Protrusion, other: Protrusion, along: int) -> bool:
-    """Tell whether two are alike and side by side in a row (0), or in a column (1)."""
+def _beside(one: Protrusion, other: Protrusion, along: int) -> bool:
     apart = abs(float(other.center[along] - one.center[along]))
     ratio = other.size / one.size
     alike = bool((ratio >= 1.0 / ALIKE).all() and (ratio <= ALIKE).all())
