@@ -61,11 +61,6 @@ class SeenPieces:
         self._areas = face_areas(views.mesh)
         self._outlines: dict[Side, PieceOutlines] = {}
 
-    @property
-    def several(self) -> bool:
-        """Tell whether the mesh has more than one."""
-        return bool(self.of_faces.any())
-
     def seen_from(self, side: Side) -> PieceOutlines:
         """Return what one side shows of them."""
         if side not in self._outlines:
@@ -74,8 +69,6 @@ class SeenPieces:
 
     def way(self, mover: OpeningPart, part: StatedBox) -> StatedWay:
         """Return a part with the pieces that it is made of, if it is some pieces."""
-        if not self.several:
-            return StatedWay(mover)
         outlines = self.seen_from(part.view.side)
         low, high = part.corners
         shown = outlines.shown(low, high)
@@ -131,7 +124,7 @@ class SeenPieces:
         Returns:
             ``None`` where no piece has such an outline, or there is but one piece.
         """
-        if not self.several:
+        if not self.of_faces.any():
             return None
         outlines = self.seen_from(side)
         boxes = outlines.ends[..., :2].swapaxes(0, 1)
