@@ -89,7 +89,7 @@ def _agreeing(found: Sequence[FloatArray], front: Front) -> float | None:
 
 def _beside(fronts: Mapping[Side, Front], side: Side, panel: Rectangle) -> list[Front]:
     """Return the sides that a panel reaches."""
-    _, _, first, last = fronts[side].relief.box
+    first, last = fronts[side].relief.box[:, 1]
     right = side.frame[0]
     at_left = int(panel.low[1]) - first <= AT_OUTLINE
     at_right = last - int(panel.high[1]) <= AT_OUTLINE

@@ -42,14 +42,14 @@ class Front:
     @cached_property
     def level(self) -> Lines:
         """Return the candidates for horizontal lines."""
-        first, last, _, _ = self.relief.box
-        return lines_of(seams_of(self.relief, self.face, upright=False), first, last)
+        seams = seams_of(self.relief, self.face, upright=False)
+        return lines_of(seams, *self.relief.box[:, 0].tolist())
 
     @cached_property
     def upright(self) -> Lines:
         """Return the candidates for vertical lines."""
-        _, _, first, last = self.relief.box
-        return lines_of(seams_of(self.relief, self.face, upright=True), first, last)
+        seams = seams_of(self.relief, self.face, upright=True)
+        return lines_of(seams, *self.relief.box[:, 1].tolist())
 
     @cached_property
     def pulls(self) -> tuple[Protrusion, ...]:
@@ -68,8 +68,8 @@ class Front:
 
     def rectangles(self) -> tuple[Rectangle, ...]:
         """Return those that are closed by seams, the best first."""
-        first_row, last_row, first_column, last_column = self.relief.box
-        shortest = SHORTEST * min(last_row - first_row, last_column - first_column)
+        first, last = self.relief.box
+        shortest = SHORTEST * float((last - first).min())
         return rectangles_of(self.level, self.upright, shortest)
 
 

@@ -50,20 +50,18 @@ class Relief:
         return self.raster.rows, self.raster.columns
 
     @cached_property
-    def box(self) -> tuple[int, int, int, int]:
-        """Return first and last row, first and last column with a surface.
+    def box(self) -> IntArray:
+        """Return first and last row and column with a surface, shape [2, 2].
 
         Without slivers that stick out: the ground that an object stands on, a handle, an antenna.
         """
-        first_row, last_row = _extent(self.seen.sum(axis=1))
-        first_column, last_column = _extent(self.seen.sum(axis=0))
-        return first_row, last_row, first_column, last_column
+        ends = [_extent(self.seen.sum(axis=across)) for across in (1, 0)]
+        return np.stack(ends, axis=1)
 
 
-def _extent(counts: IntArray) -> tuple[int, int]:
-    """Return first and last row that is more than a sliver."""
-    large = np.flatnonzero(counts > SLIVER * counts.max())
-    return int(large[0]), int(large[-1])
+def _extent(counts: IntArray) -> IntArray:
+    """Return first and last row that is more than a sliver, shape [2]."""
+    return np.flatnonzero(counts > SLIVER * counts.max())[[0, -1]]
 
 
 def reliefs_of(views: Views) -> dict[Side, Relief]:

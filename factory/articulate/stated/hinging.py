@@ -32,7 +32,7 @@ def upright_edge(part: StatedBox, panels: Sequence[StatedBox]) -> OpensBy:
     if handle is not None:
         return OpensBy.LEFT if handle[1] >= 0.0 else OpensBy.RIGHT
     own = part.rectangle
-    left, right = part.front.relief.box[2:]
+    left, right = part.front.relief.box[:, 1]
     middle = (own.low[1] + own.high[1]) / 2.0
     place = float(np.clip((middle - left) / max(right - left, 1), 0.0, 1.0))
     for_left = PLACE * (1.0 - 2.0 * place)

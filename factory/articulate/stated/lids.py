@@ -54,7 +54,7 @@ def _opening(
     right, up, _ = raster.side.frame
     row = int(part.rectangle.low[0])
     height = raster.low[1] + row * raster.pixel
-    _, _, left, last = front.relief.box
+    left, last = front.relief.box[:, 1]
     across = raster.low[0] + (left + last) / 2.0 * raster.pixel
     end = _end(front if part.stated.drawn is None else fronts[OPPOSITE[hinge]], row, bounds)
     return OpeningPart(
@@ -70,9 +70,7 @@ def _bounds(part: StatedBox) -> Region:
     raster = relief.raster
     low = part.rectangle.low
     high = part.rectangle.high
-    first_row, last_row, first, last = relief.box
-    off_rows = OFF * (last_row - first_row)
-    off_columns = OFF * (last - first)
+    off_rows, off_columns = OFF * (relief.box[1] - relief.box[0])
     above = relief.seen[low[0] + 1 :]
     right, up, _ = raster.side.frame
     planes = []

@@ -59,8 +59,7 @@ def snap(front: Front, frame: StatedFrame, box: Box) -> Rectangle:
     corners = (frame.place(box) - raster.low) / raster.pixel
     stated = np.rint(corners[:, ::-1]).astype(np.int64)
     reach = np.maximum(OFF * frame.size[::-1] / raster.pixel, LEAST_OFF)
-    first_row, last_row, first_column, last_column = front.relief.box
-    outline = np.array([[first_row, first_column], [last_row, last_column]])
+    outline = front.relief.box
     stated = np.clip(stated, outline[0], outline[1])
     lines = (front.level, front.upright)
     ends = np.array(box).reshape(2, 2)[:, ::-1]
