@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -213,58 +214,56 @@ def concatenate(meshes: list[Mesh]) -> Mesh:
     """
     if not meshes:
         raise ValueError("concatenate: no meshes")
-    gathered = _Gathered()
+    materials = list(dict.fromkeys(each for mesh in meshes for each in mesh.materials))
+    place = {material: number for number, material in enumerate(materials)}
+    names = distinct_names(each.name for each in materials)
+    counts = [len(mesh.faces) for mesh in meshes]
     face_material: list[IntArray] = []
     vertex_offset = 0
     faces = []
     for mesh in meshes:
-        local = np.array([gathered.index(m) for m in mesh.materials], dtype=np.int64)
+        local = np.array([place[each] for each in mesh.materials], dtype=np.int64)
         face_material.append(local[mesh.face_material])
         faces.append(mesh.faces + vertex_offset)
         vertex_offset += len(mesh.vertices)
     return Mesh(
         vertices=np.concatenate([m.vertices for m in meshes]),
         faces=np.concatenate(faces),
-        corner_uv=_concatenate_corners([m.corner_uv for m in meshes], meshes, 2),
-        corner_normals=_concatenate_corners([m.corner_normals for m in meshes], meshes, 3),
+        corner_uv=stack_corners([m.corner_uv for m in meshes], counts, 2),
+        corner_normals=stack_corners([m.corner_normals for m in meshes], counts, 3),
         face_material=np.concatenate(face_material),
-        materials=tuple(gathered.materials),
+        materials=tuple(
+            replace(each, name=name) for each, name in zip(materials, names, strict=True)
+        ),
     )
 
 
-class _Gathered:
-    """The materials of several meshes, equal ones once, different ones of one name told apart."""
-
-    def __init__(self) -> None:
-        self.materials: list[Material] = []
-        self._index_of: dict[Material, int] = {}
-        self._names: set[str] = set()
-        self._reached: dict[str, int] = {}
-
-    def index(self, material: Material) -> int:
-        """Return where the material is among all."""
-        if material not in self._index_of:
-            # Thousands of one name would else count from one again and again.
-            name = material.name
-            number = self._reached.get(material.name, 1)
-            while name in self._names:
-                number += 1
-                name = f"{material.name}_{number}"
-            self._reached[material.name] = number
-            self._names.add(name)
-            self._index_of[material] = len(self.materials)
-            self.materials.append(Material(name, material.color, material.texture))
-        return self._index_of[material]
-
-
-def _concatenate_corners(
-    values: list[FloatArray | None], meshes: list[Mesh], width: int
+def stack_corners(
+    pieces: Sequence[FloatArray | None], counts: Sequence[int], width: int
 ) -> FloatArray | None:
-    if all(v is None for v in values):
+    """Join pieces' corner attributes, NaN for a piece without; ``None`` if all are without."""
+    if all(piece is None for piece in pieces):
         return None
-    return np.concatenate(
-        [
-            np.full((len(m.faces), 3, width), np.nan) if v is None else v
-            for v, m in zip(values, meshes, strict=True)
-        ]
-    )
+    filled = [
+        np.full((count, 3, width), np.nan) if piece is None else piece
+        for piece, count in zip(pieces, counts, strict=True)
+    ]
+    return np.concatenate(filled)
+
+
+def distinct_names(names: Iterable[str], taken: Iterable[str] = ()) -> list[str]:
+    """Return names, told apart by a number from earlier ones and from those that are taken."""
+    used = set(taken)
+    reached: dict[str, int] = {}
+    result = []
+    for given in names:
+        # Thousands of one name would else count from one again and again.
+        name = given
+        number = reached.get(given, 1)
+        while name in used:
+            number += 1
+            name = f"{given}_{number}"
+        reached[given] = number
+        used.add(name)
+        result.append(name)
+    return result

@@ -16,7 +16,7 @@ from ..errors import InputRejected, InvalidArticulation
 from ..intake.annotation import AnnotatedJoint, Annotation
 from ..intake.importers.prediction import read_prediction
 from ..intake.intake import Intake
-from ..mesh import FloatArray, IntArray, Mesh, read_only
+from ..mesh import FloatArray, IntArray, Mesh, distinct_names, read_only
 from ..part import Proposer
 from .coupling import moving_together, resting_values, with_common_motion, with_sound_mimics
 from .draft import Draft, ordered
@@ -77,6 +77,8 @@ class AnnotatedArticulator:
         lenient: a slide whose limits are missing gets usual ones, instead of a rejection.
     """
 
+    name = "annotated"
+
     annotation: Annotation
     transform: FloatArray
     source_faces: IntArray
@@ -89,11 +91,6 @@ class AnnotatedArticulator:
         scale = self.scale
         if not scale > 0.0 or not np.allclose(linear @ linear.T / scale**2, np.eye(3), atol=1e-6):
             raise ValueError("transform: want a rotation with a uniform, positive scale")
-
-    @property
-    def name(self) -> str:
-        """Return ``annotated``."""
-        return "annotated"
 
     @property
     def scale(self) -> float:
@@ -308,21 +305,8 @@ def _usable(value: float | None) -> float | None:
 
 def _unique(names: list[str], fallback: str) -> list[str]:
     """Return names of allowed characters, with numbers where they are equal or reserved."""
-    taken = {RESERVED_PART_NAME}
-    reached: dict[str, int] = {}
-    result = []
-    for name in names:
-        clean = re.sub(r"[^A-Za-z0-9_.-]", "_", name[:LONGEST_NAME]) or fallback
-        # Thousands of one name would else count from one again and again.
-        unique = clean
-        number = reached.get(clean, 1)
-        while unique in taken:
-            number += 1
-            unique = f"{clean}_{number}"
-        reached[clean] = number
-        taken.add(unique)
-        result.append(unique)
-    return result
+    clean = (re.sub(r"[^A-Za-z0-9_.-]", "_", name[:LONGEST_NAME]) or fallback for name in names)
+    return distinct_names(clean, (RESERVED_PART_NAME,))
 
 
 def _finished(draft: Draft, articulator: str) -> Articulation:

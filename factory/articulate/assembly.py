@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 
 import numpy as np
@@ -47,7 +47,7 @@ def assembled(
     joints: list[Joint] = []
     notes: list[str] = []
     order = _parents_first(held)
-    names = numbered(proposals[number - 1].kind for number in order)
+    names = _names([proposals[number - 1] for number in order])
     for number, name in zip(order, names, strict=True):
         proposal = proposals[number - 1]
         if proposal.slide is not None:
@@ -102,11 +102,18 @@ def _parents_first(hosts: Sequence[int]) -> list[int]:
     return order
 
 
-def numbered(labels: Iterable[str]) -> list[str]:
-    """Return each label with its number among those alike: ``door_0``, ``door_1``, ``lid_0``."""
+def _names(proposals: Sequence[Proposal]) -> list[str]:
+    """Return the parts' names: as stated, else kinds with numbers that make no stated name.
+
+    For example ``door_0``, ``door_1``, ``lid_0``.
+    """
+    stated = {proposal.name for proposal in proposals}
     count: Counter[str] = Counter()
     names = []
-    for label in labels:
-        names.append(f"{label}_{count[label]}")
-        count[label] += 1
+    for proposal in proposals:
+        name = proposal.name
+        while name is None or (proposal.name is None and name in stated):
+            name = f"{proposal.kind}_{count[proposal.kind]}"
+            count[proposal.kind] += 1
+        names.append(name)
     return names

@@ -82,26 +82,21 @@ def ordered(draft: Draft, forest: bool) -> Draft:
             )
         holder[joint.child] = joint
     roots = [part for part in range(len(draft.names)) if part not in holder]
-    _refuse_cycles(draft, roots)
+    joints = _parents_first(draft.joints, roots)
+    stuck = holder.keys() - {joint.child for joint in joints}
+    if stuck:
+        listed = ", ".join(repr(draft.names[part]) for part in sorted(stuck))
+        raise InputRejected(
+            "not_a_tree", f"parts {listed} form a cycle; want one tree from one root"
+        )
     if len(roots) <= 1:
-        return replace(draft, joints=_parents_first(draft.joints, roots))
+        return replace(draft, joints=joints)
     if not forest:
         listed = ", ".join(repr(draft.names[part]) for part in roots[:5])
         raise InputRejected(
             "not_a_tree", f"{len(roots)} parts have no parent ({listed}); want one root"
         )
-    return _attached(draft, roots)
-
-
-def _refuse_cycles(draft: Draft, roots: list[int]) -> None:
-    held = {joint.child for joint in _parents_first(draft.joints, roots)}
-    stuck = [
-        repr(draft.names[p]) for p in range(len(draft.names)) if p not in held and p not in roots
-    ]
-    if stuck:
-        raise InputRejected(
-            "not_a_tree", f"parts {', '.join(stuck)} form a cycle; want one tree from one root"
-        )
+    return _attached(replace(draft, joints=joints), roots)
 
 
 def _parents_first(joints: tuple[Joint, ...], roots: list[int]) -> tuple[Joint, ...]:
@@ -119,11 +114,12 @@ def _parents_first(joints: tuple[Joint, ...], roots: list[int]) -> tuple[Joint, 
 
 
 def _attached(draft: Draft, roots: list[int]) -> Draft:
+    """Return ordered trees as one: the largest, to which the roots of the others are fixed."""
+
     def size(root: int) -> tuple[int, int, int]:
-        tree = draft_ordered.subtree(root)
+        tree = draft.subtree(root)
         return len(tree), int(np.isin(draft.face_part, list(tree)).sum()), -root
 
-    draft_ordered = replace(draft, joints=_parents_first(draft.joints, roots))
     main = max(roots, key=size)
     others = [root for root in roots if root != main]
     fixed = tuple(

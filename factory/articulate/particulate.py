@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from ..articulation import Articulation, Joint, Part, Weights
+from ..articulation import Articulation, Weights
 from ..config import BuildConfig, ParticulateConfig
 from ..geometry.posing import UP
 from ..intake.annotation import AnnotatedJoint, Annotation
@@ -50,14 +50,11 @@ class ParticulateArticulator:
         config: how the mesh is shown and the answer read.
     """
 
+    name = "particulate"
+
     network: Network
     weights: tuple[Weights, ...]
     config: ParticulateConfig
-
-    @property
-    def name(self) -> str:
-        """Return ``particulate``."""
-        return "particulate"
 
     def articulate(self, mesh: Mesh) -> Articulation:
         """Return the predicted tree over ``mesh`` [m], z up, with a confidence per part and joint.
@@ -83,16 +80,10 @@ class ParticulateArticulator:
             for name in (f"joint_{child}", f"joint_{child}_turn", f"joint_{child}_slide")
         }
 
-        def rated_part(part: Part) -> Part:
-            return replace(part, confidence=sure.get(part.name))
-
-        def rated_joint(joint: Joint) -> Joint:
-            return replace(joint, confidence=moved.get(joint.name) if joint.movable else None)
-
         rated = replace(
             plain,
-            parts=tuple(rated_part(part) for part in plain.parts),
-            joints=tuple(rated_joint(joint) for joint in plain.joints),
+            parts=tuple(replace(each, confidence=sure.get(each.name)) for each in plain.parts),
+            joints=tuple(replace(each, confidence=moved.get(each.name)) for each in plain.joints),
             articulator=self.name,
             notes=(*_notes(found), *plain.notes),
             weights=self.weights,

@@ -64,6 +64,7 @@ class Proposal:
         panel: as in :class:`~asset_factory.factory.part.Part`, as far as it is known.
         existence: probability that there is such a part, 0 to 1; ``None`` if nobody rated it.
         probability: that there is such a part and that it moves so, likewise.
+        name: of the part, where somebody says it; one of its own.
     """
 
     kind: PartKind
@@ -76,6 +77,7 @@ class Proposal:
     panel: Panel | None = None
     existence: float | None = None
     probability: float | None = None
+    name: str | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "kind", PartKind(self.kind))

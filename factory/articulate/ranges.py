@@ -9,7 +9,7 @@ import numpy as np
 
 from ..articulation import Joint, JointKind
 from ..errors import InputRejected
-from ..geometry.rows import distinct_rows
+from ..geometry.posing import moved
 from ..mesh import BoolArray, FloatArray, Mesh
 from .draft import Draft
 
@@ -121,8 +121,8 @@ def with_zero_inside(draft: Draft, values: dict[str, float]) -> Draft:
                 upper=joint.upper - shift,
             )
         )
-    moved = replace(draft, mesh=_posed(draft, poses), joints=tuple(joints))
-    return moved.noting(*notes)
+    mesh = moved(draft.mesh, draft.face_part, poses)
+    return replace(draft, mesh=mesh, joints=tuple(joints)).noting(*notes)
 
 
 def without_still_joints(draft: Draft) -> Draft:
@@ -242,20 +242,3 @@ def box_volumes(
         extents.append(np.ptp(np.concatenate([rest, moved]), axis=0))
     thick = np.array(extents) + 0.01 * np.linalg.norm(extents, axis=1, keepdims=True)
     return np.asarray(thick.prod(axis=1))
-
-
-def _posed(draft: Draft, poses: FloatArray) -> Mesh:
-    """Return the mesh with every part moved; vertices shared between parts are told apart."""
-    mesh = draft.mesh
-    part = np.repeat(draft.face_part[:, None], 3, axis=1)
-    keys = np.stack([mesh.faces.ravel(), part.ravel()], axis=1)
-    first, index = distinct_rows(keys)
-    unique = keys[first]
-    pose = poses[unique[:, 1]]
-    vertices = (
-        np.einsum("nij,nj->ni", pose[:, :3, :3], mesh.vertices[unique[:, 0]]) + pose[:, :3, 3]
-    )
-    normals = mesh.corner_normals
-    if normals is not None:
-        normals = np.einsum("nij,nkj->nki", poses[draft.face_part][:, :3, :3], normals)
-    return replace(mesh, vertices=vertices, faces=index.reshape(-1, 3), corner_normals=normals)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
-from ..articulation import Articulation, Joint, Part, Weights
+from ..articulation import Articulation
 from ..config import BuildConfig
 from ..errors import ConfigError, InputRejected
 from ..intake.intake import Intake
-from ..mesh import FloatArray, IntArray, Mesh
+from ..mesh import Material, Mesh
 from ..models.weights.sources import fetch
 from ..runtime.keys import Stage
 from ..runtime.stages import Stages
@@ -102,46 +102,6 @@ def _nothing_moves(name: str, why: str) -> InputRejected:
     return InputRejected("no_movable_joint", message, value=0.0, unit="joints", limit=1.0)
 
 
-@dataclass(frozen=True)
-class _Surface:
-    """A mesh of the articulator's own, moved or cut along its parts; materials are the input's."""
-
-    vertices: FloatArray
-    faces: IntArray
-    corner_uv: FloatArray | None
-    corner_normals: FloatArray | None
-    face_material: IntArray
-
-    @classmethod
-    def of(cls, mesh: Mesh) -> _Surface:
-        return cls(**{field.name: getattr(mesh, field.name) for field in fields(cls)})
-
-    def on(self, mesh: Mesh) -> Mesh:
-        return replace(mesh, **vars(self))
-
-
-#: All of an articulation but its mesh.
-SAID = tuple(field.name for field in fields(Articulation) if field.name != "mesh")
-
-
-@dataclass(frozen=True)
-class _Tree:
-    """An articulation without the mesh that it was given.
-
-    Attributes:
-        own: the mesh's surface, where a joint's range leaves out the input's pose, so that the
-            articulator moved it, or where the articulator cut triangles along its parts.
-    """
-
-    parts: tuple[Part, ...]
-    joints: tuple[Joint, ...]
-    articulator: str
-    notes: tuple[str, ...]
-    weights: tuple[Weights, ...]
-    looks_like: str | None
-    own: _Surface | None
-
-
 def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis, ...]:
     """Return what :func:`hypotheses_of` does, with the settings of ``stages``, and remember it.
 
@@ -155,21 +115,18 @@ def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis,
     """
     config = stages.config
 
-    def trees() -> tuple[_Tree, ...]:
-        return tuple(_tree(made, intake) for made in hypotheses_of(intake, config))
+    # Textures are kept once, with the input.
+    nameless = (Material("input"),) * len(intake.mesh.materials)
 
-    kept = stages.recall("articulate", tuple[_Tree, ...], ARTICULATE.key(config, loaded), trees)
-    return tuple(_grown(tree, intake) for tree in kept)
+    def made() -> tuple[Articulation, ...]:
+        found = hypotheses_of(intake, config)
+        return tuple(_painted(each.articulation, nameless) for each in found)
 
-
-def _tree(made: Hypothesis, intake: Intake) -> _Tree:
-    tree = made.articulation
-    own = None if tree.mesh is intake.mesh else _Surface.of(tree.mesh)
-    said = {name: getattr(tree, name) for name in SAID}
-    return _Tree(**said, own=own)
+    key = ARTICULATE.key(config, loaded)
+    kept = stages.recall("articulate", tuple[Articulation, ...], key, made)
+    return tuple(Hypothesis(_painted(each, intake.mesh.materials)) for each in kept)
 
 
-def _grown(tree: _Tree, intake: Intake) -> Hypothesis:
-    mesh = intake.mesh if tree.own is None else tree.own.on(intake.mesh)
-    said = {name: getattr(tree, name) for name in SAID}
-    return Hypothesis(Articulation(mesh=mesh, **said))
+def _painted(articulation: Articulation, materials: tuple[Material, ...]) -> Articulation:
+    """Return an articulation whose mesh has other materials."""
+    return replace(articulation, mesh=replace(articulation.mesh, materials=materials))

@@ -38,7 +38,7 @@ def posed(articulation: Articulation, values: Mapping[str, float]) -> Articulati
     poses = articulation.poses(values)
     return replace(
         articulation,
-        mesh=_moved(articulation.mesh, face_parts(articulation), poses),
+        mesh=moved(articulation.mesh, face_parts(articulation), poses),
         joints=tuple(
             _joint(joint, poses, values.get(joint.name, 0.0)) for joint in articulation.joints
         ),
@@ -93,8 +93,14 @@ def _joint(joint: Joint, poses: FloatArray, value: float) -> Joint:
     )
 
 
-def _moved(mesh: Mesh, owner: IntArray, poses: FloatArray) -> Mesh:
-    """Return every face moved with its part; vertices that several parts share are told apart."""
+def moved(mesh: Mesh, owner: IntArray, poses: FloatArray) -> Mesh:
+    """Return every face moved with its part; vertices that several parts share are told apart.
+
+    Args:
+        mesh: object frame [m].
+        owner: the part of every face, shape [face_count].
+        poses: each part's motion, shape [part_count, 4, 4].
+    """
     key = owner[:, None] * len(mesh.vertices) + mesh.faces
     used, faces = np.unique(key, return_inverse=True)
     part, vertex = np.divmod(used, len(mesh.vertices))

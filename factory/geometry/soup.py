@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..mesh import FloatArray, IntArray, Material
+from ..mesh import FloatArray, IntArray, Material, distinct_names
 
 #: Of a name, so many letters are looked at.
 _LETTERS = 1000
@@ -43,19 +43,6 @@ def plain_soup(corners: FloatArray) -> Soup:
     return Soup(corners, None, None, none, (Material("default"),))
 
 
-def stack_corners(
-    pieces: Sequence[FloatArray | None], counts: Sequence[int], width: int
-) -> FloatArray | None:
-    """Join pieces' corner attributes, NaN for a piece without; ``None`` if all are without."""
-    if all(piece is None for piece in pieces):
-        return None
-    filled = [
-        np.full((count, 3, width), np.nan) if piece is None else piece
-        for piece, count in zip(pieces, counts, strict=True)
-    ]
-    return np.concatenate(filled)
-
-
 def _safe(text: str) -> str:
     """Replace all but letters, digits, ``_``, ``-`` and ``.``; 80 characters at most."""
     kept = "".join(
@@ -66,18 +53,4 @@ def _safe(text: str) -> str:
 
 def unique_names(names: Iterable[str]) -> list[str]:
     """Return safe names, later ones told apart by a number."""
-    taken: set[str] = set()
-    reached: dict[str, int] = {}
-    result: list[str] = []
-    for raw in names:
-        base = _safe(raw)
-        # Thousands of one name would else count from one again and again.
-        name = base
-        number = reached.get(base, 1)
-        while name in taken:
-            number += 1
-            name = f"{base}_{number}"
-        reached[base] = number
-        taken.add(name)
-        result.append(name)
-    return result
+    return distinct_names(_safe(name) for name in names)

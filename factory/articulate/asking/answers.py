@@ -7,25 +7,12 @@ import json
 import os
 from pathlib import Path
 
-from msgspec import Struct, ValidationError, convert
+from msgspec import ValidationError, convert, to_builtins
 
 from ...config import VlmConfig
 from ...runtime.store import write_json
-from .endpoint import MOST_BYTES
+from .endpoint import MOST_BYTES, Reply
 from .question import Question
-
-
-class KeptAnswer(Struct, frozen=True):
-    """An answer that was taken.
-
-    Attributes:
-        text: the model's words.
-        read, written: tokens that it cost, repeated questions included.
-    """
-
-    text: str
-    read: int
-    written: int
 
 
 def answer_path(config: VlmConfig, question: Question) -> Path:
@@ -38,17 +25,17 @@ def answer_path(config: VlmConfig, question: Question) -> Path:
     return folder / f"{digest.hexdigest()}.json"
 
 
-def kept_answer(path: Path) -> KeptAnswer | None:
+def kept_answer(path: Path) -> Reply | None:
     """Return an answer that was kept; ``None`` if there is none that can be read."""
     try:
         if path.stat().st_size > MOST_BYTES:
             return None
-        return convert(json.loads(path.read_bytes()), KeptAnswer)
+        return convert(json.loads(path.read_bytes()), Reply)
     except (OSError, ValueError, RecursionError, ValidationError):
         return None
 
 
-def keep_answer(path: Path, answer: KeptAnswer) -> None:
+def keep_answer(path: Path, answer: Reply) -> None:
     """Keep an answer, whole or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_json(path, {"text": answer.text, "read": answer.read, "written": answer.written})
+    write_json(path, to_builtins(answer))

@@ -19,13 +19,11 @@ from ..annotated import annotated_articulator, annotation_of
 from ..articulator import Articulator, HypothesisMaker
 from ..proposal import Hypothesis
 from ..stated import StatedArticulator
-from .answers import KeptAnswer, answer_path, keep_answer, kept_answer
+from .answers import answer_path, keep_answer, kept_answer
 from .endpoint import Reply, ask, require_endpoint
 from .question import Question, question_of
 
 NAME = "vlm"
-#: How often a model is asked about one input: again with what was wrong.
-QUESTIONS = 2
 #: Longer answers are not read [letters].
 LONGEST = 64 * 1024
 _FENCED = re.compile(r"\s*```(?:json)?\s*(.*?)\s*```\s*", re.DOTALL)
@@ -59,23 +57,17 @@ class VlmArticulator(HypothesisMaker):
         if kept is not None:
             return self._noted(_found(kept.text, mesh), kept)
         messages = [_first_message(question)]
-        read = written = 0
-        for number in range(QUESTIONS):
-            reply = ask(self._config, messages)
-            read, written = read + reply.tokens[0], written + reply.tokens[1]
-            try:
-                found = _found(reply.text, mesh)
-            except InputRejected as fault:
-                if number + 1 == QUESTIONS:
-                    raise
-                messages += _corrections(reply, fault)
-                continue
-            kept = KeptAnswer(reply.text, read, written)
-            keep_answer(path, kept)
-            return self._noted(found, kept)
-        raise AssertionError("unreachable")
+        reply = ask(self._config, messages)
+        try:
+            found = _found(reply.text, mesh)
+        except InputRejected as fault:
+            again = ask(self._config, [*messages, *_corrections(reply, fault)])
+            found = _found(again.text, mesh)
+            reply = Reply(again.text, reply.read + again.read, reply.written + again.written)
+        keep_answer(path, reply)
+        return self._noted(found, reply)
 
-    def _noted(self, found: tuple[Hypothesis, ...], kept: KeptAnswer) -> tuple[Hypothesis, ...]:
+    def _noted(self, found: tuple[Hypothesis, ...], kept: Reply) -> tuple[Hypothesis, ...]:
         """Return hypotheses that say who proposed them, and what that cost."""
         host = urlsplit(self._config.url).hostname
         note = (

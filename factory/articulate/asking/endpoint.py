@@ -6,7 +6,6 @@ import json
 import os
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
@@ -52,17 +51,17 @@ class _Completion(Struct):
     usage: _Usage | None = None
 
 
-@dataclass(frozen=True)
-class Reply:
+class Reply(Struct, frozen=True):
     """What a model said.
 
     Attributes:
         text: its words; empty where it said nothing.
-        tokens: read and written, as the endpoint counts them.
+        read, written: tokens that it cost, as the endpoint counts them.
     """
 
     text: str
-    tokens: tuple[int, int]
+    read: int
+    written: int
 
 
 def require_endpoint(config: VlmConfig, *, needed: bool) -> None:
@@ -157,7 +156,7 @@ def _reply(answer: bytes) -> Reply:
     try:
         completion = convert(json.loads(answer), _Completion)
     except (ValueError, RecursionError, ValidationError):
-        return Reply("", (0, 0))
+        return Reply("", 0, 0)
     usage = completion.usage or _Usage()
     text = completion.choices[0].message.content if completion.choices else None
-    return Reply(text or "", (usage.prompt_tokens, usage.completion_tokens))
+    return Reply(text or "", usage.prompt_tokens, usage.completion_tokens)

@@ -19,7 +19,6 @@ SMALL = 330
 EDGE = 36
 #: From so many pixels on there is room for a number at each tenth.
 ROOMY = 220
-GROUND = (255, 255, 255)
 INK = (25, 25, 25)
 #: Of the grid: no seam has this colour.
 GRID = (0, 150, 255, 140)
@@ -37,7 +36,7 @@ def sheet_of(mesh: Mesh) -> bytes:
     from PIL import Image, ImageDraw
 
     width = 4 * (SMALL + 2 * EDGE)
-    sheet = Image.new("RGB", (width, LARGE + 2 * SMALL + 6 * EDGE), GROUND)
+    sheet = Image.new("RGB", (width, LARGE + 2 * SMALL + 6 * EDGE), "white")
     draw = ImageDraw.Draw(sheet, "RGBA")
     third = width // 3
     main = largest_side(mesh)

@@ -22,7 +22,7 @@ from ..geometric import GeometricArticulator
 from ..origin import MeshOrigin
 from ..proposal import Proposal
 from ..rigid import rigid_articulation
-from ..seams.movers import knobs_of
+from ..seams.knobs import knobs_of
 from ..stated import StatedArticulator
 from .contacts import contacts_of, settled
 from .partition import share_out

@@ -7,12 +7,13 @@ import numpy as np
 from ...articulation import JointKind
 from ...mesh import FloatArray, IntArray
 from ...part import PartKind
+from ...views.raster import Side
 from ..proposal import Motion
 from .knobs import is_round
 from .movers import Mover
 from .scene import FRONT, PLAN, SIDEWAYS, UP, Scene, quarter_turn
 
-FROM_ABOVE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+FROM_ABOVE = Side.FRONT.frame.T @ Side.TOP.frame
 """The view whose front is the top of the scene: its y points down, its z to the back."""
 HIGHEST_CAP = 0.5
 """Of the object's height."""

@@ -11,13 +11,12 @@ import numpy as np
 from .handles import ALIKE, FEWEST, IN_ROW, LONGEST, Face, Protrusion
 from .rectangles import COVERED, Lines
 
-#: A strip ends above and below its knobs within so many times their size, along such a line.
+#: A strip ends above and below its knobs within so many times their size.
 STRIP = 4.0
-EDGE = 0.7
 
 
-def with_strips(face: Face, level: Lines, upright: Lines) -> Face:
-    """Return a face whose knobs on one strip without a seam between them are controls.
+def with_strips(face: Face, level: Lines, upright: Lines) -> tuple[Protrusion, ...]:
+    """Return a face's handles; knobs on one strip without a seam between them are controls.
 
     Args:
         face: a side without handles.
@@ -31,8 +30,7 @@ def with_strips(face: Face, level: Lines, upright: Lines) -> Face:
         row = sorted((other for other in small if _level(one, other)), key=lambda h: h.center[1])
         if len(row) >= FEWEST and _on_strip(row, level) and not _parted(row, upright):
             controls |= set(row)
-    handles = (replace(h, control=True) if h in controls else h for h in face.handles)
-    return replace(face, handles=tuple(handles))
+    return tuple(replace(h, control=True) if h in controls else h for h in face.handles)
 
 
 def _level(one: Protrusion, other: Protrusion) -> bool:
@@ -52,7 +50,7 @@ def _on_strip(row: Sequence[Protrusion], level: Lines) -> bool:
     start = np.array([int(row[0].low[1])])
     stop = np.array([int(row[-1].high[1])])
     return all(
-        bool((level.covered(np.flatnonzero(near), start, stop) >= EDGE).any())
+        bool((level.covered(np.flatnonzero(near), start, stop) >= COVERED).any())
         for near in (below, above)
     )
 

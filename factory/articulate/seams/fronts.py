@@ -11,13 +11,10 @@ import numpy as np
 from ...mesh import FloatArray
 from ...views.raster import Side
 from .controls import with_strips
-from .evidence import Seams, level_seams, upright_seams
+from .evidence import seams_of
 from .handles import Face, Protrusion, cleared
 from .rectangles import SHORTEST, Lines, Rectangle, lines_of, rectangles_of
 from .relief import Relief
-
-#: A handle belongs to a panel if it is that far inside [pixels].
-INSIDE = 1.0
 
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
 OPPOSITE = {
@@ -43,40 +40,36 @@ class Front:
     behind: Relief
 
     @cached_property
-    def seams(self) -> Seams:
-        """Return the evidence for horizontal seams."""
-        return level_seams(self.relief, self.face)
-
-    @cached_property
     def level(self) -> Lines:
         """Return the candidates for horizontal lines."""
-        first, last, _, _ = self.relief.box
-        return lines_of(self.seams, first, last)
+        seams = seams_of(self.relief, self.face, upright=False)
+        return lines_of(seams, *self.relief.box[:, 0].tolist())
 
     @cached_property
     def upright(self) -> Lines:
         """Return the candidates for vertical lines."""
-        _, _, first, last = self.relief.box
-        return lines_of(upright_seams(self.relief, self.face), first, last)
+        seams = seams_of(self.relief, self.face, upright=True)
+        return lines_of(seams, *self.relief.box[:, 1].tolist())
 
     @cached_property
     def pulls(self) -> tuple[Protrusion, ...]:
         """Return the handles that are no controls, such as knobs on one strip."""
-        return with_strips(self.face, self.level, self.upright).pulls
+        told = with_strips(self.face, self.level, self.upright)
+        return tuple(handle for handle in told if not handle.control)
 
     def handles_in(self, rectangle: Rectangle) -> tuple[Protrusion, ...]:
         """Return the pulls in a rectangle, the most prominent first."""
         inside = [
             handle
             for handle in self.pulls
-            if rectangle.holds(handle.low, INSIDE) and rectangle.holds(handle.high, INSIDE)
+            if (handle.low > rectangle.low).all() and (handle.high < rectangle.high).all()
         ]
         return tuple(sorted(inside, key=lambda h: -h.height * float(np.sqrt(h.size.prod()))))
 
     def rectangles(self) -> tuple[Rectangle, ...]:
         """Return those that are closed by seams, the best first."""
-        first_row, last_row, first_column, last_column = self.relief.box
-        shortest = SHORTEST * min(last_row - first_row, last_column - first_column)
+        first, last = self.relief.box
+        shortest = SHORTEST * float((last - first).min())
         return rectangles_of(self.level, self.upright, shortest)
 
 

@@ -96,11 +96,6 @@ class Face:
     covered: BoolArray
     handles: tuple[Protrusion, ...]
 
-    @property
-    def pulls(self) -> tuple[Protrusion, ...]:
-        """Return the handles that are no controls."""
-        return tuple(handle for handle in self.handles if not handle.control)
-
 
 def cleared(relief: Relief) -> Face:
     """Take handles off a relief, the thin ones first.
@@ -184,7 +179,7 @@ def _handle(
 
 def _reaches_across(relief: Relief, low: IntArray, high: IntArray) -> bool:
     """Tell whether a blob is a thin bar from outline to outline, as on fridges and ovens."""
-    _, _, first, last = relief.box
+    first, last = relief.box[:, 1]
     thin = high[0] - low[0] + 1 <= THIN * max(relief.shape)
     return bool(thin and low[1] - first <= BORDER and last - high[1] <= BORDER)
 

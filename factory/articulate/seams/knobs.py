@@ -4,11 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...part import PartKind
-from ..proposal import Motion
-from .handles import FEWEST, Face, Protrusion
+from ...articulation import Articulation
+from ...mesh import Mesh
+from ...part import PartKind, Proposer
+from ...views.view import Views
+from ..assembly import assembled
+from ..proposal import Motion, Proposal
+from ..rigid import rigid_articulation
+from .cutting import cut_along, inside
+from .handles import FEWEST, Face, Protrusion, cleared
 from .placing import OpeningPart, box_before
-from .relief import Relief
+from .relief import Relief, reliefs_of
 
 #: A knob covers so much of its box: a disc 0.79.
 FULL = 0.65
@@ -20,6 +26,35 @@ MOST = 10
 MARGIN = 1.0
 #: Probability that small things in a row are knobs and turn.
 LIKELY = 0.63
+
+
+def knobs_of(mesh: Mesh, articulator: str) -> Articulation:
+    """Return a one-piece mesh with the knobs of the side that has most; else one rigid part.
+
+    Args:
+        mesh: metres, z up.
+        articulator: who is asked.
+    """
+    sides = reliefs_of(Views(mesh)).values()
+    movers = max((knobs_on(side, cleared(side)) for side in sides), key=len)
+    if not movers:
+        return rigid_articulation(mesh, articulator, ())
+    made = cut_along(mesh, [mover.region for mover in movers]).mesh
+    owner = np.zeros(len(made.faces), dtype=np.int64)
+    for number, mover in enumerate(movers, start=1):
+        owner[inside(made, mover.region) & (owner == 0)] = number
+    proposals = [
+        Proposal(
+            mover.kind,
+            owner == number,
+            mover.motion,
+            proposer=Proposer.SIDES,
+            existence=LIKELY,
+            probability=LIKELY,
+        )
+        for number, mover in enumerate(movers, start=1)
+    ]
+    return assembled(made, owner, proposals, articulator)
 
 
 def knobs_on(relief: Relief, face: Face) -> tuple[OpeningPart, ...]:
@@ -46,9 +81,9 @@ def _mover(relief: Relief, face: Face, knob: Protrusion) -> OpeningPart:
     rows, columns = (slice(int(a), int(b) + 1) for a, b in zip(knob.low, knob.high, strict=True))
     carrier = float(np.median(face.height[rows, columns]))
     back = raster.near - (carrier + MARGIN) * raster.pixel
-    low = raster.low[::-1] + (knob.low - MARGIN) * raster.pixel
-    high = raster.low[::-1] + (knob.high + MARGIN) * raster.pixel
-    height, across = (low + high) / 2.0
+    low = raster.low + (knob.low[::-1] - MARGIN) * raster.pixel
+    high = raster.low + (knob.high[::-1] + MARGIN) * raster.pixel
+    across, height = (low + high) / 2.0
     return OpeningPart(
         kind=PartKind.KNOB,
         region=box_before(raster.side, low, high, back),

@@ -37,6 +37,16 @@ class PieceOutlines:
         """Return both ends of each piece's box [m], shape [2, piece_count, 3]."""
         return np.stack([self.low, self.high])
 
+    @property
+    def deep(self) -> FloatArray:
+        """Return how deep each piece is [m], shape [piece_count]."""
+        return np.asarray(self.high[:, 2] - self.low[:, 2])
+
+    @property
+    def depth(self) -> float:
+        """Return how deep all of the mesh is [m]."""
+        return float(self.high[:, 2].max() - self.low[:, 2].min())
+
     @classmethod
     def of(cls, views: Views, side: Side) -> PieceOutlines:
         """Look from a side at a mesh [m] whose parts are its pieces."""
@@ -108,14 +118,12 @@ def own_pieces(outlines: PieceOutlines, panel: Panel, margin: float) -> BoolArra
         panel: on it.
         margin: by which they may reach beyond its rectangle [m].
     """
-    depth = float(outlines.high[:, 2].max() - outlines.low[:, 2].min())
     inside_it = outlines.within(panel.low - margin, panel.high + margin) >= WHOLE
     begins = outlines.low[:, 2] <= panel.front + (panel.thickness or 0.0)
-    deep = outlines.high[:, 2] - outlines.low[:, 2]
     share = DEEPEST[panel.opens is OpensBy.OUT]
-    shallow = deep <= share * depth
+    shallow = outlines.deep <= share * outlines.depth
     # A door in its frame is as deep as all of it.
-    leaf = deep <= share * float((panel.high - panel.low).min())
+    leaf = outlines.deep <= share * float(panel.size.min())
     for piece in np.flatnonzero(inside_it & begins & leaf & ~shallow):
         shallow[piece] = outlines.around(int(piece)).any()
     return np.asarray(inside_it & begins & shallow)

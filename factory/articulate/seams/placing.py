@@ -8,19 +8,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh import BoolArray, FloatArray
-from ...part import OpensBy, Panel, PartKind, Proposer
+from ...mesh import FloatArray
+from ...part import OpensBy, Panel, PartKind
 from ...views.raster import Side
-from ..proposal import Motion, Proposal
+from ..proposal import Motion
 from .cutting import Region
-from .edges import leaf_thickness, seen_thickness
+from .edges import leaf_thickness, thickness_behind
 from .fronts import Front
-from .rectangles import FrontPanel
+from .rectangles import Rectangle
 
-#: A panel whose back edge nobody sees reaches so far behind its rim: share of the object's depth,
-#: and of the picture [pixels].
-THICKNESS = 0.04
-LEAST_THICKNESS = 3.0
 #: A panel's outer edge is looked at so far inside of its outline [pixels].
 INSET = 4
 #: What a panel is that opens so.
@@ -38,7 +34,7 @@ SLIDE = 0.8
 
 @dataclass(frozen=True, eq=False)
 class OpeningPart:
-    """A proposal whose faces are not cut out yet, object frame [m].
+    """A part that may open and is not cut out yet, object frame [m].
 
     Attributes:
         kind: what it is; names the part.
@@ -62,31 +58,18 @@ class OpeningPart:
             panel=None if self.panel is None else self.panel.turned(rotation),
         )
 
-    def proposal(self, faces: BoolArray, probability: float) -> Proposal:
-        """Return the proposal that these faces, shape [face_count], open so; probably, 0 to 1."""
-        return Proposal(
-            self.kind,
-            faces,
-            self.motion,
-            proposer=Proposer.SIDES,
-            panel=self.panel,
-            existence=probability,
-            probability=probability,
-        )
-
 
 def box_behind(side: Side, low: FloatArray, high: FloatArray) -> Region:
     """Return all of a rectangle of one side, however deep, in that side's frame [m].
 
     Args:
         side: that is looked at.
-        low: up and to the right, shape [2].
+        low: to the right and up, shape [2].
         high: likewise.
     """
     right, up, _ = side.frame
-    return Region(
-        np.stack([right, -right, up, -up]), np.array([high[1], -low[1], high[0], -low[0]])
-    )
+    offsets = np.array([high[0], -low[0], high[1], -low[1]])
+    return Region(np.stack([right, -right, up, -up]), offsets)
 
 
 def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Region:
@@ -95,11 +78,29 @@ def box_before(side: Side, low: FloatArray, high: FloatArray, back: float) -> Re
     return box_behind(side, low, high).within(before)
 
 
-def rim_depth(front: Front, panel: FrontPanel) -> float:
+def edge_middle(low: FloatArray, high: FloatArray, way: OpensBy) -> FloatArray:
+    """Return the middle of the edge at which a rectangle is hinged, or of all of it.
+
+    Args:
+        low: to the right and up [m], shape [2].
+        high: likewise.
+        way: how it opens.
+    """
+    middle = (low + high) / 2.0
+    places = {
+        OpensBy.LEFT: (low[0], middle[1]),
+        OpensBy.RIGHT: (high[0], middle[1]),
+        OpensBy.BOTTOM: (middle[0], low[1]),
+        OpensBy.TOP: (middle[0], high[1]),
+    }
+    return np.asarray(places.get(way, middle))
+
+
+def rim_depth(front: Front, panel: Rectangle) -> float:
     """Return how far behind the nearest point the outer edge of a panel lies [pixels]."""
     rows, columns = (
         slice(int(start) + inset, int(stop) - inset + 1)
-        for start, stop in zip(panel.rectangle.low, panel.rectangle.high, strict=True)
+        for start, stop in zip(panel.low, panel.high, strict=True)
         for inset in (min(INSET, int(stop - start) // 2),)
     )
     borders = (
@@ -113,7 +114,7 @@ def rim_depth(front: Front, panel: FrontPanel) -> float:
 
 
 def panel_mover(
-    fronts: Mapping[Side, Front], side: Side, panel: FrontPanel, way: OpensBy
+    fronts: Mapping[Side, Front], side: Side, panel: Rectangle, way: OpensBy
 ) -> OpeningPart:
     """Return a panel of a front that opens in one way.
 
@@ -127,22 +128,19 @@ def panel_mover(
     behind = front.relief.depth
     raster = front.relief.raster
     right, up, away = raster.side.frame
-    low = raster.low[::-1] + panel.rectangle.low * raster.pixel
-    high = raster.low[::-1] + panel.rectangle.high * raster.pixel
+    low, high = panel.corners(raster)
     rim = raster.near + rim_depth(front, panel) * raster.pixel
     leaf = leaf_thickness(front, panel) if way is not OpensBy.OUT else None
-    thickness = leaf or seen_thickness(fronts, side, panel, rim)
-    if thickness is None:
-        thickness = max(THICKNESS * behind, LEAST_THICKNESS * raster.pixel)
+    thickness = leaf or thickness_behind(fronts, side, panel, rim)
     back = rim + thickness if leaf is None else raster.near + behind
     region = box_before(raster.side, low, high, back)
-    middle = (low + high) / 2.0
-    across, height, axis = {
-        OpensBy.LEFT: (low[1], middle[0], -up),
-        OpensBy.RIGHT: (high[1], middle[0], up),
-        OpensBy.BOTTOM: (middle[1], low[0], right),
-        OpensBy.TOP: (middle[1], high[0], -right),
-        OpensBy.OUT: (middle[1], middle[0], -away),
+    across, height = edge_middle(low, high, way)
+    axis = {
+        OpensBy.LEFT: -up,
+        OpensBy.RIGHT: up,
+        OpensBy.BOTTOM: right,
+        OpensBy.TOP: -right,
+        OpensBy.OUT: -away,
     }[way]
     slides = way is OpensBy.OUT
     motion = Motion(
@@ -156,29 +154,5 @@ def panel_mover(
         kind=KINDS[way],
         region=region,
         motion=motion,
-        panel=Panel(raster.side.frame, low[::-1], high[::-1], rim, thickness, way),
+        panel=Panel(raster.side.frame, low, high, rim, thickness, way),
     )
-
-
-def lid_mover(fronts: Mapping[Side, Front], row: int, hinge: Side) -> OpeningPart:
-    """Return a lid above a row of the sides' pictures, hinged on one side."""
-    front = fronts[hinge]
-    raster = front.relief.raster
-    right, up, away = raster.side.frame
-    height = raster.low[1] + row * raster.pixel
-    near = _nearest_above(front, row)
-    _, _, left, last = front.relief.box
-    across = raster.low[0] + (left + last) / 2.0 * raster.pixel
-    origin = across * right + height * up + (raster.near + near) * away
-    return OpeningPart(
-        kind=PartKind.LID,
-        region=Region(-up[None, :], np.array([-height])),
-        motion=Motion(JointKind.REVOLUTE, right, origin, 0.0, TURN),
-    )
-
-
-def _nearest_above(front: Front, row: int) -> float:
-    """Return where the lid begins, seen from the side of its hinge: depth [m]."""
-    rows = slice(row + 1, row + 8)
-    depth = -front.face.height[rows][front.relief.seen[rows]]
-    return float(np.percentile(depth, 25)) * front.relief.raster.pixel if len(depth) else 0.0

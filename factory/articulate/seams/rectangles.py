@@ -10,7 +10,6 @@ from scipy import ndimage
 from ...mesh import FloatArray, IntArray
 from ...views.raster import Raster
 from .evidence import Seams
-from .handles import Protrusion
 
 #: Lines looked at in each direction; more only find noise.
 MOST_LINES = 26
@@ -112,13 +111,12 @@ class Rectangle:
 
     Attributes:
         low, high: row and column of its corners, shape [2] each.
-        sides: how far each side is covered: bottom, top, left, right, shape [4].
-        relief: likewise, by the shape alone, shape [4].
+        relief: how far each side is covered by the shape alone: bottom, top, left, right, shape
+            [4].
     """
 
     low: IntArray
     high: IntArray
-    sides: FloatArray
     relief: FloatArray
 
     @property
@@ -137,41 +135,18 @@ class Rectangle:
         rows, columns = zip(self.low, self.high + 1, strict=True)
         return slice(*rows), slice(*columns)
 
-    @property
-    def closed(self) -> float:
-        """Return how well all four sides are covered, 0 to 1."""
-        return float(0.5 * self.sides.mean() + 0.5 * self.sides.min())
-
     def corners(self, raster: Raster) -> FloatArray:
         """Return its place in a picture: right and up [m], low and high, shape [2, 2]."""
         return raster.low + np.stack([self.low, self.high])[:, ::-1] * raster.pixel
 
-    def holds(self, point: FloatArray | IntArray, margin: float = 0.0) -> bool:
+    def holds(self, point: FloatArray) -> bool:
         """Return whether a place (row, column) lies inside."""
-        return bool((point >= self.low + margin).all() and (point <= self.high - margin).all())
+        return bool((point >= self.low).all() and (point <= self.high).all())
 
     def shared(self, other: Rectangle) -> float:
         """Return the area of both [pixels]."""
         side = np.minimum(self.high, other.high) - np.maximum(self.low, other.low)
         return float(np.prod(np.maximum(side, 0)))
-
-
-@dataclass(frozen=True, eq=False)
-class FrontPanel:
-    """A rectangle that opens.
-
-    Attributes:
-        rectangle: where it is.
-        handles: its pulls, the most prominent first.
-    """
-
-    rectangle: Rectangle
-    handles: tuple[Protrusion, ...]
-
-    @property
-    def handle(self) -> Protrusion | None:
-        """Return the one that it is pulled by."""
-        return self.handles[0] if self.handles else None
 
 
 def rectangles_of(level: Lines, upright: Lines, shortest: float) -> tuple[Rectangle, ...]:
@@ -189,16 +164,17 @@ def rectangles_of(level: Lines, upright: Lines, shortest: float) -> tuple[Rectan
     sides = _sides(level, upright, rows, columns, shape=False)
     good = (sides.min(axis=0) >= COVERED) & (sides.mean(axis=0) >= LEAST_MEAN)
     shape = _sides(level, upright, rows, columns, shape=True)
-    found = [
+    closed = 0.5 * sides.mean(axis=0) + 0.5 * sides.min(axis=0)
+    found = np.argwhere(good)
+    best_first = found[np.argsort(-closed[good], kind="stable")]
+    return tuple(
         Rectangle(
             np.array([level.at[rows[i, 0]], upright.at[columns[j, 0]]]),
             np.array([level.at[rows[i, 1]], upright.at[columns[j, 1]]]),
-            sides[:, i, j],
             shape[:, i, j],
         )
-        for i, j in zip(*np.nonzero(good), strict=True)
-    ]
-    return tuple(sorted(found, key=lambda each: -each.closed))
+        for i, j in best_first
+    )
 
 
 def _pairs(at: IntArray, shortest: float) -> IntArray:

@@ -29,7 +29,6 @@ class Relief:
         height: towards the viewer [pixels]; where nothing is seen, below all that is.
         facing: cosine between the surface and the viewer, 0 where nothing is seen.
         lab: colour (CIE L*a*b*), shape [rows, columns, 3].
-        piece: which of the mesh's pieces is seen, shape [rows, columns].
         depth: of the object, seen from this side [m].
     """
 
@@ -38,7 +37,6 @@ class Relief:
     height: FloatArray
     facing: FloatArray
     lab: FloatArray
-    piece: IntArray
     depth: float
 
     @property
@@ -52,20 +50,18 @@ class Relief:
         return self.raster.rows, self.raster.columns
 
     @cached_property
-    def box(self) -> tuple[int, int, int, int]:
-        """Return first and last row, first and last column with a surface.
+    def box(self) -> IntArray:
+        """Return first and last row and column with a surface, shape [2, 2].
 
         Without slivers that stick out: the ground that an object stands on, a handle, an antenna.
         """
-        first_row, last_row = _extent(self.seen.sum(axis=1))
-        first_column, last_column = _extent(self.seen.sum(axis=0))
-        return first_row, last_row, first_column, last_column
+        ends = [_extent(self.seen.sum(axis=across)) for across in (1, 0)]
+        return np.stack(ends, axis=1)
 
 
-def _extent(counts: IntArray) -> tuple[int, int]:
-    """Return first and last row that is more than a sliver."""
-    large = np.flatnonzero(counts > SLIVER * counts.max())
-    return int(large[0]), int(large[-1])
+def _extent(counts: IntArray) -> IntArray:
+    """Return first and last row that is more than a sliver, shape [2]."""
+    return np.flatnonzero(counts > SLIVER * counts.max())[[0, -1]]
 
 
 def reliefs_of(views: Views) -> dict[Side, Relief]:
@@ -74,7 +70,7 @@ def reliefs_of(views: Views) -> dict[Side, Relief]:
 
 
 def relief_of(view: View) -> Relief:
-    """Return one side of a mesh; its pieces are the view's parts."""
+    """Return one side of a mesh."""
     seen = view.seen
     # A pinhole of a mesh that is not quite closed is no gap between two things.
     seen_filled = (
@@ -93,7 +89,6 @@ def relief_of(view: View) -> Relief:
         np.where(seen_filled, height, lowest - BEHIND),
         np.where(seen_filled, np.clip(facing, 0.0, 1.0), 0.0),
         lab,
-        view.part[tuple(nearest)],
         float(np.abs(view.side.frame[2]) @ view.mesh.extents),
     )
 

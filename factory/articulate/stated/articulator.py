@@ -3,28 +3,26 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import islice, product
+from itertools import chain, islice, product
 
 import numpy as np
 
 from ...articulation import Articulation, rotation_about
 from ...config import BuildConfig
 from ...errors import InputRejected
-from ...geometry.posing import posed
+from ...geometry.posing import UP, posed
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
 from ...intake.stated import Stated, StatedPart
-from ...mesh import BoolArray, FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, IntArray, Mesh
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, HypothesisMaker, make_hypotheses
-from ..assembly import JOINT_SUFFIX, assembled
+from ..assembly import assembled
 from ..proposal import Hypothesis, Motion, Proposal
 from ..rigid import rigid_articulation
-from ..seams.cutting import CutMesh, inside
-from ..seams.movers import cut_along
-from ..seams.placing import OpeningPart
+from ..seams.cutting import CutMesh, Region, cut_along, inside
 from .boxed import NOT_FOUND, USUAL, label_of
 from .expecting import Expected, count_expected, find_expected, require_some
 from .placing import Placed, SeenMesh, place_parts, stated_unit
@@ -33,8 +31,6 @@ from .wholes import StatedWay
 NAME = "stated"
 #: Whole hypotheses that are worth trying.
 MOST_HYPOTHESES = 4
-#: A part must keep so much of the surface in its region that others claim too.
-LEAST_OWN = 0.5
 #: Sides of the mesh that was stated may differ so much from this one's, of the longest.
 SAME_SHAPE = 0.05
 #: Quarter turns about z that bring a stated front to -Y.
@@ -83,9 +79,9 @@ class StatedArticulator(HypothesisMaker):
         wanted = count_expected(self.stated.parts)
         if wanted:
             return self._filled(mesh, wanted)
-        placed = _placed(self._seen or seen_from(mesh, self.stated.front), self.stated)
+        placed = self._placed_on(mesh)
         chosen = list(islice(_with_cut(_choices(placed)), MOST_HYPOTHESES))
-        cut = cut_along(mesh, [_to_cut(ways) for ways in chosen])
+        cut = cut_along(mesh, chain.from_iterable(_to_cut(ways) for ways in chosen))
         return tuple(Hypothesis(self._articulation(cut, placed, ways)) for ways in chosen)
 
     def beside(self, guess: Articulation) -> tuple[Hypothesis, ...]:
@@ -96,15 +92,18 @@ class StatedArticulator(HypothesisMaker):
         """
         if not guess.movable_joints:
             return self.hypotheses(guess.mesh)
-        seen = self._seen or seen_from(guess.mesh, self.stated.front)
-        placed = _placed(seen, self.stated)
-        return self._beside(Expected(guess, placed, guess.joints))
+        return self._beside(Expected(guess, self._placed_on(guess.mesh), guess.joints))
+
+    def _placed_on(self, mesh: Mesh) -> list[Placed]:
+        """Return the stated parts that have a place, found on a mesh."""
+        seen = self._seen or seen_from(mesh, self.stated.front)
+        return place_parts(seen, self.stated.parts)
 
     def _beside(self, each: Expected) -> tuple[Hypothesis, ...]:
         """Return the placed parts beside those wanted of a guess, cut from the guess's mesh."""
         made = []
         for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
-            cut = cut_along(each.guess.mesh, [_to_cut(ways)])
+            cut = cut_along(each.guess.mesh, _to_cut(ways))
             filled = self._articulation(cut, each.placed, ways, each.proposals(cut), each.hosts)
             made.append(Hypothesis(replace(filled, weights=each.guess.weights)))
         return tuple(made)
@@ -119,12 +118,7 @@ class StatedArticulator(HypothesisMaker):
                 "every part, or an articulator that looks for it, as auto does",
             )
         guesses = [each.articulation for each in make_hypotheses(self.guess, mesh)]
-        found = [
-            find_expected(
-                guess, wanted, _placed(seen_from(guess.mesh, self.stated.front), self.stated)
-            )
-            for guess in guesses
-        ]
+        found = [find_expected(each, wanted, self._placed_on(each.mesh)) for each in guesses]
         made: list[Hypothesis] = []
         for each in require_some(found, wanted):
             made += (Hypothesis(each.guess),) if each.is_whole else self._beside(each)
@@ -152,14 +146,16 @@ class StatedArticulator(HypothesisMaker):
                 panel=mover.panel if each.stated.drawn is None else None,
                 existence=chance,
                 probability=chance,
+                name=each.stated.name,
             )
             for number, (each, mover, chance) in enumerate(
                 zip(placed, movers, chances, strict=True), start=1
             )
         ]
-        stated = {
-            proposal.source.id: each.stated
+        drawn = {
+            proposal.source.id
             for proposal, each in zip(proposals, placed, strict=True)
+            if each.stated.drawn is not None
         }
         for proposal in guessed:
             left = proposal.faces & (owner == 0)
@@ -169,8 +165,7 @@ class StatedArticulator(HypothesisMaker):
             proposals.append(replace(proposal, faces=left))
             owner[left] = len(proposals)
         hosts += [len(placed) + host if host else 0 for host in guessed_hosts]
-        made = _named(assembled(cut.mesh, owner, proposals, NAME, hosts), stated)
-        return _closed(made, stated)
+        return _closed(assembled(cut.mesh, owner, proposals, NAME, hosts), drawn)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> StatedArticulator:
@@ -208,20 +203,8 @@ def _refuse_other_size(mesh: Mesh, stated: Stated) -> None:
 
 def seen_from(mesh: Mesh, front: str) -> SeenMesh:
     """Return a mesh turned so that a stated front is -Y."""
-    return SeenMesh(mesh.turned(_turn(front)))
-
-
-def _turn(front: str) -> FloatArray:
-    return rotation_about([0.0, 0.0, 1.0], _TURNS[front] * np.pi / 2.0)
-
-
-def _placed(seen: SeenMesh, stated: Stated) -> list[Placed]:
-    """Return the stated parts, found on the turned mesh, turned back."""
-    back = _turn(stated.front).T
-    return [
-        replace(each, ways=tuple(way.turned(back) for way in each.ways))
-        for each in place_parts(seen, stated.parts)
-    ]
+    turn = rotation_about(UP, _TURNS[front] * np.pi / 2.0)
+    return SeenMesh(mesh.turned(turn), turn.T)
 
 
 def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedWay, ...]]:
@@ -235,9 +218,9 @@ def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedW
             yield tuple(StatedWay(way.cut or way.mover) for way in ways)
 
 
-def _to_cut(ways: Sequence[StatedWay]) -> tuple[OpeningPart, ...]:
-    """Return those parts that are cut out of the mesh."""
-    return tuple(way.mover for way in ways if not len(way.pieces))
+def _to_cut(ways: Sequence[StatedWay]) -> Iterator[Region]:
+    """Yield what those parts fill that are cut out of the mesh."""
+    return (way.mover.region for way in ways if not len(way.pieces))
 
 
 def _choices(placed: Sequence[Placed]) -> Iterator[tuple[StatedWay, ...]]:
@@ -257,16 +240,14 @@ def _from_closed(part: StatedPart, motion: Motion) -> Motion:
     return replace(motion, lower=-by, upper=max(motion.upper - by, 0.0))
 
 
-def _closed(made: Articulation, stated: Mapping[str, StatedPart]) -> Articulation:
-    """Return an articulation whose parts that are drawn open are closed, its new rest."""
-    drawn = {
+def _closed(made: Articulation, drawn: Collection[str]) -> Articulation:
+    """Return an articulation whose parts of some proposals are closed: its new rest."""
+    values = {
         joint.name: joint.lower
         for joint in made.joints
-        if (source := made.parts[joint.child].source) is not None
-        and source.id in stated
-        and stated[source.id].drawn is not None
+        if (source := made.parts[joint.child].source) is not None and source.id in drawn
     }
-    return posed(made, drawn) if drawn else made
+    return posed(made, values) if values else made
 
 
 def _hosts(placed: Sequence[Placed], ways: Sequence[StatedWay]) -> list[int]:
@@ -299,7 +280,8 @@ def _owners(
     """Return the part of each face, 0 for the body; carried parts claim their faces first.
 
     Raises:
-        InputRejected: ``stated_part_not_found``: a part gets nothing, or hardly any of its own.
+        InputRejected: ``stated_part_not_found``: a part gets nothing, or less than half of the
+            surface in its region.
     """
     mesh = cut.mesh
     owner = np.zeros(len(mesh.faces), dtype=np.int64)
@@ -311,7 +293,7 @@ def _owners(
         carried = [number for number, host in enumerate(hosts, start=1) if host == index + 1]
         claimed = float(areas[within].sum())
         kept = float(areas[within & ((owner == 0) | np.isin(owner, carried))].sum())
-        if not own.any() or kept < LEAST_OWN * claimed:
+        if not own.any() or kept < claimed / 2.0:
             taken = 100.0 * (1.0 - kept / claimed) if claimed else 100.0
             why = f"other stated parts take {taken:.0f} % of its surface"
             found = why if within.any() else "no surface of the mesh is in its box"
@@ -327,26 +309,3 @@ def _faces_of(cut: CutMesh, placed: Placed, way: StatedWay) -> BoolArray:
     if len(way.pieces):
         return np.isin(placed.piece_of[cut.source], way.pieces)
     return inside(cut.mesh, way.mover.region)
-
-
-def _named(made: Articulation, stated: Mapping[str, StatedPart]) -> Articulation:
-    """Return an articulation whose parts are called as stated, by the id of their proposal.
-
-    A part without a stated name gets a number that no stated name has.
-    """
-    given = {part.name for part in stated.values()}
-    count: Counter[str] = Counter()
-    parts = []
-    for part in made.parts:
-        said = None if part.source is None else stated.get(part.source.id)
-        name = part.name if said is None or said.name is None else said.name
-        if part.kind is not PartKind.BODY and (said is None or said.name is None):
-            while (name := f"{part.kind}_{count[part.kind]}") in given:
-                count[part.kind] += 1
-            count[part.kind] += 1
-        parts.append(replace(part, name=name))
-    joints = [
-        replace(joint, name=f"{parts[joint.child].name}_{JOINT_SUFFIX[joint.kind]}")
-        for joint in made.joints
-    ]
-    return replace(made, parts=tuple(parts), joints=tuple(joints))

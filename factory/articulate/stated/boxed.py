@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 from ...errors import InputRejected
-from ...intake.stated import StatedPart, StatedView
+from ...intake.stated import Hinge, StatedPart, StatedView
 from ...mesh import FloatArray
 from ...part import OpensBy, PartKind
 from ..seams.fronts import Front
-from ..seams.rectangles import FrontPanel, Rectangle
+from ..seams.handles import Protrusion
+from ..seams.rectangles import Rectangle
 
+T = TypeVar("T")
 NOT_FOUND = "stated_part_not_found"
 #: Of a stated box so much must show the mesh.
 LEAST_SHOWN = 0.3
@@ -28,6 +31,8 @@ USUAL: Mapping[PartKind, tuple[OpensBy, ...]] = {
     PartKind.RACK: (OpensBy.OUT,),
     PartKind.LID: (OpensBy.TOP, OpensBy.BOTTOM, OpensBy.LEFT, OpensBy.RIGHT),
 }
+#: How a panel opens that is hinged at an edge of its side's picture.
+EDGES = {edge: OpensBy(edge) for edge in (Hinge.LEFT, Hinge.RIGHT, Hinge.TOP, Hinge.BOTTOM)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,14 +44,16 @@ class StatedBox:
         place: in the list of parts.
         view: where it is seen.
         front: the side of the turned mesh that shows it.
-        panel: its rectangle and handles there.
+        rectangle: its outline there.
+        handle: that it is pulled by, the most prominent one; ``None`` without.
     """
 
     stated: StatedPart
     place: int
     view: StatedView
     front: Front
-    panel: FrontPanel
+    rectangle: Rectangle
+    handle: Protrusion | None
 
     @property
     def kind(self) -> PartKind:
@@ -61,18 +68,24 @@ class StatedBox:
     @property
     def corners(self) -> FloatArray:
         """Return its rectangle: right and up [m], low and high, shape [2, 2]."""
-        return self.panel.rectangle.corners(self.front.relief.raster)
+        return self.rectangle.corners(self.front.relief.raster)
 
     @property
     def label(self) -> str:
         """Return how messages call it."""
         return label_of(self.stated, self.place)
 
-    def opposed(self, edges: Iterable[str], what: str = "there") -> InputRejected:
-        """Return the rejection of a hinge that this part cannot have."""
-        wanted = ", ".join(edges)
-        sentence = f"is hinged at its {self.stated.hinge}, want one of {wanted} {what}"
-        return InputRejected(NOT_FOUND, f"{self.label}: {sentence}")
+    def hinged(self, edges: Mapping[Hinge, T], what: str = "there") -> T | None:
+        """Return the edge of some at which it is stated to be hinged; ``None``: nobody says.
+
+        Raises:
+            InputRejected: ``stated_part_not_found``: at another one.
+        """
+        hinge = self.stated.hinge
+        if hinge is None or hinge in edges:
+            return None if hinge is None else edges[hinge]
+        sentence = f"is hinged at its {hinge}, want one of {', '.join(edges)} {what}"
+        raise InputRejected(NOT_FOUND, f"{self.label}: {sentence}")
 
 
 def label_of(part: StatedPart, place: int) -> str:
@@ -110,5 +123,5 @@ def boxed_in(front: Front, part: StatedPart, place: int, box: Rectangle) -> Stat
             unit="of its area",
             limit=LEAST_SHOWN,
         )
-    panel = FrontPanel(box, front.handles_in(box))
-    return StatedBox(part, place, part.view, front, panel)
+    handle = next(iter(front.handles_in(box)), None)
+    return StatedBox(part, place, part.view, front, box, handle)

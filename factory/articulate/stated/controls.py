@@ -7,30 +7,22 @@ from dataclasses import replace
 import numpy as np
 
 from ...articulation import JointKind
-from ...intake.stated import Hinge
+from ...geometry.posing import UP
 from ...mesh import BoolArray, FloatArray
-from ...part import PartKind
+from ...part import OpensBy, PartKind
 from ...views.raster import Side
 from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import thickness
 from ..seams.knobs import MARGIN, knobs_on
-from ..seams.placing import TURN, OpeningPart, box_before, box_behind
-from .boxed import StatedBox
+from ..seams.placing import TURN, OpeningPart, box_before, box_behind, edge_middle
+from .boxed import EDGES, StatedBox
 from .snapping import AT_OUTLINE
 
 #: How far a button is pressed [m].
 BUTTON_TRAVEL_M = 0.004
 #: Of what a box shows so much stands off from what carries it.
 LEAST_STANDING = 0.1
-_UP = np.array([0.0, 0.0, 1.0])
-#: Where on its box, across and up, a lever turns that is hinged so.
-_ENDS = {
-    Hinge.LEFT: (0.0, 0.5),
-    Hinge.RIGHT: (1.0, 0.5),
-    Hinge.BOTTOM: (0.5, 0.0),
-    Hinge.TOP: (0.5, 1.0),
-}
 
 
 def control_openings(part: StatedBox) -> list[OpeningPart]:
@@ -57,7 +49,7 @@ def _control(part: StatedBox) -> OpeningPart:
         return _cap(part)
     relief = part.front.relief
     raster = relief.raster
-    box = part.panel.rectangle
+    box = part.rectangle
     if kind is PartKind.KNOB:
         for knob in knobs_on(relief, part.front.face):
             if box.holds(raster.pixels(knob.motion.origin)[:2]):
@@ -65,21 +57,18 @@ def _control(part: StatedBox) -> OpeningPart:
     right, up, away = raster.side.frame
     carrier, standing = _standing(part)
     back = raster.near - (carrier + MARGIN) * raster.pixel
-    low = raster.low[::-1] + (box.low - MARGIN) * raster.pixel
-    high = raster.low[::-1] + (box.high + MARGIN) * raster.pixel
-    height, across = (low + high) / 2.0
+    low, high = part.corners
+    low = low - MARGIN * raster.pixel
+    high = high + MARGIN * raster.pixel
+    way = part.hinged(EDGES, "for a lever") if kind is PartKind.LEVER else None
+    across, height = edge_middle(low, high, way or OpensBy.OUT)
     if kind is PartKind.WHEEL and standing.any():
         rows, columns = np.nonzero(standing)
-        height = low[0] + (rows.mean() + MARGIN) * raster.pixel
-        across = low[1] + (columns.mean() + MARGIN) * raster.pixel
-    if kind is PartKind.LEVER and part.stated.hinge is not None:
-        if part.stated.hinge not in _ENDS:
-            raise part.opposed(_ENDS, "for a lever")
-        share = np.array(_ENDS[part.stated.hinge][::-1])
-        height, across = low + share * (high - low)
+        across = low[0] + (columns.mean() + MARGIN) * raster.pixel
+        height = low[1] + (rows.mean() + MARGIN) * raster.pixel
     origin = across * right + height * up + back * away
     # What is drawn to the outline has its thinnest ends too.
-    ends = np.array(part.view.box).reshape(2, 2)[:, ::-1]
+    ends = np.array(part.view.box).reshape(2, 2)
     low = np.where(ends[0] <= AT_OUTLINE, -np.inf, low)
     high = np.where(ends[1] >= 1.0 - AT_OUTLINE, np.inf, high)
     if _depth_is_bounded(part):
@@ -110,7 +99,7 @@ def _standing(part: StatedBox) -> tuple[float, BoolArray]:
     A wheel or a lever may hide most of what carries it: that is then the deeper one of two groups
     of depths, or, where there is one depth only, whatever is behind the part's own thickness.
     """
-    slices = part.panel.rectangle.window
+    slices = part.rectangle.window
     seen = part.front.relief.seen[slices]
     height = part.front.relief.height[slices]
     carrier = float(np.median(part.front.face.height[slices]))
@@ -137,17 +126,14 @@ def _parting(values: FloatArray) -> float:
 def _cap(part: StatedBox) -> OpeningPart:
     """Return all that is above the lower edge of a cap's box, turning about its middle."""
     raster = part.front.relief.raster
-    box = part.panel.rectangle
     right, up, away = raster.side.frame
-    height, across = raster.low[::-1] + box.low * raster.pixel
-    middle = raster.low[0] + float(box.low[1] + box.high[1]) / 2.0 * raster.pixel
-    rows, columns = box.window
-    nearest = float(part.front.face.height[rows, columns].max())
-    width = float(box.high[1] - box.low[1]) / 2.0
-    depth = raster.near + (width - nearest) * raster.pixel
-    origin = middle * right + height * up + depth * away
+    low, high = part.corners
+    middle = (low[0] + high[0]) / 2.0
+    nearest = float(part.front.face.height[part.rectangle.window].max())
+    depth = raster.near + (high[0] - low[0]) / 2.0 - nearest * raster.pixel
     region = Region(
         np.stack([-up, right, -right]),
-        np.array([-height, 2.0 * middle - across, -across]),
+        np.array([-low[1], high[0], -low[0]]),
     )
-    return OpeningPart(part.kind, region, Motion.endless(_UP, origin))
+    origin = middle * right + low[1] * up + depth * away
+    return OpeningPart(part.kind, region, Motion.endless(UP, origin))

@@ -18,9 +18,6 @@ from ..seams.cutting import CutMesh, centred_in
 from .boxed import NOT_FOUND
 from .placing import Placed
 
-#: A guessed part with so much of its surface in placed parts is one of these.
-SAME_PART = 0.5
-
 
 @dataclass(frozen=True, eq=False)
 class Expected:
@@ -104,7 +101,9 @@ def require_some(found: Sequence[Expected], wanted: Counter[PartKind]) -> list[E
 def find_expected(
     guess: Articulation, wanted: Counter[PartKind], placed: Sequence[Placed]
 ) -> Expected:
-    """Return the wanted parts of a guess that are not where a placed part is; others stay fixed.
+    """Return the wanted parts of a guess, most of whose surface is not where a placed part is.
+
+    The others stay fixed.
 
     Args:
         guess: a whole articulation.
@@ -120,6 +119,6 @@ def find_expected(
         part = guess.parts[joint.child]
         own = float(areas[part.faces].sum())
         shared = float(areas[part.faces[taken[part.faces]]].sum())
-        if part.kind in wanted and own > 0.0 and shared < SAME_PART * own:
+        if part.kind in wanted and own > 0.0 and shared < own / 2.0:
             joints.append(joint)
     return Expected(guess, placed, tuple(joints))

@@ -7,16 +7,19 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...articulation import JointKind
 from ...intake.stated import Hinge
 from ...mesh import FloatArray
+from ...part import PartKind
 from ...views.raster import Side
+from ..proposal import Motion
 from ..seams.cutting import Region
 from ..seams.fronts import AROUND, OPPOSITE, Front
-from ..seams.placing import OpeningPart, lid_mover
+from ..seams.placing import TURN, OpeningPart
 from .boxed import MOST_WAYS, StatedBox
 from .snapping import OFF
 
-#: Rows beside a lid's seam that show where the lid, or the body below it, ends [pixels].
+#: Rows above a lid's seam that show where the lid begins [pixels].
 BESIDE = 8
 #: Sides of the object at which a lid may be hinged.
 HINGE_SIDES = {Hinge(side): side for side in OPPOSITE}
@@ -31,36 +34,43 @@ def lid_openings(fronts: Mapping[Side, Front], part: StatedBox) -> list[OpeningP
     Raises:
         InputRejected: ``stated_part_not_found``: no lid is hinged so.
     """
-    hinge = part.stated.hinge
-    if hinge is not None and hinge not in HINGE_SIDES:
-        raise part.opposed(HINGE_SIDES, "for a lid")
+    hinge = part.hinged(HINGE_SIDES, "for a lid")
     side = part.front.relief.side
     others = [each for each in AROUND if each not in (side, OPPOSITE[side])]
-    likely = [OPPOSITE[side], *others] if hinge is None else [HINGE_SIDES[hinge]]
-    row = int(part.panel.rectangle.low[0])
+    likely = [OPPOSITE[side], *others] if hinge is None else [hinge]
     bounds = _bounds(part)
-    found = []
-    for each in likely[:MOST_WAYS]:
-        mover = lid_mover(fronts, row, each)
-        region = mover.region.within(bounds)
-        if part.stated.drawn is not None:
-            # One that stands open turns where its inner face begins, seen from across.
-            mover = _hung(fronts[OPPOSITE[each]], mover, slice(row + 1, row + BESIDE))
-        elif len(bounds.offsets):
-            mover = _hung(fronts[each], mover, slice(row + 1, row + BESIDE), bounds)
-        found.append(replace(mover, region=region))
-    return found
+    return [_opening(fronts, part, each, bounds) for each in likely[:MOST_WAYS]]
+
+
+def _opening(
+    fronts: Mapping[Side, Front], part: StatedBox, hinge: Side, bounds: Region
+) -> OpeningPart:
+    """Return a lid between its bounds, hinged on one side where it ends there.
+
+    One that stands open turns where its inner face begins, seen from across.
+    """
+    front = fronts[hinge]
+    raster = front.relief.raster
+    right, up, _ = raster.side.frame
+    row = int(part.rectangle.low[0])
+    height = raster.low[1] + row * raster.pixel
+    left, last = front.relief.box[:, 1]
+    across = raster.low[0] + (left + last) / 2.0 * raster.pixel
+    end = _end(front if part.stated.drawn is None else fronts[OPPOSITE[hinge]], row, bounds)
+    return OpeningPart(
+        kind=PartKind.LID,
+        region=Region(-up[None, :], np.array([-height])).within(bounds),
+        motion=Motion(JointKind.REVOLUTE, right, across * right + height * up + end, 0.0, TURN),
+    )
 
 
 def _bounds(part: StatedBox) -> Region:
     """Return the edges of a lid's box beyond which there is more of the mesh above its seam."""
     relief = part.front.relief
     raster = relief.raster
-    low = part.panel.rectangle.low
-    high = part.panel.rectangle.high
-    first_row, last_row, first, last = relief.box
-    off_rows = OFF * (last_row - first_row)
-    off_columns = OFF * (last - first)
+    low = part.rectangle.low
+    high = part.rectangle.high
+    off_rows, off_columns = OFF * (relief.box[1] - relief.box[0])
     above = relief.seen[low[0] + 1 :]
     right, up, _ = raster.side.frame
     planes = []
@@ -74,28 +84,17 @@ def _bounds(part: StatedBox) -> Region:
     return Region(normals, np.array([float(offset) for _, offset in planes]))
 
 
-def _hung(
-    front: Front, mover: OpeningPart, rows: slice, bounds: Region | None = None
-) -> OpeningPart:
-    """Return a lid hinged where some rows of the side of its hinge end, between its bounds."""
+def _end(front: Front, row: int, bounds: Region) -> FloatArray:
+    """Return how far away a lid above a row begins, between its bounds [m], shape [3]."""
     raster = front.relief.raster
     right, _, away = raster.side.frame
-    across = raster.right
+    rows = slice(row + 1, row + BESIDE)
     shown = front.relief.seen[rows].copy()
-    if bounds is not None:
-        for normal, offset in zip(bounds.normals, bounds.offsets, strict=True):
-            shown &= (float(normal @ right) * across <= offset) | (abs(normal @ right) < 0.5)
+    for normal, offset in zip(bounds.normals, bounds.offsets, strict=True):
+        shown &= (float(normal @ right) * raster.right <= offset) | (abs(normal @ right) < 0.5)
     depth = -front.face.height[rows][shown]
-    if not len(depth):
-        return mover
-    at = raster.near + float(np.percentile(depth, 25)) * raster.pixel
-    origin = mover.motion.origin + (at - float(mover.motion.origin @ away)) * away
-    return hinged_at(mover, origin)
-
-
-def hinged_at(mover: OpeningPart, origin: FloatArray) -> OpeningPart:
-    """Return a part that turns about a line through a point [m], shape [3]."""
-    return replace(mover, motion=replace(mover.motion, origin=origin))
+    near = float(np.percentile(depth, 25)) * raster.pixel if len(depth) else 0.0
+    return np.asarray((raster.near + near) * away)
 
 
 def hinged_inside(mover: OpeningPart) -> OpeningPart:
@@ -103,4 +102,4 @@ def hinged_inside(mover: OpeningPart) -> OpeningPart:
     origin = mover.motion.origin
     for normal, offset in zip(mover.region.normals, mover.region.offsets, strict=True):
         origin = origin - max(float(origin @ normal) - float(offset), 0.0) * normal
-    return hinged_at(mover, origin)
+    return replace(mover, motion=replace(mover.motion, origin=origin))

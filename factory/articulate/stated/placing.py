@@ -8,10 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from ...articulation import JointKind, rotation_about
+from ...articulation import JointKind
 from ...errors import InputRejected
+from ...geometry.components import connected_components
 from ...intake.stated import Hinge, StatedPart, StatedView
-from ...mesh import IntArray, Mesh
+from ...mesh import FloatArray, IntArray, Mesh
 from ...part import OpensBy, PartKind
 from ...views.raster import Side
 from ...views.view import Views
@@ -20,7 +21,7 @@ from ..seams.fronts import Front, fronts_of
 from ..seams.placing import OpeningPart, box_behind, panel_mover
 from ..seams.rectangles import Rectangle
 from ..seams.relief import reliefs_of
-from .boxed import MOST_WAYS, NOT_FOUND, USUAL, StatedBox, boxed_in
+from .boxed import EDGES, MOST_WAYS, NOT_FOUND, USUAL, StatedBox, boxed_in
 from .controls import control_openings
 from .hinging import level_edge, upright_edge
 from .lids import hinged_inside, lid_openings
@@ -30,13 +31,10 @@ from .wholes import SeenPieces, StatedWay
 
 #: Boxes of two panels of one side may share so much of the smaller one.
 MOST_SHARED = 0.25
-MM = 1000.0
-
-_WAYS = {edge: OpensBy(edge) for edge in (Hinge.LEFT, Hinge.RIGHT, Hinge.TOP, Hinge.BOTTOM)}
 #: From above the back is at the top of the picture.
-_WAYS_ABOVE = {**_WAYS, Hinge.BACK: OpensBy.TOP, Hinge.FRONT: OpensBy.BOTTOM}
+_EDGES_ABOVE = {**EDGES, Hinge.BACK: OpensBy.TOP, Hinge.FRONT: OpensBy.BOTTOM}
 #: Turns the top of an object to where its front is.
-FROM_ABOVE = rotation_about([1.0, 0.0, 0.0], np.pi / 2.0)
+FROM_ABOVE = Side.FRONT.frame.T @ Side.TOP.frame
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,19 +43,21 @@ class SeenMesh:
 
     Attributes:
         mesh: whose front is -Y.
+        back: rotation of the mesh to where its front was stated to be, shape [3, 3].
     """
 
     mesh: Mesh
+    back: FloatArray
 
     @cached_property
     def pieces(self) -> SeenPieces:
         """Return the pieces that it is made of."""
-        return SeenPieces(self.mesh)
+        return SeenPieces(Views(self.mesh, connected_components(self.mesh)))
 
     @cached_property
     def around(self) -> dict[Side, Front]:
         """Return its upright sides."""
-        return fronts_of(reliefs_of(Views(self.mesh)))
+        return fronts_of(reliefs_of(self.pieces.views))
 
     @cached_property
     def above(self) -> dict[Side, Front]:
@@ -89,7 +89,7 @@ class Placed:
 
 
 def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
-    """Return every stated part that has a box, found on a mesh.
+    """Return every stated part that has a box, found on a mesh, where its front was stated to be.
 
     Raises:
         InputRejected: ``stated_part_not_found``: a box shows nothing, or two take the same place.
@@ -121,7 +121,8 @@ def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
                         replace(way, cut=_as_stated(mover.turned(turn.T), cut, mesh))
                         for way, mover in zip(ways, movers, strict=True)
                     ]
-                found[cut.place] = Placed(cut.stated, cut.label, tuple(ways), pieces.of_faces)
+                back = tuple(way.turned(seen.back) for way in ways)
+                found[cut.place] = Placed(cut.stated, cut.label, back, pieces.of_faces)
     return [found[place] for place in sorted(found)]
 
 
@@ -158,8 +159,7 @@ def _outlined(mesh: Mesh, pieces: SeenPieces, part: StatedBox) -> StatedBox:
         return part
     low, high = np.rint((outline - raster.low) / raster.pixel).astype(np.int64)[:, ::-1]
     limit = np.array(front.relief.shape) - 1
-    nothing = np.zeros(4)
-    box = Rectangle(np.clip(low, 0, limit), np.clip(high, 0, limit), nothing, nothing)
+    box = Rectangle(np.clip(low, 0, limit), np.clip(high, 0, limit), np.zeros(4))
     return boxed_in(front, part.stated, part.place, box)
 
 
@@ -167,8 +167,8 @@ def _refuse_shared(boxed: Sequence[StatedBox]) -> None:
     panels = [each for each in boxed if each.is_panel and each.stated.parent is None]
     for number, one in enumerate(panels):
         for other in panels[:number]:
-            smaller = max(min(one.panel.rectangle.area, other.panel.rectangle.area), 1.0)
-            share = one.panel.rectangle.shared(other.panel.rectangle) / smaller
+            smaller = max(min(one.rectangle.area, other.rectangle.area), 1.0)
+            share = one.rectangle.shared(other.rectangle) / smaller
             if one.front is other.front and share > MOST_SHARED:
                 raise InputRejected(
                     NOT_FOUND,
@@ -190,42 +190,28 @@ def _openings(
     elif not part.is_panel:
         made = control_openings(part)
     else:
-        wanted = _wanted_ways(part, _WAYS_ABOVE if above else _WAYS)
-        if len(wanted) > 1:
-            wanted = _likeliest_first(wanted, part, boxed)
+        way = part.hinged(_EDGES_ABOVE if above else EDGES)
+        wanted = _likeliest_first(part, boxed) if way is None else (way,)
         side = part.front.relief.side
-        made = [
-            tilted(panel_mover(fronts, side, part.panel, way), part) for way in wanted[:MOST_WAYS]
-        ]
+        movers = [panel_mover(fronts, side, part.rectangle, way) for way in wanted[:MOST_WAYS]]
+        made = [tilted(mover, part) for mover in movers]
     return [replace(each, kind=part.kind) for each in made]
 
 
-def _wanted_ways(part: StatedBox, ways: Mapping[Hinge, OpensBy]) -> tuple[OpensBy, ...]:
-    hinge = part.stated.hinge
-    if hinge is None:
-        return USUAL[part.kind]
-    if hinge not in ways:
-        raise part.opposed(ways)
-    return (ways[hinge],)
-
-
-def _likeliest_first(
-    wanted: Sequence[OpensBy], part: StatedBox, boxed: Sequence[StatedBox]
-) -> tuple[OpensBy, ...]:
+def _likeliest_first(part: StatedBox, boxed: Sequence[StatedBox]) -> tuple[OpensBy, ...]:
     """Return ways in which a panel may open, first the one that its handle speaks for."""
     if part.kind is PartKind.DOOR:
-        beside = [each.panel for each in boxed if each.is_panel and each.front is part.front]
-        likely: OpensBy | None = upright_edge(part.front.relief, part.panel, beside)
+        beside = [each for each in boxed if each.is_panel and each.front is part.front]
+        likely: OpensBy | None = upright_edge(part, beside)
     else:
-        likely = level_edge(part.panel)
-    return tuple(sorted(wanted, key=lambda way: way is not likely))
+        likely = level_edge(part)
+    return tuple(sorted(USUAL[part.kind], key=lambda way: way is not likely))
 
 
 def _as_stated(mover: OpeningPart, part: StatedBox, mesh: Mesh) -> OpeningPart:
     """Return a part with the limits and depth that were stated, in the mesh's frame."""
     for view in part.stated.also:
-        low, high = StatedFrame.of(mesh, view.side).place(view.box)
-        bounds = box_behind(view.side, low[::-1], high[::-1])
+        bounds = box_behind(view.side, *StatedFrame.of(mesh, view.side).place(view.box))
         mover = replace(mover, region=mover.region.within(bounds))
     if mover.kind in (PartKind.LID, PartKind.SCREEN) and mover.panel is None:
         mover = hinged_inside(mover)
@@ -237,4 +223,4 @@ def _as_stated(mover: OpeningPart, part: StatedBox, mesh: Mesh) -> OpeningPart:
 
 def stated_unit(motion: Motion) -> float:
     """Return how many stated units, degrees or millimetres, are one of a joint's, rad or m."""
-    return MM if motion.kind is JointKind.PRISMATIC else float(np.degrees(1.0))
+    return 1000.0 if motion.kind is JointKind.PRISMATIC else float(np.degrees(1.0))

@@ -59,8 +59,7 @@ def snap(front: Front, frame: StatedFrame, box: Box) -> Rectangle:
     corners = (frame.place(box) - raster.low) / raster.pixel
     stated = np.rint(corners[:, ::-1]).astype(np.int64)
     reach = np.maximum(OFF * frame.size[::-1] / raster.pixel, LEAST_OFF)
-    first_row, last_row, first_column, last_column = front.relief.box
-    outline = np.array([[first_row, first_column], [last_row, last_column]])
+    outline = front.relief.box
     stated = np.clip(stated, outline[0], outline[1])
     lines = (front.level, front.upright)
     ends = np.array(box).reshape(2, 2)[:, ::-1]
@@ -71,44 +70,40 @@ def snap(front: Front, frame: StatedFrame, box: Box) -> Rectangle:
             if abs(ends[end, axis] - end) <= AT_OUTLINE:
                 placed[end, axis] = outline[end, axis]
             else:
-                at = _nearest_seam(
-                    lines[axis], stated[end, axis], reach[axis], int(start), int(stop)
+                placed[end, axis] = _nearest_seam(
+                    lines[axis], int(stated[end, axis]), reach[axis], int(start), int(stop)
                 )
-                placed[end, axis] = stated[end, axis] if at is None else at
         if (
             2 * np.ptp(placed[:, axis]) < np.ptp(stated[:, axis])
             or placed[0, axis] > placed[1, axis]
         ):
             # Both edges of something thin found the same seam.
             placed[:, axis] = stated[:, axis]
-    sides, relief = (
-        np.array(
-            [
-                _cover(lines[axis], int(placed[end, axis]), placed[:, 1 - axis], shape)
-                for axis in (0, 1)
-                for end in (0, 1)
-            ]
-        )
-        for shape in (False, True)
-    )
-    return Rectangle(placed[0], placed[1], sides, relief)
+    relief = [
+        _in_relief(lines[axis], int(placed[end, axis]), placed[:, 1 - axis])
+        for axis in (0, 1)
+        for end in (0, 1)
+    ]
+    return Rectangle(placed[0], placed[1], np.array(relief))
 
 
-def _nearest_seam(lines: Lines, stated: int, reach: float, start: int, stop: int) -> int | None:
-    """Return the line within reach that covers an edge best, the nearer counting more."""
+def _nearest_seam(lines: Lines, stated: int, reach: float, start: int, stop: int) -> int:
+    """Return the line within reach that covers an edge best, the nearer counting more.
+
+    The edge stays where it was stated if there is none.
+    """
     away = np.abs(lines.at - stated)
     near = np.flatnonzero(away <= reach)
     if not len(near) or stop <= start:
-        return None
+        return stated
     cover = lines.covered(near, np.int64(start), np.int64(stop))  # type: ignore[arg-type]
     value = np.where(cover >= COVERED, cover * (1.0 - 0.5 * away[near] / reach), 0.0)
-    return int(lines.at[near[value.argmax()]]) if value.any() else None
+    return int(lines.at[near[value.argmax()]]) if value.any() else stated
 
 
-def _cover(lines: Lines, at: int, along: IntArray, shape: bool) -> float:
-    """Return how far the line at a place is covered between two ends; 0 where there is no line."""
+def _in_relief(lines: Lines, at: int, along: IntArray) -> float:
+    """Return how far the shape covers the line at a place between two ends; 0 without a line."""
     index = np.flatnonzero(lines.at == at)
     if not len(index) or along[1] <= along[0]:
         return 0.0
-    covered = lines.in_relief if shape else lines.covered
-    return float(covered(index, along[0], along[1])[0])
+    return float(lines.in_relief(index, along[0], along[1])[0])

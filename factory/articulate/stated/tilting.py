@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,24 +20,6 @@ FLAT = 1.5
 ROUNDS = 4
 
 
-@dataclass(frozen=True)
-class _Plane:
-    """Depth in a side's frame: ``at + slope @ [right, up]`` [m].
-
-    Attributes:
-        at: at the frame's origin.
-        slope: to the right and up, shape [2].
-    """
-
-    at: float
-    slope: FloatArray
-
-    def point(self, frame: FloatArray, right: float, up: float) -> FloatArray:
-        """Return the point of the plane at a place [m], object frame, shape [3]."""
-        depth = self.at + float(self.slope @ [right, up])
-        return np.asarray(right * frame[0] + up * frame[1] + depth * frame[2])
-
-
 def tilted(mover: OpeningPart, part: StatedBox) -> OpeningPart:
     """Return a panel that is parallel to what its box shows, if that slopes; else as it is."""
     panel = mover.panel
@@ -47,17 +29,17 @@ def tilted(mover: OpeningPart, part: StatedBox) -> OpeningPart:
     if plane is None:
         return mover
     frame = panel.frame
-    normal = frame[2] - plane.slope @ frame[:2]
+    normal = frame[2] - plane[1:] @ frame[:2]
     normal /= np.linalg.norm(normal)
     axis = mover.motion.axis - float(mover.motion.axis @ normal) * normal
-    origin = plane.point(frame, *(frame[:2] @ mover.motion.origin))
+    origin = _point(plane, frame, *(frame[:2] @ mover.motion.origin))
     right = frame[0] - float(frame[0] @ normal) * normal
     right /= np.linalg.norm(right)
     own = np.stack([right, np.cross(normal, right), normal])
     if float(own[1] @ frame[1]) < 0.0:
         own[1] = -own[1]
     edges = (panel.low, panel.high)
-    corners = np.array([plane.point(frame, float(a[0]), float(b[1])) for a in edges for b in edges])
+    corners = np.array([_point(plane, frame, a[0], b[1]) for a in edges for b in edges])
     local = corners @ own.T
     behind = float(local[:, 2].max()) + panel.thickness
     return replace(
@@ -78,9 +60,17 @@ def tilted(mover: OpeningPart, part: StatedBox) -> OpeningPart:
     )
 
 
-def _plane_of(part: StatedBox) -> _Plane | None:
-    """Return the plane of what a box shows; ``None`` if it is upright to the view, or no plane."""
-    rows, columns = part.panel.rectangle.window
+def _point(plane: FloatArray, frame: FloatArray, right: float, up: float) -> FloatArray:
+    """Return the point of a plane, as of :func:`_plane_of`, at a place [m], object frame, [3]."""
+    return np.asarray(np.array([right, up, plane @ [1.0, right, up]]) @ frame)
+
+
+def _plane_of(part: StatedBox) -> FloatArray | None:
+    """Return the plane of what a box shows; ``None`` if it is upright to the view, or no plane.
+
+    Depth in the side's frame is ``plane @ [1, right, up]`` [m].
+    """
+    rows, columns = part.rectangle.window
     raster = part.front.relief.raster
     seen = part.front.relief.seen[rows, columns]
     row, column = np.nonzero(seen)
@@ -97,4 +87,4 @@ def _plane_of(part: StatedBox) -> _Plane | None:
     slopes = float(np.arctan(np.linalg.norm(found[1:])))
     if slopes < SLOPES or float(np.median(off)) > FLAT * raster.pixel:
         return None
-    return _Plane(float(found[0]), np.asarray(found[1:], dtype=np.float64))
+    return np.asarray(found, dtype=np.float64)

@@ -7,14 +7,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ...articulation import JointKind
-from ...geometry.components import connected_components
 from ...geometry.triangles import face_areas
-from ...mesh import FloatArray, IntArray, Mesh
-from ...part import OpensBy, PartKind
+from ...mesh import FloatArray, IntArray
+from ...part import OpensBy, Panel, PartKind
 from ...views.raster import Side, side_facing
 from ...views.view import Views
 from ..seams.cutting import Region, centred_in
-from ..seams.pieces import OWN, WHOLE, PieceOutlines, own_pieces
+from ..seams.pieces import DEEPEST, OWN, WHOLE, PieceOutlines, own_pieces
 from ..seams.placing import OpeningPart
 from .boxed import StatedBox
 from .snapping import OFF
@@ -24,7 +23,6 @@ ABOVE = 0.7
 #: What is turned shows so much of its box, as the pieces that it is made of: a star in a square.
 TURNED = 0.25
 LEAST_SHOWN = 0.01
-SHALLOW = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,40 +49,32 @@ class SeenPieces:
     """The pieces of a mesh, seen from its sides.
 
     Args:
-        mesh: whose front is -Y [m].
+        views: of a mesh whose front is -Y [m]; its parts are the pieces.
 
     Attributes:
         of_faces: the piece of every face, shape [face_count].
     """
 
-    def __init__(self, mesh: Mesh) -> None:
-        self._mesh = mesh
-        self.of_faces = connected_components(mesh)
-        self._areas = face_areas(mesh)
-        self._views = Views(mesh, self.of_faces)
+    def __init__(self, views: Views) -> None:
+        self.views = views
+        self.of_faces = views.owner
+        self._areas = face_areas(views.mesh)
         self._outlines: dict[Side, PieceOutlines] = {}
-
-    @property
-    def several(self) -> bool:
-        """Tell whether the mesh has more than one."""
-        return bool(self.of_faces.any())
 
     def seen_from(self, side: Side) -> PieceOutlines:
         """Return what one side shows of them."""
         if side not in self._outlines:
-            self._outlines[side] = PieceOutlines.of(self._views, side)
+            self._outlines[side] = PieceOutlines.of(self.views, side)
         return self._outlines[side]
 
     def way(self, mover: OpeningPart, part: StatedBox) -> StatedWay:
         """Return a part with the pieces that it is made of, if it is some pieces."""
-        if not self.several:
-            return StatedWay(mover)
         outlines = self.seen_from(part.view.side)
         low, high = part.corners
         shown = outlines.shown(low, high)
         enough = OWN
+        margin = OFF / 2.0 * float((high - low).max())
         if mover.panel is not None:
-            margin = OFF / 2.0 * float((high - low).max())
             # What hangs in the air before a panel is another part's: a cistern's lever.
             own = own_pieces(outlines, mover.panel, margin)
             on_it = outlines.high[:, 2] >= mover.panel.front - margin
@@ -99,21 +89,21 @@ class SeenPieces:
         elif part.is_panel or mover.kind is PartKind.SCREEN:
             own = self._share_within(mover.region) >= ABOVE
         else:
-            deep = float(np.ptp(self._mesh.vertices @ outlines.view.side.frame[2]))
-            margin = OFF / 2.0 * float((high - low).max())
             own = outlines.within(low - margin, high + margin) >= WHOLE
-            own &= outlines.high[:, 2] - outlines.low[:, 2] <= SHALLOW * deep
+            own &= outlines.deep <= DEEPEST[False] * outlines.depth
             own &= shown >= LEAST_SHOWN
             enough = TURNED
         if part.stated.also:
             own &= self._share_within(mover.region) >= ABOVE
         if shown[own].sum() < enough or own.all():
             return StatedWay(mover)
-        if mover.panel is not None and np.allclose(mover.panel.frame, part.view.side.frame):
-            ends = outlines.low[own].min(axis=0), outlines.high[own].max(axis=0)
-            mover = _hung_at(mover, ends[0][:2], ends[1][:2])
+        low = outlines.low[own].min(axis=0)
+        high = outlines.high[own].max(axis=0)
+        panel = mover.panel
+        if panel is not None and np.allclose(panel.frame, part.view.side.frame):
+            mover = _hung_at(mover, panel, low[:2], high[:2])
         if part.stated.range is None and mover.motion.kind is JointKind.PRISMATIC:
-            mover = _in_its_rails(mover, float(outlines.high[own, 2].max()))
+            mover = _in_its_rails(mover, float(high[2]))
         return StatedWay(mover, np.flatnonzero(own))
 
     def _shows_its_back(self, outlines: PieceOutlines, piece: int) -> bool:
@@ -134,10 +124,10 @@ class SeenPieces:
         Returns:
             ``None`` where no piece has such an outline, or there is but one piece.
         """
-        if not self.several:
+        if not self.of_faces.any():
             return None
         outlines = self.seen_from(side)
-        boxes = np.stack([outlines.low[:, :2], outlines.high[:, :2]], axis=1)
+        boxes = outlines.ends[..., :2].swapaxes(0, 1)
         off = (np.abs(boxes - corners) / reach).max(axis=(1, 2))
         off = np.where(outlines.shown(*corners) >= OWN, off, np.inf)
         best = int(off.argmin())
@@ -145,17 +135,14 @@ class SeenPieces:
 
     def _share_within(self, region: Region) -> FloatArray:
         """Return the share of each piece's surface in a region, shape [piece_count]."""
-        within = centred_in(self._mesh, region)
+        within = centred_in(self.views.mesh, region)
         whole = np.bincount(self.of_faces, weights=self._areas)
         inner = np.bincount(self.of_faces, weights=self._areas * within, minlength=len(whole))
         return np.asarray(inner / np.maximum(whole, 1e-12))
 
 
-def _hung_at(mover: OpeningPart, low: FloatArray, high: FloatArray) -> OpeningPart:
+def _hung_at(mover: OpeningPart, panel: Panel, low: FloatArray, high: FloatArray) -> OpeningPart:
     """Return a panel in the outline [m] of its pieces, hinged there: a stated box may be off."""
-    panel = mover.panel
-    if panel is None:
-        return mover
     (left, bottom), (right, top) = off = np.array([low - panel.low, high - panel.high])
     if np.abs(off).max() > 2.0 * OFF * panel.size.max():
         return mover

@@ -17,8 +17,8 @@ import numpy as np
 from asset_factory.sim_checks.read.document import refuse_doctype
 
 from ...errors import InputRejected
-from ...geometry.soup import Soup, plain_soup, stack_corners, unique_names
-from ...mesh import FloatArray, Material, Texture
+from ...geometry.soup import Soup, plain_soup, unique_names
+from ...mesh import FloatArray, Material, Texture, stack_corners
 from ..files import InputFiles
 from ..images import encode_png, load_texture
 from ..limits import require_at_most, unreadable

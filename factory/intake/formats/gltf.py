@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ...geometry.soup import Soup, plain_soup, stack_corners, unique_names
-from ...mesh import FloatArray, IntArray, Material, Texture
+from ...geometry.soup import Soup, plain_soup, unique_names
+from ...mesh import FloatArray, IntArray, Material, Texture, stack_corners
 from ..files import InputFiles
 from ..images import load_texture
 from ..limits import require_at_most, unreadable

@@ -135,7 +135,7 @@ def _seen_by_python(tree, name, file):
 
 def test_articulators_imported_by_name_and_all_weights_are_among_what_the_stage_runs():
     (stage,) = (stage for stage in STAGES if stage.name == "articulate")
-    for name in ("geometric.geometric", "seams.movers", "auto.articulator"):
+    for name in ("geometric.geometric", "seams.knobs", "auto.articulator"):
         package = f"asset_factory.factory.articulate.{name.partition('.')[0]}."
         assert any(each.startswith(package) for each in modules_run_by(*stage.code))
     files = {f"weights/{file.name}" for file in WEIGHTS.iterdir() if file.suffix != ".md"}

@@ -6,7 +6,7 @@ from tests.samples import one_piece
 
 from asset_factory.factory.articulate.seams.controls import with_strips
 from asset_factory.factory.articulate.seams.handles import Face, Protrusion
-from asset_factory.factory.articulate.seams.movers import knobs_of
+from asset_factory.factory.articulate.seams.knobs import knobs_of
 from asset_factory.factory.articulate.seams.rectangles import Lines
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.part import PartKind
@@ -28,7 +28,7 @@ def test_knobs_far_apart_on_one_strip_turn_unless_seams_part_them(parted, wanted
     face = Face(np.zeros((120, 200)), np.zeros((120, 200), np.bool_), knobs)
     level = lines([75, 110], 200)
     upright = lines([60, 130] if parted else [], 120)
-    assert all(each.control is wanted for each in with_strips(face, level, upright).handles)
+    assert all(each.control is wanted for each in with_strips(face, level, upright))
 
 
 @pytest.mark.parametrize(

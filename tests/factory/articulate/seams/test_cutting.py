@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from one_piece import fridge
 
-from asset_factory.factory.articulate.seams.cutting import Region, cut_around, inside, uncut
+from asset_factory.factory.articulate.seams.cutting import Region, cut_along, inside
 from asset_factory.factory.geometry.triangles import face_areas
 
 
@@ -39,7 +39,7 @@ def painted(mesh):
 def test_a_cut_keeps_the_surface(low, size):
     mesh = painted(fridge())
     region = box_region(low, [a + b for a, b in zip(low, size, strict=True)])
-    cut = cut_around(uncut(mesh), region)
+    cut = cut_along(mesh, [region])
     assert open_edges(cut.mesh) == open_edges(mesh) == 0
     assert face_areas(cut.mesh).sum() == pytest.approx(face_areas(mesh).sum(), rel=1e-9)
     corners = cut.mesh.vertices[cut.mesh.faces]
@@ -53,7 +53,7 @@ def test_a_cut_keeps_the_surface(low, size):
 def test_no_triangle_is_on_both_sides():
     mesh = fridge()
     region = box_region([0.1, -1.0, 0.2], [0.45, 0.1, 1.3])
-    cut = cut_around(uncut(mesh), region)
+    cut = cut_along(mesh, [region])
     within = inside(cut.mesh, region)
     corners = cut.mesh.vertices[cut.mesh.faces[within]]
     assert within.any()
@@ -69,4 +69,4 @@ def test_no_triangle_is_on_both_sides():
 def test_what_needs_no_cut_is_not_cut():
     mesh = fridge()
     everything = box_region([-1.0, -1.0, -1.0], [2.0, 2.0, 2.0])
-    assert cut_around(uncut(mesh), everything).mesh is mesh
+    assert cut_along(mesh, [everything]).mesh is mesh
