@@ -19,8 +19,7 @@ from ..assembly import JOINT_SUFFIX, assembled
 from ..closing import note_open
 from ..proposal import Motion, Proposal
 from ..pruning import keep_parts
-from ..seams.cutting import Region, inside
-from ..seams.movers import cut_along
+from ..seams.cutting import Region, cut_along, inside
 from ..seams.placing import TURN, OpeningPart
 from .plates import Plate, Silhouette, sticking_out
 
@@ -222,14 +221,22 @@ def _opening(silhouette: Silhouette, closing: _Closing) -> OpeningPart:
 
 def _cut_out(mesh: Mesh, found: Sequence[OpeningPart]) -> Articulation | None:
     """Return the object with parts cut out; ``None`` if nothing is in them or beside them."""
-    cut = cut_along(mesh, [found])
+    cut = cut_along(mesh, (part.region for part in found))
     owner = np.zeros(len(cut.mesh.faces), dtype=np.int64)
     proposals: list[Proposal] = []
     for part in found:
         own = inside(cut.mesh, part.region) & (owner == 0)
         if own.any():
             owner[own] = len(proposals) + 1
-            proposals.append(replace(part.proposal(own, CHANCE), proposer=Proposer.DETECTOR))
+            own_proposal = Proposal(
+                part.kind,
+                own,
+                part.motion,
+                proposer=Proposer.DETECTOR,
+                existence=CHANCE,
+                probability=CHANCE,
+            )
+            proposals.append(own_proposal)
     if not (proposals and (owner == 0).any()):
         return None
     made = assembled(cut.mesh, owner, proposals, "")
