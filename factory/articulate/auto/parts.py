@@ -27,8 +27,6 @@ class LearnedPart:
         agreement: share of the views that have it, 0 to 1.
         confidence, moves, hangs: means over those views, see :class:`.views.SeenPart`.
         guess: where and which way it moves, on average.
-        lower, upper: limits from the pose seen, medians over the views that say the same kind [rad]
-            or [m].
         slide: how it slides besides, if turning and sliding is more probable than either alone;
             ``None`` if not.
     """
@@ -39,8 +37,6 @@ class LearnedPart:
     moves: float
     hangs: float
     guess: Guess
-    lower: float
-    upper: float
     slide: Motion | None = None
 
     def __post_init__(self) -> None:
@@ -65,7 +61,7 @@ def agreed_parts(views: tuple[NetworkView, ...], areas: FloatArray) -> tuple[Lea
         _Seen(number, view.face_part == index, part)
         for number, view in enumerate(views)
         for index, part in enumerate(view.parts)
-        if view.parents[index] >= 0 and part.moves >= LEAST_MOVING
+        if part.moves >= LEAST_MOVING
     ]
     seen.sort(key=lambda each: -each.part.confidence * each.part.moves)
     found = []
@@ -117,8 +113,6 @@ def _one(group: list[_Seen], views: int) -> LearnedPart:
             point=np.median(points, axis=0) if points and direction is not None else None,
             upper=upper - lower if upper > lower else None,
         ),
-        lower=lower,
-        upper=upper,
         slide=slide,
     )
 
