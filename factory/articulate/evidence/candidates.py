@@ -49,6 +49,17 @@ class Candidates:
     def __len__(self) -> int:
         return len(self.axis)
 
+    def about(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return where points [m] of shape [point_count, 3] are, seen from every axis.
+
+        Returns:
+            How far along it [m], shape [n, point_count]; the arms from it to them [m], shape [n,
+            point_count, 3].
+        """
+        offset = points[None] - self.origin[:, None]
+        along = np.einsum("nij,nj->ni", offset, self.axis)
+        return along, offset - along[..., None] * self.axis[:, None]
+
     def at(self, rows: IntArray | Sequence[int]) -> Candidates:
         """Return some of them, in that order."""
         return Candidates(
@@ -96,8 +107,7 @@ def _places(body: Body, direction: FloatArray) -> list[float]:
     low = float(along.min())
     high = float(along.max())
     places = [low, high, (low + high) / 2.0]
-    flat = np.abs(body.own.normals @ direction) > 0.9
-    places += body.heavy_planes(body.own.points[flat] @ direction, low)
+    places += body.heavy_planes(direction, low)
     kept: list[float] = []
     for place in places:
         if all(abs(place - other) > SAME_PLACE * body.diagonal for other in kept):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 
 
 @dataclass(frozen=True)
@@ -25,12 +25,15 @@ class Surfels:
     def __len__(self) -> int:
         return len(self.points)
 
+    def at(self, rows: IntArray | BoolArray) -> Surfels:
+        """Return some of them, in that order."""
+        return Surfels(self.points[rows], self.normals[rows])
+
     def some(self, count: int) -> Surfels:
         """Pick at most ``count`` of them, evenly."""
         if len(self) <= count:
             return self
-        index = np.linspace(0, len(self) - 1, count).astype(np.int64)
-        return Surfels(self.points[index], self.normals[index])
+        return self.at(np.linspace(0, len(self) - 1, count).astype(np.int64))
 
 
 #: Fractional parts of multiples of these fill the unit square evenly (the plastic number's powers,
