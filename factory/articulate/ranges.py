@@ -9,7 +9,7 @@ import numpy as np
 
 from ..articulation import Joint, JointKind
 from ..errors import InputRejected
-from ..geometry.rows import distinct_rows
+from ..geometry.posing import moved
 from ..mesh import BoolArray, FloatArray, Mesh
 from .draft import Draft
 
@@ -121,8 +121,8 @@ def with_zero_inside(draft: Draft, values: dict[str, float]) -> Draft:
                 upper=joint.upper - shift,
             )
         )
-    moved = replace(draft, mesh=_posed(draft, poses), joints=tuple(joints))
-    return moved.noting(*notes)
+    posed = replace(draft, mesh=moved(draft.mesh, draft.face_part, poses), joints=tuple(joints))
+    return posed.noting(*notes)
 
 
 def without_still_joints(draft: Draft) -> Draft:
@@ -142,7 +142,7 @@ def without_still_joints(draft: Draft) -> Draft:
     return replace(draft, joints=tuple(joints)).noting(*notes) if notes else draft
 
 
-def closed_at_lower(draft: Draft, moved: frozenset[str] = frozenset()) -> Draft:
+def closed_at_lower(draft: Draft, posed: frozenset[str] = frozenset()) -> Draft:
     """Return every joint with its lower limit closed; needs ordered joints and 0 within the limits.
 
     The input pose is taken as closed when it is at one end of the range, unless that is the upper
@@ -151,32 +151,30 @@ def closed_at_lower(draft: Draft, moved: frozenset[str] = frozenset()) -> Draft:
 
     Args:
         draft: anything.
-        moved: joints not as drawn: the pose of a hinge then says nothing; a slide would sink in.
+        posed: joints not as drawn: the pose of a hinge then says nothing; a slide would sink in.
     """
-    joints = []
     notes = []
     undecided = []
     turned = set()
     for joint in draft.joints:
         # A follower is closed where its leader is.
         if joint.kind not in (JointKind.REVOLUTE, JointKind.PRISMATIC) or joint.mimic is not None:
-            joints.append(joint)
             continue
-        drawn = joint.kind is JointKind.PRISMATIC or joint.name not in moved
+        drawn = joint.kind is JointKind.PRISMATIC or joint.name not in posed
         flip, note = _opens_downwards(draft, joint, drawn=drawn)
+        notes += [note] if note else []
         if flip is None:
             undecided.append(joint.name)
-        notes += [note] if note else []
-        if flip:
+        elif flip:
             turned.add(joint.name)
-            joints.append(replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower))
-        else:
-            joints.append(joint)
-    for index, joint in enumerate(joints):
+    joints = []
+    for joint in draft.joints:
         mimic = joint.mimic
         if mimic is not None and mimic.leader in turned:
             back = replace(mimic, multiplier=-mimic.multiplier)
-            joints[index] = replace(joint, mimic=back)
+            joints.append(replace(joint, mimic=back))
+        else:
+            joints.append(turned_round(joint) if joint.name in turned else joint)
     if undecided:
         notes.append(
             "the input pose is inside the range and neither end is clearly closed, "
@@ -187,6 +185,11 @@ def closed_at_lower(draft: Draft, moved: frozenset[str] = frozenset()) -> Draft:
     return replace(draft, joints=tuple(joints)).noting(*notes)
 
 
+def turned_round(joint: Joint) -> Joint:
+    """Return the same joint, opening the other way: its axis and limits reversed."""
+    return replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower)
+
+
 def _opens_downwards(draft: Draft, joint: Joint, *, drawn: bool) -> tuple[bool | None, str]:
     """Return whether the upper limit is closed, ``None`` where nothing tells; and a note."""
     near = AT_END * joint.range
@@ -194,33 +197,22 @@ def _opens_downwards(draft: Draft, joint: Joint, *, drawn: bool) -> tuple[bool |
         return False, ""
     inside = np.isin(draft.face_part, list(draft.subtree(joint.child)))
     low, high = box_volumes(draft.mesh, inside, joint, (joint.lower, joint.upper))
-    alike = abs(low - high) <= CLEAR_DIFFERENCE * max(low, high)
     if drawn and joint.upper <= near:
         if low <= (1.0 - OPEN_DIFFERENCE) * high:
-            return (
-                False,
-                (
-                    f"joint {joint.name!r}: the input pose is taken as open; "
-                    "the object is far smaller at the other end"
-                ),
-            )
+            why = "is taken as open; the object is far smaller at the other end"
+            return False, f"joint {joint.name!r}: the input pose {why}"
         return True, f"joint {joint.name!r}: opened towards its lower limit; its axis is reversed"
-    if alike:
+    if abs(low - high) <= CLEAR_DIFFERENCE * max(low, high):
         return None if drawn else joint.upper <= near, ""
     place = "inside" if drawn else "outside"
     where = (
         f"joint {joint.name!r}: the input pose is {place} its range "
         f"[{joint.lower:.4g}, {joint.upper:.4g}]"
     )
+    why = "where the object is smallest, is taken as closed"
     if low < high:
-        return False, f"{where}; its lower limit, where the object is smallest, is taken as closed"
-    return (
-        True,
-        (
-            f"{where}; its upper limit, where the object is smallest, is taken as closed, "
-            "its axis reversed"
-        ),
-    )
+        return False, f"{where}; its lower limit, {why}"
+    return True, f"{where}; its upper limit, {why}, its axis reversed"
 
 
 def box_volumes(
@@ -242,20 +234,3 @@ def box_volumes(
         extents.append(np.ptp(np.concatenate([rest, moved]), axis=0))
     thick = np.array(extents) + 0.01 * np.linalg.norm(extents, axis=1, keepdims=True)
     return np.asarray(thick.prod(axis=1))
-
-
-def _posed(draft: Draft, poses: FloatArray) -> Mesh:
-    """Return the mesh with every part moved; vertices shared between parts are told apart."""
-    mesh = draft.mesh
-    part = np.repeat(draft.face_part[:, None], 3, axis=1)
-    keys = np.stack([mesh.faces.ravel(), part.ravel()], axis=1)
-    first, index = distinct_rows(keys)
-    unique = keys[first]
-    pose = poses[unique[:, 1]]
-    vertices = (
-        np.einsum("nij,nj->ni", pose[:, :3, :3], mesh.vertices[unique[:, 0]]) + pose[:, :3, 3]
-    )
-    normals = mesh.corner_normals
-    if normals is not None:
-        normals = np.einsum("nij,nkj->nki", poses[draft.face_part][:, :3, :3], normals)
-    return replace(mesh, vertices=vertices, faces=index.reshape(-1, 3), corner_normals=normals)
