@@ -73,8 +73,7 @@ def _found(mesh: Mesh) -> tuple[tuple[Proposal, ...], str]:
         return (), "the mesh is flat: kept rigid"
     movers = _best_view(scene) or tuple(m.seen_from(scene.rotation) for m in find_cap(scene))
     movers += tuple(_small_ones(scene, movers))
-    moving = {int(piece) for mover in movers for piece in mover.pieces}
-    if not movers or len(moving) == pieces:
+    if not movers or len(_pieces_of(movers)) == pieces:
         return (), (f"none of the {pieces} separate pieces looks like a door or drawer: kept rigid")
     return _proposals(labels, movers), ""
 
@@ -94,9 +93,7 @@ def _best_view(scene: Scene) -> tuple[Mover, ...]:
 
 
 def _pieces_of(movers: tuple[Mover, ...]) -> IntArray:
-    return np.array(
-        sorted(int(piece) for mover in movers for piece in mover.pieces), dtype=np.int64
-    )
+    return np.array(sorted({p for mover in movers for p in mover.pieces.tolist()}), dtype=np.int64)
 
 
 def _small_ones(scene: Scene, movers: tuple[Mover, ...]) -> Iterator[Mover]:
