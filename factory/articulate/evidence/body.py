@@ -14,11 +14,10 @@ from ...geometry.triangles import ends_of
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh, read_only
 from .frames import distinct, level_frame, own_frame
 from .grid import Grid, grid_around
-from .surfels import Surfels, spread, spread_owned
+from .surfels import WHOLE, Surfels, spread, spread_owned
 
-#: Surfels of a part, and of what surrounds it.
+#: Surfels of a part.
 PART_SURFELS = 512
-REST_SURFELS = 20000
 #: Points that are moved to see what they meet.
 PROBES = 96
 #: Surroundings within this share of the part's diagonal are looked at.
@@ -202,7 +201,7 @@ class Body:
         Returns:
             Two places along the direction; nothing where no plane is one of the part's faces.
         """
-        flat = self.own.points[np.abs(self.own.normals @ direction) > 0.9] @ direction
+        flat = self.own.points[self.own.facing(direction)] @ direction
         bins = np.maximum((flat - low) / max(0.015 * self.diagonal, 1e-9), 0.0).astype(np.int64)
         heavy = np.flatnonzero(np.bincount(bins) >= FLAT * len(self.own))
         return [float(np.median(flat[bins == at])) for at in heavy[[0, -1]]] if len(heavy) else []
@@ -229,7 +228,7 @@ def body_of(partition: Partition, part: int) -> Body | None:
     bounds = partition.mesh.bounds
     low = np.maximum(low, bounds[0] - 0.01 * diagonal)
     high = np.minimum(high, bounds[1] + 0.01 * diagonal)
-    surfels, triangle = spread_owned(rest, REST_SURFELS)
+    surfels, triangle = spread_owned(rest, WHOLE)
     inside = ((surfels.points >= low) & (surfels.points < high)).all(axis=1)
     surfels = surfels.at(inside)
     grid = grid_around(surfels, low, high)

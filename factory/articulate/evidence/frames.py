@@ -36,7 +36,7 @@ def own_frame(surfels: Surfels) -> FloatArray | None:
     first = directions[:, 2]
     if shares[2] < DOMINANT:
         return None
-    facing = np.abs(normals @ first) > 0.9
+    facing = surfels.facing(first)
     if facing.mean() >= 0.5 * DOMINANT:
         signs = np.sign(normals[facing] @ first)
         first = (normals[facing] * signs[:, None]).mean(axis=0)

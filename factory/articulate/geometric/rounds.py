@@ -16,8 +16,6 @@ FROM_ABOVE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 """The view whose front is the top of the scene: its y points down, its z to the back."""
 HIGHEST = 0.5
 """Of the object's height: a cap, or a wheel."""
-NARROW = 0.5
-"""A knob's radius is at most this share of its lid's."""
 LIFT = 0.5
 """Share of its height by which a lid is lifted: visible, since a lid that comes off has no end."""
 
@@ -83,12 +81,13 @@ def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
 
 
 def _has_knob(scene: Scene, cap: int, group: IntArray) -> bool:
+    """Tell whether the top quarter of a cap is at most half as wide as the cap."""
     corners = scene.triangles[np.isin(scene.labels, group)].reshape(-1, 3)
     low = float(scene.low[cap, UP])
     high = float(scene.high[group, UP].max())
     top = corners[corners[:, UP] >= high - 0.25 * (high - low)]
     offset = np.linalg.norm((top - scene.middle[cap])[:, PLAN], axis=1)
-    return bool(offset.max() <= NARROW * 0.5 * scene.extents[cap, SIDEWAYS])
+    return bool(offset.max() <= 0.25 * scene.extents[cap, SIDEWAYS])
 
 
 def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
