@@ -53,12 +53,8 @@ def sound_limits(
                 "no_limits",
                 f"joint {name!r}: slides between {lower} and {upper}; want finite limits",
             )
-        return (
-            JointKind.CONTINUOUS,
-            -np.pi,
-            np.pi,
-            [f"joint {name!r} has no limits: taken as continuous"],
-        )
+        note = f"joint {name!r} has no limits: taken as continuous"
+        return JointKind.CONTINUOUS, -np.pi, np.pi, [note]
     notes = []
     if lower > upper:
         lower, upper = upper, lower

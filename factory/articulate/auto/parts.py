@@ -131,12 +131,8 @@ def _mean_direction(directions: list[FloatArray]) -> FloatArray | None:
     """Return the mean of directions turned to one side; ``None`` if none or they cancel."""
     if not directions:
         return None
-    aligned = [d if float(d @ directions[0]) >= 0.0 else -d for d in directions]
+    sides = np.where(np.array(directions) @ directions[0] >= 0.0, 1.0, -1.0)
     # Which side is the majority's opinion.
-    sign = (
-        1.0
-        if 2 * sum(float(d @ directions[0]) >= 0.0 for d in directions) >= len(directions)
-        else -1.0
-    )
-    mean = sign * np.mean(aligned, axis=0)
+    sign = 1.0 if sides.sum() >= 0.0 else -1.0
+    mean = sign * np.mean(sides[:, None] * directions, axis=0)
     return mean if float(np.linalg.norm(mean)) > 1e-6 else None

@@ -8,13 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
-from ...articulation import JointKind, rotation_about
+from ...articulation import JointKind
 from ...errors import InputRejected
 from ...intake.stated import Hinge, StatedPart, StatedView
 from ...mesh import IntArray, Mesh
 from ...part import OpensBy, PartKind
 from ...views.raster import Side
 from ...views.view import Views
+from ..geometric.rounds import FROM_ABOVE
 from ..proposal import Motion
 from ..seams.fronts import Front, fronts_of
 from ..seams.placing import OpeningPart, box_behind, panel_mover
@@ -35,8 +36,6 @@ MM = 1000.0
 _WAYS = {edge: OpensBy(edge) for edge in (Hinge.LEFT, Hinge.RIGHT, Hinge.TOP, Hinge.BOTTOM)}
 #: From above the back is at the top of the picture.
 _WAYS_ABOVE = {**_WAYS, Hinge.BACK: OpensBy.TOP, Hinge.FRONT: OpensBy.BOTTOM}
-#: Turns the top of an object to where its front is.
-FROM_ABOVE = rotation_about([1.0, 0.0, 0.0], np.pi / 2.0)
 
 
 @dataclass(frozen=True, eq=False)
