@@ -56,7 +56,7 @@ class Grid:
     def _tenants(self, points: FloatArray) -> IntArray:
         """Return the surfel in the cell of each point [m]; -1 if none or outside, shape [...]."""
         cells = np.floor((points - self.low) / self.cell).astype(np.int64)
-        inside = ((cells >= 0) & (cells < self.tenant.shape)).all(axis=-1)
+        inside = np.asarray(((cells >= 0) & (cells < self.tenant.shape)).all(axis=-1))
         i, j, k = np.moveaxis(np.where(inside[..., None], cells, 0), -1, 0)
         return np.where(inside, self.tenant[i, j, k], -1)
 
@@ -66,7 +66,7 @@ def grid_around(surfels: Surfels, low: FloatArray, high: FloatArray) -> Grid:
     cell = float((high - low).max()) / CELLS
     shape = np.maximum(np.ceil((high - low) / cell).astype(np.int64), 1)
     inside = ((surfels.points >= low) & (surfels.points < low + shape * cell)).all(axis=1)
-    kept = surfels.at(inside)
+    kept = surfels.at(np.flatnonzero(inside))
     i, j, k = np.minimum(((kept.points - low) / cell).astype(np.int64), shape - 1).T
     tenant = np.full(shape, -1, dtype=np.int64)
     tenant[i, j, k] = np.arange(len(kept))

@@ -75,7 +75,7 @@ def _protruding(scene: Scene, seed: FrontSlab, mounted: Sequence[int]) -> IntArr
     pieces = np.array(mounted, dtype=np.int64)
     protrusion = seed.low[FRONT] - scene.low[pieces, FRONT]
     longest = float(protrusion.max(initial=0.0))
-    return pieces[(protrusion >= 0.6 * longest) & (longest >= 0.75 * scene.touch)]
+    return np.asarray(pieces[(protrusion >= 0.6 * longest) & (longest >= 0.75 * scene.touch)])
 
 
 def is_crowded(scene: Scene, panel: FrontSlab) -> bool:

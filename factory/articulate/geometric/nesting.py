@@ -44,7 +44,7 @@ def resolve_nesting(scene: Scene, seeds: list[FrontSlab]) -> list[FrontSlab]:
 def _own_handle(host: FrontSlab, inner: FrontSlab) -> bool:
     if host.handle is None or inner.handle is None:
         return host.handle is not None
-    rect = overlap_area(*host.handle, inner.low, inner.high)
+    rect = overlap_area(host.handle[0], host.handle[1], inner.low, inner.high)
     return bool(rect < 0.5 * np.prod((host.handle[1] - host.handle[0])[RECT]))
 
 
