@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 
 from asset_factory.sim_checks.description import Mimic
-from asset_factory.sim_checks.geometry.coupling import Limits, whole_chain
+from asset_factory.sim_checks.geometry.coupling import Limits, leaders, whole_chain
 
 from ..articulation import Joint
 from ..geometry.coupling import common_limits, limits_of, sound_mimics, with_common_ranges
 from .draft import Draft
-from .ranges import AT_END, MOST_TURN, NO_RANGE
+from .ranges import AT_END, MOST_TURN, NO_RANGE, turned_round
 
 
 def with_sound_mimics(draft: Draft) -> Draft:
@@ -34,7 +34,7 @@ def resting_values(draft: Draft) -> tuple[Draft, dict[str, float]]:
     known = {j.name: j for j in draft.joints if j.movable}
     values: dict[str, float] = {}
     kept: dict[str, Mimic] = {}
-    for joint in sorted(known.values(), key=lambda each: _depth(each.name, mimics)):
+    for joint in sorted(known.values(), key=lambda each: len(leaders(each.name, mimics))):
         lower, upper = limits_of(joint)
         mimic = mimics.get(joint.name)
         at = 0.0 if mimic is None else mimic.multiplier * values[mimic.leader] + mimic.offset
@@ -64,9 +64,7 @@ def moving_together(draft: Draft) -> Draft:
         if joint.mimic is None:
             continue
         made = replace(joint, mimic=replace(joint.mimic, multiplier=abs(joint.mimic.multiplier)))
-        if joint.name in turned:
-            made = replace(made, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower)
-        joints[index] = made
+        joints[index] = turned_round(made) if joint.name in turned else made
     return replace(draft, joints=with_common_ranges(joints))
 
 
@@ -78,14 +76,6 @@ def _is_common(joints: Sequence[Joint], whole: Mimic) -> bool:
     return (
         not leader.turns or max(-limits[0], limits[1]) <= MOST_TURN or bool(np.isinf(limits).all())
     )
-
-
-def _depth(name: str, mimics: dict[str, Mimic]) -> int:
-    depth = 0
-    while name in mimics:
-        name = mimics[name].leader
-        depth += 1
-    return depth
 
 
 def _following(draft: Draft, mimics: dict[str, Mimic], why: str) -> Draft:

@@ -53,12 +53,8 @@ def sound_limits(
                 "no_limits",
                 f"joint {name!r}: slides between {lower} and {upper}; want finite limits",
             )
-        return (
-            JointKind.CONTINUOUS,
-            -np.pi,
-            np.pi,
-            [f"joint {name!r} has no limits: taken as continuous"],
-        )
+        note = f"joint {name!r} has no limits: taken as continuous"
+        return JointKind.CONTINUOUS, -np.pi, np.pi, [note]
     notes = []
     if lower > upper:
         lower, upper = upper, lower
@@ -142,7 +138,7 @@ def without_still_joints(draft: Draft) -> Draft:
     return replace(draft, joints=tuple(joints)).noting(*notes) if notes else draft
 
 
-def closed_at_lower(draft: Draft, moved: frozenset[str] = frozenset()) -> Draft:
+def closed_at_lower(draft: Draft, posed: frozenset[str] = frozenset()) -> Draft:
     """Return every joint with its lower limit closed; needs ordered joints and 0 within the limits.
 
     The input pose is taken as closed when it is at one end of the range, unless that is the upper
@@ -151,32 +147,30 @@ def closed_at_lower(draft: Draft, moved: frozenset[str] = frozenset()) -> Draft:
 
     Args:
         draft: anything.
-        moved: joints not as drawn: the pose of a hinge then says nothing; a slide would sink in.
+        posed: joints not as drawn: the pose of a hinge then says nothing; a slide would sink in.
     """
-    joints = []
     notes = []
     undecided = []
     turned = set()
     for joint in draft.joints:
         # A follower is closed where its leader is.
         if joint.kind not in (JointKind.REVOLUTE, JointKind.PRISMATIC) or joint.mimic is not None:
-            joints.append(joint)
             continue
-        drawn = joint.kind is JointKind.PRISMATIC or joint.name not in moved
+        drawn = joint.kind is JointKind.PRISMATIC or joint.name not in posed
         flip, note = _opens_downwards(draft, joint, drawn=drawn)
+        notes += [note] if note else []
         if flip is None:
             undecided.append(joint.name)
-        notes += [note] if note else []
-        if flip:
+        elif flip:
             turned.add(joint.name)
-            joints.append(replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower))
-        else:
-            joints.append(joint)
-    for index, joint in enumerate(joints):
+    joints = []
+    for joint in draft.joints:
         mimic = joint.mimic
         if mimic is not None and mimic.leader in turned:
             back = replace(mimic, multiplier=-mimic.multiplier)
-            joints[index] = replace(joint, mimic=back)
+            joints.append(replace(joint, mimic=back))
+        else:
+            joints.append(turned_round(joint) if joint.name in turned else joint)
     if undecided:
         notes.append(
             "the input pose is inside the range and neither end is clearly closed, "
@@ -187,6 +181,11 @@ def closed_at_lower(draft: Draft, moved: frozenset[str] = frozenset()) -> Draft:
     return replace(draft, joints=tuple(joints)).noting(*notes)
 
 
+def turned_round(joint: Joint) -> Joint:
+    """Return the same joint, opening the other way: its axis and limits reversed."""
+    return replace(joint, axis=-joint.axis, lower=-joint.upper, upper=-joint.lower)
+
+
 def _opens_downwards(draft: Draft, joint: Joint, *, drawn: bool) -> tuple[bool | None, str]:
     """Return whether the upper limit is closed, ``None`` where nothing tells; and a note."""
     near = AT_END * joint.range
@@ -194,33 +193,22 @@ def _opens_downwards(draft: Draft, joint: Joint, *, drawn: bool) -> tuple[bool |
         return False, ""
     inside = np.isin(draft.face_part, list(draft.subtree(joint.child)))
     low, high = box_volumes(draft.mesh, inside, joint, (joint.lower, joint.upper))
-    alike = abs(low - high) <= CLEAR_DIFFERENCE * max(low, high)
     if drawn and joint.upper <= near:
         if low <= (1.0 - OPEN_DIFFERENCE) * high:
-            return (
-                False,
-                (
-                    f"joint {joint.name!r}: the input pose is taken as open; "
-                    "the object is far smaller at the other end"
-                ),
-            )
+            why = "is taken as open; the object is far smaller at the other end"
+            return False, f"joint {joint.name!r}: the input pose {why}"
         return True, f"joint {joint.name!r}: opened towards its lower limit; its axis is reversed"
-    if alike:
+    if abs(low - high) <= CLEAR_DIFFERENCE * max(low, high):
         return None if drawn else joint.upper <= near, ""
     place = "inside" if drawn else "outside"
     where = (
         f"joint {joint.name!r}: the input pose is {place} its range "
         f"[{joint.lower:.4g}, {joint.upper:.4g}]"
     )
+    why = "where the object is smallest, is taken as closed"
     if low < high:
-        return False, f"{where}; its lower limit, where the object is smallest, is taken as closed"
-    return (
-        True,
-        (
-            f"{where}; its upper limit, where the object is smallest, is taken as closed, "
-            "its axis reversed"
-        ),
-    )
+        return False, f"{where}; its lower limit, {why}"
+    return True, f"{where}; its upper limit, {why}, its axis reversed"
 
 
 def box_volumes(

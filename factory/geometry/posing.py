@@ -36,13 +36,9 @@ def posed(articulation: Articulation, values: Mapping[str, float]) -> Articulati
             )
     values = articulation.completed(values)
     poses = articulation.poses(values)
-    return replace(
-        articulation,
-        mesh=moved(articulation.mesh, face_parts(articulation), poses),
-        joints=tuple(
-            _joint(joint, poses, values.get(joint.name, 0.0)) for joint in articulation.joints
-        ),
-    )
+    joints = tuple(_joint(each, poses, values.get(each.name, 0.0)) for each in articulation.joints)
+    mesh = moved(articulation.mesh, face_parts(articulation), poses)
+    return replace(articulation, mesh=mesh, joints=joints)
 
 
 def closed(articulation: Articulation) -> Articulation:
@@ -83,13 +79,13 @@ def face_parts(articulation: Articulation) -> IntArray:
 def _joint(joint: Joint, poses: FloatArray, value: float) -> Joint:
     carried = poses[joint.child]
     axis = carried[:3, :3] @ joint.axis
-    without_ends = joint.kind is JointKind.CONTINUOUS
+    shift = 0.0 if joint.kind is JointKind.CONTINUOUS else value
     return replace(
         joint,
         axis=axis / np.linalg.norm(axis),
         origin=carried[:3, :3] @ joint.origin + carried[:3, 3],
-        lower=joint.lower if without_ends else joint.lower - value,
-        upper=joint.upper if without_ends else joint.upper - value,
+        lower=joint.lower - shift,
+        upper=joint.upper - shift,
     )
 
 
@@ -104,14 +100,9 @@ def moved(mesh: Mesh, owner: IntArray, poses: FloatArray) -> Mesh:
     key = owner[:, None] * len(mesh.vertices) + mesh.faces
     used, faces = np.unique(key, return_inverse=True)
     part, vertex = np.divmod(used, len(mesh.vertices))
-    rotations = poses[:, :3, :3]
-    shifts = poses[:, :3, 3]
+    turns = poses[:, :3, :3]
+    vertices = np.einsum("nij,nj->ni", turns[part], mesh.vertices[vertex]) + poses[part, :3, 3]
     normals = mesh.corner_normals
-    return replace(
-        mesh,
-        vertices=np.einsum("nij,nj->ni", rotations[part], mesh.vertices[vertex]) + shifts[part],
-        faces=faces.reshape(-1, 3),
-        corner_normals=None
-        if normals is None
-        else np.einsum("nij,nkj->nki", rotations[owner], normals),
-    )
+    if normals is not None:
+        normals = np.einsum("nij,nkj->nki", turns[owner], normals)
+    return replace(mesh, vertices=vertices, faces=faces.reshape(-1, 3), corner_normals=normals)

@@ -77,18 +77,18 @@ def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Prod
         id=origin.id,
         name=intake.name,
         category=intake.provenance.category or "",
-        status=verdict.status,
+        status=verdict.report.status,
         reason=verdict.reason.code if verdict.reason else "",
         parts=len(asset.articulation.parts),
         joints=len(asset.articulation.movable_joints),
         hulls=asset.hull_count,
-        key=_key(origin, verdict.status, verdict.reason),
+        key=_key(origin, verdict.report.status, verdict.reason),
         message=verdict.reason.message if verdict.reason else "",
         license=intake.provenance.license or "",
     )
     told = BuildReport(verdict.report, made.plan.repairs)
     bundle = made.bundle.folder
-    if verdict.status is not Status.PASSED:
+    if verdict.report.status is not Status.PASSED:
         _keep_shown(bundle)
     return _product(origin, entry, told, bundle, stages)
 

@@ -40,9 +40,7 @@ REPAIRS: tuple[Repairer, ...] = (
     freeze_small,
 )
 #: Those that change collision geometry only; all others change joints or parts.
-GEOMETRY: frozenset[Repairer] = frozenset(
-    {separate_hulls, exclude_knuckles, fit_closely, build_fronts, hollow_out}
-)
+GEOMETRY = (separate_hulls, exclude_knuckles, fit_closely, build_fronts, hollow_out)
 
 
 def next_plan(

@@ -9,6 +9,7 @@ from pathlib import Path
 from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.judge import Judge
 
+from ..articulate.closing import close_guessed, left_open
 from ..articulation import Articulation
 from ..asset import Asset
 from ..errors import InputRejected, Unjudged
@@ -18,7 +19,6 @@ from ..manufacture.plan import Plan, Spare, dispensable_joints, first_plan
 from ..manufacture.stage import manufacture
 from ..runtime.stages import Stages
 from .drafts import HypothesisDraft, work_of
-from .drawn import close_guessed, reopened
 from .repair import next_plan
 from .validate import Verdict, inspect, validate
 
@@ -83,11 +83,11 @@ class Rounds:
         self, draft: HypothesisDraft, verdict: Verdict, others: tuple[Finding, ...]
     ) -> tuple[HypothesisDraft, Verdict]:
         """Return what passes with its rest as drawn, or else as it was made: closed."""
-        asset = reopened(draft.asset, self.articulation)
+        asset = left_open(draft.asset, self.articulation)
         if asset is draft.asset:
             return draft, verdict
-        made = self._exported(asset, draft.plan, draft.findings, "as_drawn", draft.work)
-        made = replace(made, before=draft.before)
+        drawn = self._exported(asset, draft.plan, draft.findings, "as_drawn", draft.work)
+        made = replace(drawn, before=draft.before)
         again = self._validated(made, others)
         return (made, again) if again.reason is None else (draft, verdict)
 

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from asset_factory.sim_checks import Finding, Report, Status
+from asset_factory.sim_checks import Finding, Report
 from asset_factory.sim_checks.checks.disagreement import disagreements
 from asset_factory.sim_checks.description import Description, DescriptionError
 from asset_factory.sim_checks.judge import Examination, Judge
@@ -49,11 +49,6 @@ class Verdict:
     report: Report
     examined: Examination | None = None
     key: str = ""
-
-    @property
-    def status(self) -> Status:
-        """Return the report's."""
-        return self.report.status
 
     @property
     def reason(self) -> Finding | None:

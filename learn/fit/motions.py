@@ -8,8 +8,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 from scipy.optimize import minimize
+from scipy.special import softmax
 
-from asset_factory.factory.articulate.evidence.motion import beliefs
 from asset_factory.factory.articulate.evidence.numbers import NAMES
 from asset_factory.factory.articulate.evidence.rating import Rating, rating_of
 from asset_factory.factory.articulate.evidence.setting import SLIDE_SETTING, TURN_SETTING
@@ -94,7 +94,7 @@ def fit_rating(samples: Sequence[MotionSample], steps: int) -> Rating:
             continue
         rating = Rating(_weights(others, max(steps * 2 // 3, 1)), (1.0, 0.0))
         for motion_sample in held_out:
-            belief = beliefs(rating.scores(motion_sample.numbers))
+            belief = softmax(rating.scores(motion_sample.numbers))
             chosen = int(np.argmax(belief))
             said.append(float(belief[motion_sample.alike[chosen]].sum()))
             right.append(float(motion_sample.right[chosen]))

@@ -106,17 +106,11 @@ class AutoArticulator:
         notes: tuple[str, ...] = ()
         if left:
             best = max(proposal.rated for proposal in left)
-            what = (
-                "1 part that may move was left"
-                if len(left) == 1
-                else f"{len(left)} parts that may move were left"
-            )
-            notes = (
-                (
-                    f"{what} fixed: the surest of them is right with probability {best:.2f}, "
-                    f"want {least:.2f}"
-                ),
-            )
+            what = "1 part that may move was"
+            if len(left) > 1:
+                what = f"{len(left)} parts that may move were"
+            surest = f"the surest of them is right with probability {best:.2f}, want {least:.2f}"
+            notes = (f"{what} left fixed: {surest}",)
         sharing = share_out([proposal.faces for proposal in sure], face_areas(mesh))
         if not sharing.chosen:
             return rigid_articulation(

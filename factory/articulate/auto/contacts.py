@@ -10,13 +10,12 @@ from scipy.spatial import cKDTree
 from ...geometry.edges import label_linked
 from ...geometry.triangles import areas_of
 from ...mesh import FloatArray, IntArray, Mesh
-from ..evidence.surfels import spread_owned
+from ..evidence.surfels import WHOLE, spread_owned
 
 #: Pieces nearer than this share of the diagonal touch.
 TOUCH = 0.004
 #: A loose cluster goes to what it touches if it is no larger than this share of it.
 SMALLER = 0.25
-POINTS = 20_000
 
 
 @dataclass(frozen=True)
@@ -46,7 +45,7 @@ def contacts_of(mesh: Mesh, components: IntArray) -> Contacts:
         components: of its faces, shape [face_count].
     """
     triangles = mesh.vertices[mesh.faces]
-    surfels, owner = spread_owned(triangles, POINTS)
+    surfels, owner = spread_owned(triangles, WHOLE)
     points = np.concatenate([surfels.points, triangles.reshape(-1, 3)])
     of_point = np.concatenate([components[owner], np.repeat(components, 3)])
     pairs, weights = _touching(points, of_point, TOUCH * mesh.diagonal)

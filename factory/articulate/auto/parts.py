@@ -27,8 +27,6 @@ class LearnedPart:
         agreement: share of the views that have it, 0 to 1.
         confidence, moves, hangs: means over those views, see :class:`.views.SeenPart`.
         guess: where and which way it moves, on average.
-        lower, upper: limits from the pose seen, medians over the views that say the same kind [rad]
-            or [m].
         slide: how it slides besides, if turning and sliding is more probable than either alone;
             ``None`` if not.
     """
@@ -39,8 +37,6 @@ class LearnedPart:
     moves: float
     hangs: float
     guess: Guess
-    lower: float
-    upper: float
     slide: Motion | None = None
 
     def __post_init__(self) -> None:
@@ -65,7 +61,7 @@ def agreed_parts(views: tuple[NetworkView, ...], areas: FloatArray) -> tuple[Lea
         _Seen(number, view.face_part == index, part)
         for number, view in enumerate(views)
         for index, part in enumerate(view.parts)
-        if view.parents[index] >= 0 and part.moves >= LEAST_MOVING
+        if part.moves >= LEAST_MOVING
     ]
     seen.sort(key=lambda each: -each.part.confidence * each.part.moves)
     found = []
@@ -117,8 +113,6 @@ def _one(group: list[_Seen], views: int) -> LearnedPart:
             point=np.median(points, axis=0) if points and direction is not None else None,
             upper=upper - lower if upper > lower else None,
         ),
-        lower=lower,
-        upper=upper,
         slide=slide,
     )
 
@@ -137,12 +131,8 @@ def _mean_direction(directions: list[FloatArray]) -> FloatArray | None:
     """Return the mean of directions turned to one side; ``None`` if none or they cancel."""
     if not directions:
         return None
-    aligned = [d if float(d @ directions[0]) >= 0.0 else -d for d in directions]
+    sides = np.where(np.array(directions) @ directions[0] >= 0.0, 1.0, -1.0)
     # Which side is the majority's opinion.
-    sign = (
-        1.0
-        if 2 * sum(float(d @ directions[0]) >= 0.0 for d in directions) >= len(directions)
-        else -1.0
-    )
-    mean = sign * np.mean(aligned, axis=0)
+    sign = 1.0 if sides.sum() >= 0.0 else -1.0
+    mean = sign * np.mean(sides[:, None] * directions, axis=0)
     return mean if float(np.linalg.norm(mean)) > 1e-6 else None

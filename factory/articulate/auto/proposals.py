@@ -8,7 +8,7 @@ import numpy as np
 
 from ...mesh import FloatArray, Mesh
 from ...part import PartKind, Proposer
-from ..evidence import NOTHING, MotionEvidence, Partition, best_motion
+from ..evidence import MotionEvidence, Partition, best_motion
 from ..proposal import Motion, Proposal
 from .partition import share_out
 from .parts import LearnedPart, shared
@@ -29,10 +29,6 @@ class _Judged:
     part: LearnedPart
     guided: MotionEvidence
     unguided: MotionEvidence
-
-    @property
-    def motion(self) -> Motion | None:
-        return self.guided.motion if self.guided.motion is not None else self.unguided.motion
 
 
 def propose(
@@ -57,7 +53,8 @@ def propose(
         mate = (
             left.pop(int(np.argmax(overlaps))) if max(overlaps, default=0.0) > SAME_PART else None
         )
-        seen = mate.motion if mate is not None and _alike(said.motion, mate.motion) else None
+        motion = None if mate is None else mate.guided.motion
+        seen = motion if _alike(said.motion, motion) else None
         signs = _signs(said.faces, areas, mate, len(judged))
         signs |= {
             "geometric": float(mate is None),
@@ -66,15 +63,16 @@ def propose(
         }
         found.append(replace(said, motion=_as_open(said.motion, seen), signs=signs))
     for each in left:
-        if each.motion is not None:
+        motion = each.guided.motion
+        if motion is not None:
             signs = _signs(each.part.faces, areas, each, len(judged)) | {"learned": 1.0}
             found.append(
                 Proposal(
                     PartKind.PART,
                     each.part.faces,
-                    each.motion,
+                    motion,
                     signs,
-                    slide=_slide_with(each.motion, each.part),
+                    slide=_slide_with(motion, each.part),
                     proposer=Proposer.NETWORK,
                 )
             )
@@ -87,8 +85,8 @@ def _judged(mesh: Mesh, areas: FloatArray, learned: tuple[LearnedPart, ...]) -> 
     return [
         _Judged(
             part=replace(learned[index], faces=sharing.face_part == number),
-            guided=best_motion(partition, number, learned[index].guess, least_confidence=0.0),
-            unguided=best_motion(partition, number, NOTHING, least_confidence=0.0),
+            guided=best_motion(partition, number, learned[index].guess),
+            unguided=best_motion(partition, number),
         )
         for number, index in enumerate(sharing.chosen, start=1)
     ]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+from scipy.special import expit, logit
 
 from ...mesh import FloatArray
 from ...models.perceptron import Perceptron
@@ -44,7 +45,7 @@ class Trust:
 
     def confidence(self, signs: Mapping[str, float]) -> float:
         """Return the probability that a proposal for which these signs speak is right, 0 to 1."""
-        return float(1.0 / (1.0 + np.exp(-float(self.network.scores(signs_of(signs))[0]))))
+        return float(expit(self.network.scores(signs_of(signs))[0]))
 
 
 def signs_of(values: Mapping[str, float]) -> FloatArray:
@@ -61,8 +62,7 @@ def signs_of(values: Mapping[str, float]) -> FloatArray:
 
 def log_odds(probability: float) -> float:
     """Return values bounded so that no single sign decides alone."""
-    bounded = min(max(probability, 0.01), 0.99)
-    return float(np.log(bounded / (1.0 - bounded)))
+    return float(logit(min(max(probability, 0.01), 0.99)))
 
 
 @cache

@@ -10,10 +10,11 @@ from ...articulation import JointKind, rotation_about
 from ...config import ParticulateConfig
 from ...geometry.posing import UP
 from ...mesh import FloatArray, IntArray, Mesh
-from ...models.particulate.decoding import Decoded
+from ...models.particulate.decoding import DecodedPart
+from ...models.particulate.frames import UnitBox
 from ...models.particulate.inference import Network, infer
-from ..geometric.scene import level_yaw
 from ..proposal import Motion
+from ..straight import level_yaw
 
 MOST_VIEWS = 4
 """Quarter turns in a whole one."""
@@ -25,7 +26,7 @@ class SeenPart:
 
     Attributes:
         confidence: in its points, 0 to 1.
-        moves: probability that it moves at all.
+        moves: probability that it moves at all; 0 of what carries the others.
         turns: if it moves, probability that it turns.
         both: if it moves, probability that it turns and slides.
         hangs: probability that it hangs on the part it does.
@@ -54,12 +55,10 @@ class NetworkView:
     Attributes:
         face_part: index into ``parts`` of every face, shape [face_count].
         parts: those seen.
-        parents: part that each part hangs on, -1 for the root, shape [part_count].
     """
 
     face_part: IntArray
     parts: tuple[SeenPart, ...]
-    parents: IntArray
 
 
 def look_around(
@@ -97,43 +96,37 @@ def _view(
         fused_share=config.fused_share,
     )
     found = infer(mesh.vertices @ turn.T, mesh.faces, network, shown).chosen
-    parents = np.full(len(found.parts), -1)
-    for parent, child in found.edges:
-        parents[child] = parent
     return NetworkView(
-        found.face_part,
-        tuple(_part(found, index, turn.T) for index in range(len(found.parts))),
-        parents,
+        found.face_part, tuple(_seen(part, found.box, turn.T) for part in found.parts)
     )
 
 
-def _part(found: Decoded, index: int, back: FloatArray) -> SeenPart:
-    part = found.parts[index]
-    outwards = found.box.outwards
+def _seen(part: DecodedPart, box: UnitBox, back: FloatArray) -> SeenPart:
     motion = part.motion
     fixed, turning, _, both = motion.probabilities
+    held = part.parent_probability
     slide = None
     moves = max(1.0 - fixed, np.finfo(np.float64).tiny)
     direction = None
     point = None
     limits = (0.0, 0.0)
     if motion.slide_direction is not None:
-        ends = (motion.slide[0] * found.box.size, motion.slide[1] * found.box.size)
+        ends = (motion.slide[0] * box.size, motion.slide[1] * box.size)
         axis = back @ motion.slide_direction
         slide = Motion(JointKind.PRISMATIC, axis, np.zeros(3), *ends)
     if motion.axis is not None:
         direction = back @ motion.axis.direction
-        point = back @ (outwards[:3, :3] @ motion.axis.point + outwards[:3, 3])
+        point = back @ (box.outwards[:3, :3] @ motion.axis.point + box.outwards[:3, 3])
         limits = motion.turn
     elif slide is not None:
         direction = slide.axis
         limits = (slide.lower, slide.upper)
     return SeenPart(
         confidence=part.confidence,
-        moves=1.0 - fixed,
+        moves=0.0 if held is None else 1.0 - fixed,
         turns=(turning + both) / moves,
         both=both / moves,
-        hangs=1.0 if part.parent_probability is None else part.parent_probability,
+        hangs=held or 0.0,
         direction=direction,
         point=point,
         lower=limits[0],

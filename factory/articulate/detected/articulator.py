@@ -19,7 +19,7 @@ from ...models.detector.decode import Dense
 from ...part import Part, PartKind, Proposer
 from ...views.raster import Side
 from ..articulator import Articulator, HypothesisMaker
-from ..closing import note_open, with_closed_hinges
+from ..closing import note_open
 from ..origin import MeshOrigin
 from ..proposal import Hypothesis
 from ..pruning import keep_parts
@@ -129,15 +129,13 @@ class DetectedArticulator(HypothesisMaker):
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if len(sure) > len(guess.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
-        moving = [with_whole_drawers(each) for each in made if each.movable_joints]
-        open_ = [with_closed_hinges(each) for each in moving] or [
-            self._still(mesh, guess, detection)
-        ]
+        told = [with_whole_drawers(each) for each in made if each.movable_joints]
+        told = told or [self._still(mesh, guess, detection)]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])
         if drawn is not None:
-            open_ = [reopened(each, drawn) for each in open_]
+            told = [reopened(each, drawn) for each in told]
             notes += drawn.notes
-        return [self._noted(each, sure_kind, notes) for each in open_]
+        return [self._noted(each, sure_kind, notes) for each in told]
 
     def _noted(
         self, made: Articulation, kind: str | None, notes: tuple[str, ...] = ()

@@ -7,8 +7,7 @@ import numpy as np
 from ...intake.stated import Hinge, StatedKind, StatedPart
 from ...mesh import FloatArray, Mesh
 from ...views.raster import side_facing
-from ..evidence.body import REST_SURFELS
-from ..evidence.surfels import spread
+from ..evidence.surfels import WHOLE, spread
 from ..seams.fronts import OPPOSITE
 
 #: Levels that the surface is sorted into.
@@ -25,7 +24,7 @@ def open_screen(mesh: Mesh) -> StatedPart | None:
 
     It is the plate that stands on the base; ``None`` where there is none, as on a closed one.
     """
-    points = spread(mesh.vertices[mesh.faces], REST_SURFELS).points
+    points = spread(mesh.vertices[mesh.faces], WHOLE).points
     low, high = mesh.bounds
     if not high[2] > low[2]:
         return None

@@ -9,15 +9,15 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ...geometry.components import connected_components
+from ...geometry.cutting import divide
 from ...geometry.triangles import ends_of
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh, read_only
 from .frames import distinct, level_frame, own_frame
 from .grid import Grid, grid_around
-from .surfels import Surfels, spread, spread_owned
+from .surfels import WHOLE, Surfels, spread, spread_owned
 
-#: Surfels of a part, and of what surrounds it.
+#: Surfels of a part.
 PART_SURFELS = 512
-REST_SURFELS = 20000
 #: Points that are moved to see what they meet.
 PROBES = 96
 #: Surroundings within this share of the part's diagonal are looked at.
@@ -171,16 +171,15 @@ class Body:
         if not np.isfinite(nearest):
             return self.own
         near = self.gaps <= max(nearest + 0.5 * self.tolerance, self.tolerance)
-        return Surfels(self.own.points[near], self.own.normals[near])
+        return self.own.at(near)
 
     @cached_property
     def holder(self) -> Grid:
         """Return the grid of what the part hangs on alone: neighbours that move can make way."""
         if not len(self.held) or len(self.held) == len(self.grid.surfels):
             return self.grid
-        return grid_around(
-            self.held, self.grid.low, self.grid.low + self.grid.cell * np.array(self.grid.shape)
-        )
+        size = self.grid.cell * np.array(self.grid.tenant.shape)
+        return grid_around(self.held, self.grid.low, self.grid.low + size)
 
     @property
     def own_size(self) -> float:
@@ -192,19 +191,19 @@ class Body:
         """Tell whether anything besides its holder is near: ``holder`` differs from ``grid``."""
         return self.holder is not self.grid
 
-    def heavy_planes(self, flat: FloatArray, low: float) -> list[float]:
+    def heavy_planes(self, direction: FloatArray, low: float) -> list[float]:
         """Return the first and the last plane across a direction with much of the surface [m].
 
         Args:
-            flat: where surfels of the part that face the direction are along it [m], shape [n].
-            low: where planes are counted from [m].
+            direction: a unit vector, shape [3].
+            low: from where planes are counted along it [m].
 
         Returns:
             Two places along the direction; nothing where no plane is one of the part's faces.
         """
-        least = FLAT * len(self.own)
+        flat = self.own.points[self.own.facing(direction)] @ direction
         bins = np.maximum((flat - low) / max(0.015 * self.diagonal, 1e-9), 0.0).astype(np.int64)
-        heavy = np.flatnonzero(np.bincount(bins) >= least)
+        heavy = np.flatnonzero(np.bincount(bins) >= FLAT * len(self.own))
         return [float(np.median(flat[bins == at])) for at in heavy[[0, -1]]] if len(heavy) else []
 
     @cached_property
@@ -229,13 +228,11 @@ def body_of(partition: Partition, part: int) -> Body | None:
     bounds = partition.mesh.bounds
     low = np.maximum(low, bounds[0] - 0.01 * diagonal)
     high = np.minimum(high, bounds[1] + 0.01 * diagonal)
-    surfels, triangle = spread_owned(rest, REST_SURFELS)
+    surfels, triangle = spread_owned(rest, WHOLE)
     inside = ((surfels.points >= low) & (surfels.points < high)).all(axis=1)
-    surfels = Surfels(surfels.points[inside], surfels.normals[inside])
-    triangle = triangle[inside]
+    surfels = surfels.at(inside)
     grid = grid_around(surfels, low, high)
-    above = np.isin(owner[triangle], partition.above(part))
-    held = Surfels(surfels.points[above], surfels.normals[above])
+    held = surfels.at(np.isin(owner[triangle[inside]], partition.above(part)))
     moving = (
         own
         if moving_faces.sum() == own_faces.sum()
@@ -266,22 +263,13 @@ def _near(
         owners.append(owner[~large])
         if not large.any():
             break
-        triangles = _quartered(triangles[large])
-        owner = np.tile(owner[large], 4)
+        triangles = triangles[large]
+        halves = np.full((len(triangles), 3), 0.5)
+        quarters = divide(halves > 0.0, halves)
+        triangles = quarters.spread(triangles)
+        owner = owner[large][quarters.whole]
         below, above = ends_of(triangles)
         inside = ((below <= high) & (above >= low)).all(axis=1)
         triangles = triangles[inside]
         owner = owner[inside]
     return np.concatenate(small), np.concatenate(owners)
-
-
-def _quartered(triangles: FloatArray) -> FloatArray:
-    a = triangles[:, 0]
-    b = triangles[:, 1]
-    c = triangles[:, 2]
-    ab = (a + b) / 2.0
-    bc = (b + c) / 2.0
-    ca = (c + a) / 2.0
-    return np.concatenate(
-        [np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
-    )

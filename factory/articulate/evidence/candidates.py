@@ -49,6 +49,17 @@ class Candidates:
     def __len__(self) -> int:
         return len(self.axis)
 
+    def about(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return where points [m] of shape [point_count, 3] are, seen from every axis.
+
+        Returns:
+            How far along it [m], shape [n, point_count]; the arms from it to them [m], shape [n,
+            point_count, 3].
+        """
+        offset = points[None] - self.origin[:, None]
+        along = np.einsum("nij,nj->ni", offset, self.axis)
+        return along, offset - along[..., None] * self.axis[:, None]
+
     def at(self, rows: IntArray | Sequence[int]) -> Candidates:
         """Return some of them, in that order."""
         return Candidates(
@@ -73,9 +84,12 @@ def find_candidates(body: Body, guess: Guess) -> Candidates:
     directions = [row for frame in body.frames for row in frame]
     center = body.own.points.mean(axis=0)
     slides: list[Line] = [(row, center, LineSource.EDGE, 0.0) for row in directions]
-    if guess.direction is not None:
-        lines += _guessed_lines(body, guess.direction, guess.point, directions)
-        slides.append((guess.direction, center, LineSource.GUESSED, 0.0))
+    said = guess.direction
+    if said is not None:
+        where = center if guess.point is None else guess.point
+        nearest = directions[int(np.argmax(np.abs(np.array(directions) @ said)))]
+        lines += [(row, where, LineSource.GUESSED, 0.0) for row in (said, nearest)]
+        slides.append((said, center, LineSource.GUESSED, 0.0))
     lines = _without_twins(lines, SAME_PLACE * body.diagonal)
     both = [(False, line) for line in lines] + [
         (True, line) for line in _without_twins(slides, np.inf)
@@ -96,8 +110,7 @@ def _places(body: Body, direction: FloatArray) -> list[float]:
     low = float(along.min())
     high = float(along.max())
     places = [low, high, (low + high) / 2.0]
-    flat = np.abs(body.own.normals @ direction) > 0.9
-    places += body.heavy_planes(body.own.points[flat] @ direction, low)
+    places += body.heavy_planes(direction, low)
     kept: list[float] = []
     for place in places:
         if all(abs(place - other) > SAME_PLACE * body.diagonal for other in kept):
@@ -128,17 +141,11 @@ def _contact_lines(body: Body) -> list[Line]:
     center = (points.min(axis=0) + points.max(axis=0)) / 2.0
     mean = points.mean(axis=0)
     _, directions = np.linalg.eigh(np.cov((points - mean).T))
-    longest = directions[:, 2]
-    lines: list[Line] = [
-        (row, center, LineSource.CONTACT, 0.0) for frame in body.frames for row in frame
-    ]
     offsets = body.own.points - body.own.points.mean(axis=0)
     _, own = np.linalg.eigh(offsets.T @ offsets)
-    return [
-        *lines,
-        (longest, mean, LineSource.CONTACT, 0.0),
-        *((own[:, k], mean, LineSource.CONTACT, 0.0) for k in range(3)),
-    ]
+    places = [(row, center) for frame in body.frames for row in frame]
+    places += [(row, mean) for row in (directions[:, 2], *own.T)]
+    return [(row, place, LineSource.CONTACT, 0.0) for row, place in places]
 
 
 def _round_lines(body: Body) -> list[Line]:
@@ -179,14 +186,6 @@ def _circle(points: FloatArray, u: FloatArray, v: FloatArray) -> tuple[FloatArra
     if not goes_round(plane - center, 0.92 * radius, 1.06 * radius):
         return None
     return center[0] * u + center[1] * v, radius
-
-
-def _guessed_lines(
-    body: Body, direction: FloatArray, point: FloatArray | None, directions: list[FloatArray]
-) -> list[Line]:
-    where = body.own.points.mean(axis=0) if point is None else point
-    nearest = max(directions, key=lambda d: abs(float(d @ direction)))
-    return [(direction, where, LineSource.GUESSED, 0.0), (nearest, where, LineSource.GUESSED, 0.0)]
 
 
 def _without_twins(lines: list[Line], tolerance: float) -> list[Line]:

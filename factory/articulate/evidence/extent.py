@@ -24,9 +24,7 @@ OPEN = 0.2
 #: still inside.
 LEVEL = 0.2
 INSIDE = 0.02
-#: Surface whose normal is as close to an axis faces it; faces nearer than this share of the
-#: diagonal are one.
-FACING = 0.9
+#: Faces nearer than this share of the diagonal are one.
 THICK = 0.01
 
 
@@ -95,7 +93,7 @@ def _front(body: Body, axis: FloatArray) -> float:
 
     Broad: at least half as large as any.
     """
-    along = np.sort((body.own.points @ axis)[np.abs(body.own.normals @ axis) > FACING])
+    along = np.sort(body.own.points[body.own.facing(axis)] @ axis)
     if not len(along):
         return -np.inf
     near = THICK * body.diagonal

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...articulation import rotation_about
+from ...geometry.posing import UP
 from ...mesh import FloatArray
-from ..geometric.scene import level_yaw
+from ..straight import level_yaw
 from .surfels import Surfels
 
 #: Frames whose axes agree to this are one.
@@ -16,10 +18,7 @@ DOMINANT = 0.4
 
 def level_frame(triangles: FloatArray) -> FloatArray:
     """Return as rows the level axes along the object's upright faces, and z, shape [3, 3]."""
-    yaw = level_yaw(triangles)
-    c = np.cos(yaw)
-    s = np.sin(yaw)
-    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+    return rotation_about(UP, -level_yaw(triangles))
 
 
 def own_frame(surfels: Surfels) -> FloatArray | None:
@@ -37,7 +36,7 @@ def own_frame(surfels: Surfels) -> FloatArray | None:
     first = directions[:, 2]
     if shares[2] < DOMINANT:
         return None
-    facing = np.abs(normals @ first) > 0.9
+    facing = surfels.facing(first)
     if facing.mean() >= 0.5 * DOMINANT:
         signs = np.sign(normals[facing] @ first)
         first = (normals[facing] * signs[:, None]).mean(axis=0)

@@ -22,14 +22,12 @@ class Grid:
     Attributes:
         low: lower corner [m], shape [3].
         cell: side of a cell [m].
-        shape: cells along each axis.
-        tenant: index of a surfel, -1 where the cell is empty, shape [product of ``shape``].
+        tenant: index of a surfel in each cell, -1 where it is empty, shape [x, y, z].
         surfels: of the surroundings.
     """
 
     low: FloatArray
     cell: float
-    shape: tuple[int, int, int]
     tenant: IntArray
     surfels: Surfels
 
@@ -42,33 +40,25 @@ class Grid:
             travelled: how far they have come [m], shape [...]. Cells within one and a half of the
                 start do not count: parts touch at rest.
         """
-        cells = ((points - self.low) / self.cell).astype(np.int64)
-        size = np.array(self.shape)
-        inside = ((points >= self.low) & (cells < size)).all(axis=-1) & (
-            travelled > 1.5 * self.cell
-        )
-        index = np.flatnonzero(inside)
-        i, j, k = cells.reshape(-1, 3)[index].T
-        tenant = self.tenant[(i * self.shape[1] + j) * self.shape[2] + k]
-        index = index[tenant >= 0]
-        tenant = tenant[tenant >= 0]
-        normals = self.surfels.normals[tenant]
-        approach = np.einsum("ij,ij->i", headings.reshape(-1, 3)[index], normals)
-        beyond = np.einsum(
-            "ij,ij->i", points.reshape(-1, 3)[index] - self.surfels.points[tenant], normals
-        )
+        tenant = self._tenants(points)
+        found = (tenant >= 0) & (travelled > 1.5 * self.cell)
+        met = self.surfels.at(tenant[found])
+        approach = np.einsum("ij,ij->i", headings[found], met.normals)
+        beyond = np.einsum("ij,ij->i", points[found] - met.points, met.normals)
         beyond *= np.sign(approach) / self.cell
-        found = np.zeros(travelled.size, dtype=bool)
-        found[index] = (np.abs(approach) > GRAZING) & (beyond > -0.4)
-        return found.reshape(travelled.shape)
+        found[found] = (np.abs(approach) > GRAZING) & (beyond > -0.4)
+        return found
 
     def filled(self, points: FloatArray) -> BoolArray:
         """Return whether the cells of points [m] hold anything, shape [...]."""
+        return np.asarray(self._tenants(points) >= 0)
+
+    def _tenants(self, points: FloatArray) -> IntArray:
+        """Return the surfel in the cell of each point [m]; -1 if none or outside, shape [...]."""
         cells = np.floor((points - self.low) / self.cell).astype(np.int64)
-        inside = np.asarray(((cells >= 0) & (cells < np.array(self.shape))).all(axis=-1))
-        i, j, k = np.where(inside[..., None], cells, 0).reshape(-1, 3).T
-        tenant = self.tenant[(i * self.shape[1] + j) * self.shape[2] + k].reshape(inside.shape)
-        return np.asarray(inside & (tenant >= 0))
+        inside = np.asarray(((cells >= 0) & (cells < self.tenant.shape)).all(axis=-1))
+        i, j, k = np.moveaxis(np.where(inside[..., None], cells, 0), -1, 0)
+        return np.where(inside, self.tenant[i, j, k], -1)
 
 
 def grid_around(surfels: Surfels, low: FloatArray, high: FloatArray) -> Grid:
@@ -76,8 +66,8 @@ def grid_around(surfels: Surfels, low: FloatArray, high: FloatArray) -> Grid:
     cell = float((high - low).max()) / CELLS
     shape = np.maximum(np.ceil((high - low) / cell).astype(np.int64), 1)
     inside = ((surfels.points >= low) & (surfels.points < low + shape * cell)).all(axis=1)
-    kept = Surfels(surfels.points[inside], surfels.normals[inside])
-    cells = np.minimum(((kept.points - low) / cell).astype(np.int64), shape - 1)
-    tenant = np.full(int(np.prod(shape)), -1, dtype=np.int64)
-    tenant[(cells[:, 0] * shape[1] + cells[:, 1]) * shape[2] + cells[:, 2]] = np.arange(len(kept))
-    return Grid(low, cell, (int(shape[0]), int(shape[1]), int(shape[2])), tenant, kept)
+    kept = surfels.at(np.flatnonzero(inside))
+    i, j, k = np.minimum(((kept.points - low) / cell).astype(np.int64), shape - 1).T
+    tenant = np.full(shape, -1, dtype=np.int64)
+    tenant[i, j, k] = np.arange(len(kept))
+    return Grid(low, cell, tenant, kept)

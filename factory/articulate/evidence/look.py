@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from .body import Body
 
 #: Steps of the walk that finds out which side is open.
@@ -54,12 +54,8 @@ def look_at(body: Body) -> Look:
     level = body.corners @ body.partition.level.T
     low = level.min(axis=0)
     high = level.max(axis=0)
-    along = body.moving.points @ front
     back_plane, plane = _slab(body, front)
-    beyond = along > plane + 0.02 * body.diagonal
-    handle = (
-        body.moving.points[beyond].mean(axis=0) if HANDLE[0] < beyond.mean() < HANDLE[1] else None
-    )
+    held = _handle(body, front)
     return Look(
         front=front,
         facing=float(facing[best]),
@@ -67,7 +63,7 @@ def look_at(body: Body) -> Look:
         extents=high - low,
         thickness=plane - back_plane,
         middle=(plane + back_plane) / 2.0,
-        handle=handle,
+        handle=body.moving.points[held].mean(axis=0) if held.any() else None,
         sides=directions,
         free=free,
     )
@@ -92,22 +88,18 @@ def free_share(body: Body, directions: FloatArray) -> FloatArray:
 
 def stands_out(body: Body, directions: FloatArray) -> FloatArray:
     """Return 1 where something small protrudes along a direction, shape [direction_count]."""
-    found = np.zeros(len(directions))
-    for k, direction in enumerate(directions):
-        share = float(
-            (
-                body.moving.points @ direction > _slab(body, direction)[1] + 0.02 * body.diagonal
-            ).mean()
-        )
-        found[k] = HANDLE[0] < share < HANDLE[1]
-    return found
+    return np.array([float(_handle(body, direction).any()) for direction in directions])
+
+
+def _handle(body: Body, direction: FloatArray) -> BoolArray:
+    """Tell which points of what moves protrude along a direction, if few do, [point_count]."""
+    beyond = body.moving.points @ direction > _slab(body, direction)[1] + 0.02 * body.diagonal
+    return np.asarray(beyond & (HANDLE[0] < beyond.mean() < HANDLE[1]))
 
 
 def _slab(body: Body, direction: FloatArray) -> tuple[float, float]:
     """Return first and last heavy plane along a direction [m]; the part's ends if it has none."""
-    flat = np.abs(body.own.normals @ direction) > 0.9
     along = body.own.points @ direction
     low = float(along.min())
-    high = float(along.max())
-    first, last = body.heavy_planes(along[flat], low) or (low, high)
+    first, last = body.heavy_planes(direction, low) or (low, float(along.max()))
     return first, last

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from types import MappingProxyType
+from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import softmax
 
-from ...mesh import BoolArray, FloatArray, read_only
+from ...mesh import BoolArray, FloatArray
 from ..proposal import Motion
 from .body import Body, Partition, body_of
 from .candidates import Candidates, find_candidates
 from .extent import LEAST, Extent, extent_of
 from .guess import NOTHING, Guess
-from .numbers import NAMES, measure
-from .rating import Rating, load_rating
+from .numbers import measure
+from .rating import load_rating
 from .setting import is_small
 
-#: Motions less probable than this are not worth a joint.
-LEAST_CONFIDENCE = 0.25
 #: Axes that agree to this cosine, and run this close as a share of the object's longest side, are
 #: one motion.
 LIKE_ANGLE = np.cos(np.radians(5.0))
@@ -33,35 +30,16 @@ class MotionEvidence:
     """What the evidence says about one part.
 
     Attributes:
-        motion: the most plausible one; ``None`` if none is plausible.
+        motion: the most plausible one; ``None`` of a part that has no surface, or is all there is.
         confidence: probability that its kind is right, and its axis to 5 degrees and 5 % of the
             object's longest side; which way round is not part of it.
-        turns: share of belief in turning rather than sliding, 0 to 1.
-        numbers: the evidence for the chosen motion, in the order of ``numbers.NAMES``; zeros if
-            there was none.
     """
 
     motion: Motion | None
     confidence: float
-    turns: float = 0.5
-    numbers: FloatArray = field(default_factory=lambda: np.zeros(len(NAMES)), repr=False)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "numbers", read_only(self.numbers))
-
-    @property
-    def evidence(self) -> Mapping[str, float]:
-        """Return the numbers by name."""
-        return MappingProxyType(dict(zip(NAMES, self.numbers.tolist(), strict=True)))
 
 
-def best_motion(
-    partition: Partition,
-    part: int,
-    guess: Guess = NOTHING,
-    rating: Rating | None = None,
-    least_confidence: float = LEAST_CONFIDENCE,
-) -> MotionEvidence:
+def best_motion(partition: Partition, part: int, guess: Guess = NOTHING) -> MotionEvidence:
     """Return the most plausible motion of a part relative to the one it hangs on.
 
     Args:
@@ -69,31 +47,18 @@ def best_motion(
             parts.
         part: whose motion.
         guess: what somebody believes; with nothing in it the geometry decides alone.
-        rating: how evidence weighs; the shipped one by default.
-        least_confidence: below this the answer holds no motion, only evidence.
     """
     body = body_of(partition, part)
     if body is None:
         return MotionEvidence(None, 0.0)
     candidates = find_candidates(body, guess)
     numbers = measure(body, candidates, guess)
-    weighed = rating or load_rating(guess.direction is not None)
-    belief = beliefs(weighed.scores(numbers))
+    rating = load_rating(guess.direction is not None)
+    belief = softmax(rating.scores(numbers))
     chosen = int(np.argmax(belief))
     like = _alike(body, candidates, chosen)
-    confidence = weighed.confidence(float(belief[like].sum()))
-    turns = float(belief[~candidates.slides].sum())
-    if confidence < least_confidence:
-        return MotionEvidence(None, confidence, turns, numbers[chosen])
-    return MotionEvidence(
-        _motion(body, candidates, chosen, numbers, guess), confidence, turns, numbers[chosen]
-    )
-
-
-def beliefs(scores: FloatArray) -> FloatArray:
-    """Return the shares of belief, one for each score, adding up to 1 (softmax)."""
-    weights = np.exp(scores - scores.max())
-    return np.asarray(weights / weights.sum())
+    confidence = rating.confidence(float(belief[like].sum()))
+    return MotionEvidence(_motion(body, candidates, chosen, numbers, guess), confidence)
 
 
 def _motion(
@@ -130,9 +95,6 @@ def _alike(body: Body, candidates: Candidates, chosen: int) -> BoolArray:
     alike = (candidates.slides == candidates.slides[chosen]) & aligned
     if candidates.slides[chosen]:
         return np.asarray(alike)
-    apart = candidates.origin - candidates.origin[chosen]
-    apart = apart - np.einsum("nj,nj->n", apart, candidates.axis)[:, None] * candidates.axis
-    near = np.linalg.norm(apart, axis=1) < LIKE_PLACE * float(
-        np.ptp(body.partition.mesh.bounds, axis=0).max()
-    )
+    _, apart = candidates.about(candidates.origin[[chosen]])
+    near = np.linalg.norm(apart[:, 0], axis=1) < LIKE_PLACE * body.partition.mesh.extents.max()
     return np.asarray(alike & near)

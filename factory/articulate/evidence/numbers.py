@@ -9,7 +9,7 @@ from .body import Body
 from .candidates import Candidates, LineSource
 from .guess import Guess
 from .look import Look, free_share, look_at, stands_out
-from .travel import Travel, travel
+from .travel import Travel, displaced, travel
 
 TURN = (
     "turn", "turn_hit_1", "turn_hit_2", "turn_hit_3", "turn_hit_4", "turn_out", "turn_front",
@@ -91,10 +91,7 @@ def _shared(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str,
 
 def some_headings(some: Candidates, points: FloatArray) -> FloatArray:
     """Return unit directions in which points [m] start to move, shape [n, point_count, 3]."""
-    if len(some) and some.slides[0]:
-        return np.broadcast_to(some.axis[:, None], (len(some), len(points), 3))
-    speed = np.cross(some.axis[:, None], points[None] - some.origin[:, None])
-    return np.asarray(speed / np.maximum(np.linalg.norm(speed, axis=2, keepdims=True), 1e-12))
+    return displaced(some, points, np.zeros(len(some)))[1]
 
 
 def some_heading(some: Candidates, point: FloatArray) -> FloatArray:
@@ -105,9 +102,7 @@ def some_heading(some: Candidates, point: FloatArray) -> FloatArray:
 def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str, FloatArray]:
     values = _shared(body, look, some, gone)
     size = body.diagonal
-    offset = body.probes.points[None] - some.origin[:, None]
-    along = np.einsum("nij,nj->ni", offset, some.axis)
-    across = offset - along[..., None] * some.axis[:, None]
+    along, across = some.about(body.probes.points)
     radius = np.linalg.norm(across, axis=2)
     farthest = np.maximum(radius.max(axis=1), 1e-9)
     mean = across.mean(axis=1)
@@ -117,9 +112,7 @@ def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     values["one_sided"] = (side > -0.03 * size).mean(axis=1)
     values["round"] = np.minimum(some.radius / farthest, 1.0)
     values["is_round"] = (some.source == LineSource.ROUND).astype(np.float64)
-    contact = body.contact.points[None] - some.origin[:, None]
-    contact = contact - np.einsum("nij,nj->ni", contact, some.axis)[..., None] * some.axis[:, None]
-    reach = np.linalg.norm(contact, axis=2)
+    reach = np.linalg.norm(some.about(body.contact.points)[1], axis=2)
     values["attach"] = np.exp(-reach.min(axis=1) / (0.04 * size))
     values["attach_share"] = (reach < 0.08 * size).mean(axis=1)
     values["contact_far"] = _clip(reach.mean(axis=1) / size)
@@ -131,9 +124,8 @@ def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     values["plane"] = _clip(plane) * level
     values["plane_back"] = np.minimum(np.abs(np.abs(plane) - 1.0), 1.0) * level
     if look.handle is not None:
-        arm = look.handle - some.origin
-        arm = arm - np.einsum("nj,nj->n", arm, some.axis)[:, None] * some.axis
-        values["handle_lever"] = np.minimum(np.linalg.norm(arm, axis=1) / farthest, 1.0)
+        _, arm = some.about(look.handle[None])
+        values["handle_lever"] = np.minimum(np.linalg.norm(arm[:, 0], axis=1) / farthest, 1.0)
     flat = 1.0 - values["upright"]
     height = max(float(look.extents[2]), 1e-9)
     values["low_line"] = flat * _clip(2.0 * (some.origin[:, 2] - look.center[2]) / height)
@@ -141,9 +133,7 @@ def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     values["big_radius"] = _clip(farthest / size)
     values["middle"] = (lever < 0.1 * farthest).astype(np.float64)
     width = float(look.extents[:2].max())
-    values["upright_tall"] = values["upright"] * np.clip(
-        np.log(height / max(width, 1e-9)), -1.0, 1.0
-    )
+    values["upright_tall"] = values["upright"] * _clip(np.log(height / max(width, 1e-9)))
     whole = body.partition.mesh.diagonal
     values["small_round"] = float(np.exp(-size / (SMALL * whole))) * values["is_round"]
     values["free"] = _free_at_first(look, some)
@@ -227,14 +217,14 @@ def _ends(body: Body, some: Candidates) -> dict[str, FloatArray]:
         depth = max(high - low, 1e-9)
         whole = vertices @ axis
         span = max(float(np.ptp(whole)), 1e-9)
-        reach[k] = np.clip((low - whole.min() - (whole.max() - high)) / (0.1 * span), -1.0, 1.0)
+        reach[k] = (low - whole.min() - (whole.max() - high)) / (0.1 * span)
         inside[k] = min(depth / span, 1.0)
         plate[k] = _breadth(body, axis, along > high - 0.2 * depth) - _breadth(
             body, axis, along < low + 0.2 * depth
         )
     grip = stands_out(body, some.axis)
     grip = grip - grip.reshape(-1, 2)[:, ::-1].ravel()
-    return {"plate": _clip(3.0 * plate), "grip": grip, "reach": reach, "inside": inside}
+    return {"plate": _clip(3.0 * plate), "grip": grip, "reach": _clip(reach), "inside": inside}
 
 
 def _breadth(body: Body, axis: FloatArray, chosen: BoolArray) -> float:
@@ -251,7 +241,7 @@ def _agreement(body: Body, some: Candidates, guess: Guess) -> dict[str, FloatArr
     values: dict[str, FloatArray] = {
         "guess_made": (some.source == LineSource.GUESSED).astype(np.float64)
     }
-    slides = bool(len(some)) and bool(some.slides[0])
+    slides = bool(some.slides[0])
     if guess.turns is not None:
         values["guess_kind"] = np.full(
             len(some), np.log(max(1.0 - guess.turns if slides else guess.turns, 0.02))
@@ -261,9 +251,8 @@ def _agreement(body: Body, some: Candidates, guess: Guess) -> dict[str, FloatArr
         values["guess_angle"] = _clip(np.arccos(np.minimum(np.abs(cosine), 1.0)) / np.radians(45.0))
         values["guess_sign"] = cosine
     if guess.point is not None and not slides:
-        offset = guess.point - some.origin
-        offset = offset - np.einsum("nj,nj->n", offset, some.axis)[:, None] * some.axis
-        distance = np.linalg.norm(offset, axis=1) / body.partition.mesh.diagonal
+        _, arm = some.about(guess.point[None])
+        distance = np.linalg.norm(arm[:, 0], axis=1) / body.partition.mesh.diagonal
         values["guess_distance"] = np.minimum(distance * 4.0, 1.0)
         values["guess_near"] = np.exp(-distance / 0.05)
     return values

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+from scipy.special import expit, logit
 
 from ...mesh import FloatArray
 from ...models.perceptron import Perceptron
@@ -39,9 +40,8 @@ class Rating:
         Args:
             belief: share of belief in the motion and its like, 0 to 1.
         """
-        bounded = float(np.clip(belief, 1e-4, 1.0 - 1e-4))
         slope, offset = self.sure
-        return float(1.0 / (1.0 + np.exp(-(slope * np.log(bounded / (1.0 - bounded)) + offset))))
+        return float(expit(slope * logit(np.clip(belief, 1e-4, 1.0 - 1e-4)) + offset))
 
 
 @cache

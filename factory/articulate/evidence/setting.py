@@ -114,9 +114,7 @@ def _about(body: Body) -> list[float]:
         _height(body, float(corners[:, 2].min() + corners[:, 2].max()) / 2.0),
         float(np.log2(len(partition.parents))) / 4.0,
         float(np.log2(max(int(same.sum()), 1))) / 4.0,
-        float(partition.parents[partition.parents[body.part]] >= 0)
-        if partition.parents[body.part] >= 0
-        else 0.0,
+        float(len(partition.above(body.part)) > 1),
         float((partition.parents == body.part).any()),
     ]
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 
 
 @dataclass(frozen=True)
@@ -25,14 +25,23 @@ class Surfels:
     def __len__(self) -> int:
         return len(self.points)
 
+    def at(self, rows: IntArray | BoolArray) -> Surfels:
+        """Return some of them, in that order."""
+        return Surfels(self.points[rows], self.normals[rows])
+
+    def facing(self, direction: FloatArray) -> BoolArray:
+        """Tell which look along a unit direction, either way, to 26 degrees, shape [n]."""
+        return np.asarray(np.abs(self.normals @ direction) > 0.9)
+
     def some(self, count: int) -> Surfels:
         """Pick at most ``count`` of them, evenly."""
         if len(self) <= count:
             return self
-        index = np.linspace(0, len(self) - 1, count).astype(np.int64)
-        return Surfels(self.points[index], self.normals[index])
+        return self.at(np.linspace(0, len(self) - 1, count).astype(np.int64))
 
 
+#: So many tell the surface of a whole object.
+WHOLE = 20_000
 #: Fractional parts of multiples of these fill the unit square evenly (the plastic number's powers,
 #: M. Roberts 2018).
 SPREAD = np.array([0.7548776662466927, 0.5698402909980532])

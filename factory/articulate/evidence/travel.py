@@ -33,8 +33,6 @@ class Travel:
 
 def travel(body: Body, some: Candidates) -> Travel:
     """Try out candidates of one kind."""
-    if not len(some):
-        return Travel(np.zeros((0, 4)), np.zeros((0, 4)), np.zeros(0))
     slides = bool(some.slides[0])
     values = _lengths(body, some)[:, None] * SLIDES if slides else np.tile(TURNS, (len(some), 1))
     points = body.probes.points
@@ -70,15 +68,14 @@ def displaced(
         moved = points[None] + (values[:, None] * some.axis)[:, None]
         gone = np.broadcast_to(np.abs(values)[:, None], shape[:2])
         return moved, np.broadcast_to(some.axis[:, None], shape), gone
-    offset = points[None] - some.origin[:, None]
-    along = np.einsum("nij,nj->ni", offset, some.axis)[..., None] * some.axis[:, None]
-    across = offset - along
+    along, across = some.about(points)
     turned = np.cross(some.axis[:, None], across)
     cos = np.cos(values)[:, None, None]
     sin = np.sin(values)[:, None, None]
     radius = np.sqrt(np.einsum("nij,nij->ni", across, across))
     headings = (cos * turned - sin * across) / np.maximum(radius, 1e-12)[..., None]
-    moved = some.origin[:, None] + along + cos * across + sin * turned
+    foot = some.origin[:, None] + along[..., None] * some.axis[:, None]
+    moved = foot + cos * across + sin * turned
     return moved, headings, radius * np.abs(values)[:, None]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.special import softmax
 
 from ...mesh import FloatArray
 from ...models.perceptron import Perceptron
@@ -40,9 +41,7 @@ class Usual:
 
     def shares(self, numbers: FloatArray) -> FloatArray:
         """Return the share of belief in each step, shape [..., k] for numbers of shape [..., n]."""
-        scores = self.network.scores(numbers)
-        weights = np.exp(scores - scores.max(axis=-1, keepdims=True))
-        return np.asarray(weights / weights.sum(axis=-1, keepdims=True))
+        return np.asarray(softmax(self.network.scores(numbers), axis=-1))
 
     def range(self, setting: Setting, said: float | None) -> float:
         """Return the range that is right most nearly, in the setting's unit; or infinity.

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ...articulation import Articulation
+from ...articulation import Articulation, rotation_about
 from ...config import BuildConfig
 from ...geometry.components import connected_components
 from ...intake.intake import Intake
@@ -15,12 +15,13 @@ from ...part import PartKind
 from ..assembly import assembled
 from ..proposal import Proposal
 from ..rigid import rigid_articulation
+from ..straight import level_yaw
 from .fronts import find_fronts
 from .house_doors import find_house_doors
 from .knobs import find_top_knobs
 from .movers import Mover
 from .rounds import FROM_ABOVE, find_cap, find_turntables, find_wheels
-from .scene import FRONT, SIDEWAYS, UP, Scene, level_yaw, quarter_turn
+from .scene import FRONT, SIDEWAYS, UP, Scene, quarter_turn
 
 MOST_PIECES = 5000
 
@@ -65,26 +66,16 @@ def _found(mesh: Mesh) -> tuple[tuple[Proposal, ...], str]:
         return (), (
             f"the mesh falls into {pieces} separate pieces, more than {MOST_PIECES}: kept rigid"
         )
-    scene = _level_scene(mesh, labels)
+    triangles = mesh.vertices[mesh.faces]
+    level = rotation_about(np.eye(3)[UP], -level_yaw(triangles))
+    scene = Scene(triangles, labels, np.eye(3)).turned(level)
     if float(scene.size.min()) <= 1e-6 * float(scene.size.max()):
         return (), "the mesh is flat: kept rigid"
     movers = _best_view(scene) or tuple(m.seen_from(scene.rotation) for m in find_cap(scene))
     movers += tuple(_small_ones(scene, movers))
-    moving = {int(piece) for mover in movers for piece in mover.pieces}
-    if not movers or len(moving) == pieces:
+    if not movers or len(_pieces_of(movers)) == pieces:
         return (), (f"none of the {pieces} separate pieces looks like a door or drawer: kept rigid")
     return _proposals(labels, movers), ""
-
-
-def _level_scene(mesh: Mesh, labels: IntArray) -> Scene:
-    triangles = mesh.vertices[mesh.faces]
-    yaw = level_yaw(triangles)
-    scene = Scene(triangles, labels, np.eye(3))
-    if yaw == 0.0:
-        return scene
-    c = np.cos(-yaw)
-    s = np.sin(-yaw)
-    return scene.turned(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
 
 
 def _best_view(scene: Scene) -> tuple[Mover, ...]:
@@ -102,9 +93,7 @@ def _best_view(scene: Scene) -> tuple[Mover, ...]:
 
 
 def _pieces_of(movers: tuple[Mover, ...]) -> IntArray:
-    return np.array(
-        sorted(int(piece) for mover in movers for piece in mover.pieces), dtype=np.int64
-    )
+    return np.array(sorted({p for mover in movers for p in mover.pieces.tolist()}), dtype=np.int64)
 
 
 def _small_ones(scene: Scene, movers: tuple[Mover, ...]) -> Iterator[Mover]:

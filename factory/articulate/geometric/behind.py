@@ -21,8 +21,9 @@ class FrontFace:
 
     Attributes:
         panel: the slab in the front.
-        box_pieces: pieces of a drawer's box; empty if there is none.
-        attached: other pieces that touch only the panel, e.g. racks in a fridge door.
+        pieces: all that move with it: its own, a drawer's box, or else pieces that touch only the
+            panel, e.g. racks in a fridge door.
+        has_box: whether a drawer's box is behind it.
         depth: free depth behind the panel, or the box's [m].
         walls: how many of the five sides (left, right, below, above, back) a cavity has.
         solid: whether something is right behind the panel over most of it.
@@ -30,8 +31,8 @@ class FrontFace:
     """
 
     panel: FrontSlab
-    box_pieces: IntArray
-    attached: IntArray
+    pieces: IntArray
+    has_box: bool
     depth: float
     walls: int
     solid: bool
@@ -40,17 +41,17 @@ class FrontFace:
 
 def look_behind(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> FrontFace:
     """Find everything that :class:`FrontFace` says, for one panel among all."""
-    nothing = np.zeros(0, dtype=np.int64)
     if panel.is_box:
-        body = np.array(panel.slabs, dtype=np.int64)
-        depth = float(scene.extents[body[0], FRONT])
-        return FrontFace(panel, body, nothing, depth, _walls_around(scene, panel), False)
-    box = nothing if panel.has_side_handle else _drawer_box(scene, panel, panels)
+        depth = float(scene.extents[panel.slabs[0], FRONT])
+        return FrontFace(panel, panel.pieces, True, depth, _walls_around(scene, panel), False)
+    box = np.zeros(0, dtype=np.int64)
+    if not panel.has_side_handle:
+        box = _drawer_box(scene, panel, panels)
     depth, walls, solid, roomy = _cavity(scene, panel, box)
     if len(box):
-        reach = float(scene.high[box, FRONT].max() - panel.high[FRONT])
-        return FrontFace(panel, box, nothing, max(reach, 0.0), walls, solid, roomy)
-    return FrontFace(panel, box, _attached(scene, panel, panels), depth, walls, solid, roomy)
+        depth = max(float(scene.high[box, FRONT].max() - panel.high[FRONT]), 0.0)
+    pieces = np.union1d(panel.pieces, box if len(box) else _attached(scene, panel, panels))
+    return FrontFace(panel, pieces, bool(len(box)), depth, walls, solid, roomy)
 
 
 def _behind(
@@ -80,7 +81,7 @@ def _drawer_box(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -
     outermost |= scene.high[index, UP] >= scene.box[1, UP] - edge[UP]
     index = index[~outermost]
     width, depth, height = scene.extents[index].T
-    center = (scene.low[index] + scene.high[index]) / 2.0
+    center = scene.middle[index]
     close = scene.low[index, FRONT] <= panel.high[FRONT] + 0.1 * scene.size[FRONT]
     deep = (depth >= DEEP * scene.size[FRONT]) & close
     side = deep & (width <= 0.15 * panel.width) & (height >= 0.2 * panel.height)
@@ -100,26 +101,21 @@ def _drawer_box(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -
 def _cavity(scene: Scene, panel: FrontSlab, box: IntArray) -> tuple[float, int, bool, bool]:
     """Return the depth, walls, solid and roomy of :class:`FrontFace`."""
     ignored = np.union1d(panel.pieces, box)
-    start = panel.center.copy()
-    start[FRONT] = panel.high[FRONT] + scene.touch / 8.0
-    free = []
-    for u in ACROSS:
-        for v in UPWARDS:
-            start[SIDEWAYS] = panel.low[SIDEWAYS] + u * panel.width
-            start[UP] = panel.low[UP] + v * panel.height
-            free.append(scene.first_hit(start, FRONT, 1, ignored)[0])
+    start = panel.high[FRONT] + scene.touch / 8.0
+    free = [
+        scene.first_hit(panel.point(u, start, v), FRONT, 1, ignored)[0]
+        for u in ACROSS
+        for v in UPWARDS
+    ]
     depth = float(np.median(free))
     walls = int(np.isfinite(depth))
     if not np.isfinite(depth):
-        depth = float(scene.box[1, FRONT] - start[FRONT])
+        depth = float(scene.box[1, FRONT] - start)
     inner = panel.high[FRONT] + min(0.5 * depth, 0.3 * float(scene.size[FRONT]))
     sides = 0
     roomy = False
     for u, v in INSIDE:
-        start = np.array(
-            [panel.low[SIDEWAYS] + u * panel.width, inner, panel.low[UP] + v * panel.height]
-        )
-        distances = _around(scene, start, ignored)
+        distances = _around(scene, panel.point(u, inner, v), ignored)
         wide = bool(
             distances[:2].sum() >= 0.5 * panel.width and distances[2:].sum() >= 0.1 * panel.height
         )
@@ -135,15 +131,15 @@ INSIDE = ((0.5, 0.5), (0.45, 0.36), (0.55, 0.66))
 
 def _walls_around(scene: Scene, panel: FrontSlab) -> int:
     """Count the sides where something stands around a one-piece drawer."""
-    middle = (scene.low[panel.slabs[0]] + scene.high[panel.slabs[0]]) / 2.0
-    back, _ = scene.first_hit(middle, FRONT, 1, panel.pieces)
-    return int(np.isfinite(_around(scene, middle, panel.pieces)).sum()) + bool(np.isfinite(back))
+    middle = scene.middle[panel.slabs[0]]
+    back = scene.distances(middle, [(FRONT, 1)], panel.pieces)
+    around = _around(scene, middle, panel.pieces)
+    return int(np.isfinite([*around, *back]).sum())
 
 
 def _around(scene: Scene, start: FloatArray, ignored: IntArray) -> FloatArray:
     """Measure to the left, right, below and above [m], shape [4]; infinite where nothing is."""
-    rays = ((SIDEWAYS, -1), (SIDEWAYS, 1), (UP, -1), (UP, 1))
-    return np.array([scene.first_hit(start, axis, sign, ignored)[0] for axis, sign in rays])
+    return scene.distances(start, [(axis, sign) for axis in RECT for sign in (-1, 1)], ignored)
 
 
 def _attached(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> IntArray:
@@ -151,27 +147,18 @@ def _attached(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -> 
     index = _behind(scene, panel, panels, 0.0)
     shallow = scene.high[index, FRONT] - panel.high[FRONT] <= 0.3 * scene.size[FRONT]
     index = index[shallow]
-    if not len(index):
-        return np.asarray(index)
-    low = scene.low[index] - scene.touch / 2
-    high = scene.high[index] + scene.touch / 2
-    touching = (low <= panel.high).all(axis=1) & (high >= panel.low).all(axis=1)
-    group = scene.linked_to(index, touching)
-    rest = np.setdiff1d(np.arange(len(scene.low)), np.union1d(group, panel.pieces))
-    low = scene.low[group].min(axis=0, initial=np.inf)
-    high = scene.high[group].max(axis=0, initial=-np.inf)
-    bulky = overlap_bulk(scene, rest[scene.meeting(low, high)[rest]])
-    return np.zeros(0, dtype=np.int64) if bulky else np.asarray(group)
-
-
-def overlap_bulk(scene: Scene, pieces: IntArray) -> bool:
-    """Tell whether a piece is more than trim: over 2 % of the front in any two directions."""
-    sides = np.sort(scene.extents[pieces], axis=1)[:, 1:]
-    return bool((np.prod(sides, axis=1) > 0.02 * scene.size[SIDEWAYS] * scene.size[UP]).any())
+    hair = scene.touch / 2
+    group = scene.linked_to(index, scene.meeting(panel.low - hair, panel.high + hair)[index])
+    if not len(group):
+        return group
+    near = scene.meeting(*scene.box_of(group)) & scene.without(np.union1d(group, panel.pieces))
+    # More than trim: over 2 % of the front in any two directions.
+    sides = np.sort(scene.extents[near], axis=1)[:, 1:]
+    bulky = (np.prod(sides, axis=1) > 0.02 * scene.front_area).any()
+    return np.zeros(0, dtype=np.int64) if bulky else group
 
 
 def covers(low: FrontSlab, high: FrontSlab) -> float:
     """Return the share of the smaller panel's rectangle that the two have in common."""
-    return overlap_area(low.low, low.high, high.low, high.high) / max(
-        min(low.area, high.area), 1e-12
-    )
+    shared = overlap_area(low.low, low.high, high.low, high.high)
+    return float(shared) / max(min(low.area, high.area), 1e-12)

@@ -18,10 +18,7 @@ from .scene import FRONT, SIDEWAYS, UP, Scene
 from .slab import FrontSlab
 from .sweep import free_turn, surface_points
 
-THICK_DOOR_LIMIT = np.radians(180.0)
-"""Of the upright doors of fridges, which stand in front of the body, hinge included."""
 LEAST_TURN = np.radians(20.0)
-ALL_WALLS = 5
 MANY_BUTTONS = 6
 KNUCKLES = 0.08
 """Radius of what belongs to a hinge, over the panel's shorter side."""
@@ -40,9 +37,7 @@ def find_fronts(scene: Scene) -> tuple[Mover, ...]:
         c for c in candidates if c not in sure and _is_plausible(scene, c, sure, candidates)
     ]
     fronts = _drop_overlapping(fronts)
-    fronts.sort(
-        key=lambda f: (-round(float(f.panel.high[UP]) / scene.touch), float(f.panel.low[SIDEWAYS]))
-    )
+    fronts.sort(key=lambda f: scene.reading_place(f.panel.low, f.panel.high))
     points, owner = surface_points(scene)
     movers = [_mover(scene, front, fronts, points, owner) for front in fronts]
     found = tuple(m for m in movers if m is not None)
@@ -57,21 +52,21 @@ def _is_sure(scene: Scene, front: FrontFace) -> bool:
         return False
     if front.panel.is_box:
         return front.walls >= 3 and (front.panel.handle is not None or front.walls >= 4)
-    if len(front.box_pieces):
-        small = front.panel.area <= 0.8 * scene.size[SIDEWAYS] * scene.size[UP]
-        return front.panel.handle is not None or bool(small and front.walls >= ALL_WALLS - 1)
+    if front.has_box:
+        small = front.panel.area <= 0.8 * scene.front_area
+        return front.panel.handle is not None or bool(small and front.walls >= 4)
     if front.panel.handle is None:
         return False
     if _is_control_panel(scene, front.panel) or _has_carrying_grip(scene, front.panel):
         return False
     deep = scene.size[FRONT] >= 2.0 * front.panel.depth
-    wanted = ALL_WALLS - 1 if _covers_front_with_side_handle(scene, front.panel) else ALL_WALLS
+    wanted = 4 if _covers_front_with_side_handle(scene, front.panel) else 5
     return bool(deep and (front.solid or (front.walls >= wanted and front.roomy)))
 
 
 def _covers_front_with_side_handle(scene: Scene, panel: FrontSlab) -> bool:
     """Return a lone door: one wall behind it may be missing, as below a sink or before a wall."""
-    return bool(panel.has_side_handle and panel.area >= 0.6 * scene.size[SIDEWAYS] * scene.size[UP])
+    return bool(panel.has_side_handle and panel.area >= 0.6 * scene.front_area)
 
 
 def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace]) -> bool:
@@ -80,7 +75,7 @@ def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace
         c
         for c in candidates
         if c.panel.handle is not None
-        and c.walls >= ALL_WALLS - 1
+        and c.walls >= 4
         and c.roomy
         and not _is_control_panel(scene, c.panel)
     ]
@@ -107,7 +102,7 @@ def _has_carrying_grip(scene: Scene, panel: FrontSlab) -> bool:
     """
     if panel.handle is None:
         return False
-    all_front = panel.area >= 0.65 * scene.size[SIDEWAYS] * scene.size[UP]
+    all_front = panel.area >= 0.65 * scene.front_area
     offset = np.abs(panel.handle.mean(axis=0) - panel.center)
     central = bool(offset[SIDEWAYS] <= 0.1 * panel.width and offset[UP] <= 0.15 * panel.height)
     return central and (all_front or panel.width < WIDE * panel.height)
@@ -119,7 +114,7 @@ def _is_plausible(
     """Tell whether a panel without handle closes a real space, beside others or alone."""
     panel = front.panel
     deep = front.depth >= max(2.0 * panel.depth, 0.3 * float(scene.size[FRONT]))
-    closes = front.walls >= ALL_WALLS and front.roomy and deep
+    closes = front.walls >= 5 and front.roomy and deep
     if panel.handle is not None or panel.is_box or is_crowded(scene, panel) or not closes:
         return False
     if max(panel.width, panel.height) > 6.0 * min(panel.width, panel.height):
@@ -127,21 +122,16 @@ def _is_plausible(
     if any(c.panel.handle is not None for c in sure):
         return False
     peers = [
-        c
-        for c in candidates
-        if c is not front and c.walls >= ALL_WALLS and _beside(c.panel, panel, scene)
+        c for c in candidates if c is not front and c.walls >= 5 and _beside(c.panel, panel, scene)
     ]
     return bool(peers) or _stands_alone(scene, panel)
 
 
 def _stands_alone(scene: Scene, panel: FrontSlab) -> bool:
     """Tell whether one panel is most of the front, foremost, without a twin at the back."""
-    if (
-        panel.area < 0.6 * scene.size[SIDEWAYS] * scene.size[UP]
-        or panel.depth < 0.02 * scene.size[FRONT]
-    ):
+    if panel.area < 0.6 * scene.front_area or panel.depth < 0.02 * scene.size[FRONT]:
         return False
-    others = np.setdiff1d(np.arange(len(scene.low)), panel.pieces)
+    others = scene.without(panel.pieces)
     width, depth, height = scene.extents[others].T
     ahead = scene.low[others, FRONT] < panel.low[FRONT] + 0.25 * panel.depth
     thick = panel.depth >= 0.06 * scene.size[FRONT]
@@ -188,13 +178,13 @@ def _mover(
     scene: Scene, front: FrontFace, fronts: list[FrontFace], points: FloatArray, owner: IntArray
 ) -> Mover | None:
     panel = front.panel
-    pieces = np.union1d(panel.pieces, np.union1d(front.box_pieces, front.attached))
+    pieces = front.pieces
     weight = panel.area * (3.0 if panel.handle is not None else 1.0)
     side, guesses = hinge_side(scene, front, fronts)
     if side is OpensBy.OUT:
         reach = front.depth if not front.solid else 0.5 * float(scene.size[FRONT])
         travel = DRAWER_SHARE * min(reach, float(scene.box[1, FRONT] - panel.low[FRONT]))
-        origin = np.array([panel.center[SIDEWAYS], panel.low[FRONT], panel.center[UP]])
+        origin = panel.point(0.5, panel.low[FRONT], 0.5)
         if travel < scene.touch:
             return None
         motion = Motion(JointKind.PRISMATIC, np.array([0.0, -1.0, 0.0]), origin, 0.0, travel)
@@ -229,7 +219,8 @@ def _hinge(
     axis[UP if across == SIDEWAYS else SIDEWAYS] = sign
     margin = np.minimum(np.array([1.0, 0.5, 1.0]) * scene.touch, 0.2 * (panel.high - panel.low))
     box = np.stack([panel.low + margin, panel.high - margin])
-    limit = THICK_DOOR_LIMIT if across == SIDEWAYS and _is_thick_door(scene, panel) else DOOR_LIMIT
+    # The upright doors of fridges stand in front of the body, hinge included.
+    limit = np.pi if across == SIDEWAYS and _is_thick_door(scene, panel) else DOOR_LIMIT
     best_origin = panel.center
     best_turn = -1.0
     for depth in (panel.high[FRONT], panel.low[FRONT]):

@@ -29,7 +29,7 @@ def hinge_side(
 ) -> tuple[OpensBy, tuple[str, ...]]:
     """Return how a front opens, and the assumptions."""
     panel = front.panel
-    if len(front.box_pieces):
+    if front.has_box:
         return OpensBy.OUT, ()
     side = handle_side(panel)
     if side:
@@ -73,7 +73,7 @@ def _side_by_neighbours(
         for f in fronts
         if abs(f.panel.low[UP] - panel.low[UP]) + abs(f.panel.high[UP] - panel.high[UP])
         <= 0.1 * panel.height
-        and not len(f.box_pieces)
+        and not f.has_box
     ]
     row.sort(key=lambda f: float(f.panel.low[SIDEWAYS]))
     place = row.index(front)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh import IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 from ...part import PartKind
 from ..proposal import Motion
 from .movers import DOOR_LIMIT, Mover
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
+from .slab import overlap_area
 
 FLAT = 0.3
 """Depth over the shorter side of the front, handles included."""
@@ -22,7 +23,7 @@ FULL = 0.6
 def find_house_doors(scene: Scene) -> tuple[Mover, ...]:
     """Find one leaf or a pair in a frame, if the object is only that."""
     width, _, height = scene.extents.T
-    front = float(scene.size[SIDEWAYS] * scene.size[UP])
+    front = scene.front_area
     if scene.size[FRONT] > FLAT * float(scene.size[RECT].min()):
         return ()
     area = width * height
@@ -34,7 +35,7 @@ def find_house_doors(scene: Scene) -> tuple[Mover, ...]:
         return ()
     groups = [_with_fittings(scene, int(leaf), leaves) for leaf in leaves]
     moving = np.concatenate(groups)
-    frame = np.setdiff1d(np.arange(len(width)), moving)
+    frame = np.flatnonzero(scene.without(moving))
     if not _is_framed(scene, leaves, frame) or not _opens_to_viewer(scene, leaves, frame):
         return ()
     return tuple(
@@ -54,8 +55,7 @@ def _are_a_pair(scene: Scene, leaves: IntArray) -> bool:
 
 def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
     """Return the leaf and the small pieces on either face of it: handles, panes, bars, trims."""
-    middle = (scene.low + scene.high) / 2.0
-    inside = (middle >= scene.low[leaf]) & (middle <= scene.high[leaf])
+    inside = (scene.middle >= scene.low[leaf]) & (scene.middle <= scene.high[leaf])
     inside = inside[:, RECT].all(axis=1)
     overhang = np.maximum(scene.low[leaf] - scene.low, scene.high - scene.high[leaf])[:, RECT].max(
         axis=1
@@ -70,9 +70,7 @@ def _with_fittings(scene: Scene, leaf: int, leaves: IntArray) -> IntArray:
     for k in np.flatnonzero(fitting):
         reach |= inside & scene.meeting(scene.low[k] - hair, scene.high[k] + hair)
     small = scene.extents[:, RECT].max(axis=1) <= 0.6 * float(scene.extents[leaf, RECT].max())
-    group = (fitting | (reach & small)) & ~np.isin(
-        np.arange(len(inside)), np.setdiff1d(leaves, [leaf])
-    )
+    group = (fitting | (reach & small)) & scene.without(leaves)
     group[leaf] = True
     return np.flatnonzero(group)
 
@@ -81,8 +79,7 @@ def _is_framed(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
     """Tell whether the frame stands at two opposite sides, with little in front of the leaves."""
     low, high = scene.box_of(leaves)
     hair = scene.touch / 2.0
-    for axis in (SIDEWAYS, UP):
-        other = UP if axis == SIDEWAYS else SIDEWAYS
+    for axis, other in ((SIDEWAYS, UP), (UP, SIDEWAYS)):
         long = scene.extents[frame, other] >= 0.8 * (high - low)[other]
         before = long & (scene.low[frame, axis] <= low[axis] + hair)
         after = long & (scene.high[frame, axis] >= high[axis] - hair)
@@ -91,12 +88,9 @@ def _is_framed(scene: Scene, leaves: IntArray, frame: IntArray) -> bool:
     return False
 
 
-def _hides(scene: Scene, low: np.ndarray, high: np.ndarray, frame: IntArray) -> np.ndarray:
+def _hides(scene: Scene, low: FloatArray, high: FloatArray, frame: IntArray) -> BoolArray:
     """Return which pieces of the frame lie before or behind the leaves rather than around them."""
-    shared = (
-        np.minimum(scene.high[frame], high)[:, RECT] - np.maximum(scene.low[frame], low)[:, RECT]
-    )
-    covered = np.prod(np.maximum(shared, 0.0), axis=1)
+    covered = overlap_area(scene.low[frame], scene.high[frame], low, high)
     area = np.prod(scene.extents[frame][:, RECT], axis=1)
     solid = scene.facing[frame] >= 2.0 * FULL * area
     return np.asarray(solid & (covered >= 0.2 * float(np.prod((high - low)[RECT]))))
@@ -121,7 +115,7 @@ def _leaf(scene: Scene, leaf: int, leaves: IntArray, group: IntArray) -> Mover:
     else:
         at_left = True
         guesses = ("has no handle at one side; hinge side assumed left",)
-    origin = (low + high) / 2.0
+    origin = scene.middle[leaf].copy()
     origin[SIDEWAYS] = low[SIDEWAYS] if at_left else high[SIDEWAYS]
     axis = np.array([0.0, 0.0, -1.0 if at_left else 1.0])
     guesses = (*guesses, "hangs in a frame; which way and how far it opens is assumed")
@@ -140,7 +134,4 @@ def _handle_offset(scene: Scene, leaf: int, group: IntArray) -> float:
         return 0.0
     handle = fittings[out >= 0.6 * out.max()]
     middle = scene.box_of(handle)[:, SIDEWAYS].sum() / 2.0
-    return float(
-        (middle - (scene.low[leaf] + scene.high[leaf])[SIDEWAYS] / 2.0)
-        / scene.extents[leaf, SIDEWAYS]
-    )
+    return float((middle - scene.middle[leaf, SIDEWAYS]) / scene.extents[leaf, SIDEWAYS])

@@ -8,26 +8,23 @@ from ...mesh import BoolArray, FloatArray, IntArray
 from ...part import PartKind
 from ..proposal import Motion
 from .movers import Mover
-from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
+from .scene import FRONT, RECT, SIDEWAYS, Scene
 
 LARGEST = 0.15
 """Of the front's shorter side."""
 SECTORS = 12
 BUTTONS = 8
-PAIR = 2
-ROW = 3
-"""Equal knobs wanted on a plate, and on a cooktop."""
 
 
 def find_top_knobs(above: Scene, taken: IntArray) -> tuple[Mover, ...]:
     """Find knobs of a cooktop, seen from above: three or more squat equal ones in a row."""
-    knobs = [m for m in find_knobs(above, taken) if len(m.pieces)]
-    if len(knobs) < ROW:
+    knobs = find_knobs(above, taken)
+    if len(knobs) < 3:
         return ()
     places = np.array([m.motion.origin[RECT] for m in knobs])
     places = places - places.mean(axis=0)
     spread = np.linalg.svd(places, compute_uv=False)
-    return tuple(knobs) if spread[1] <= 0.1 * spread[0] else ()
+    return knobs if spread[1] <= 0.1 * spread[0] else ()
 
 
 def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
@@ -37,16 +34,12 @@ def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
         seen.
     """
     width, depth, height = scene.extents.T
-    largest = LARGEST * float(scene.size[RECT].min())
-    free = np.ones(len(width), dtype=bool)
-    free[taken] = False
-    near_round = np.abs(width - height) <= 0.06 * np.maximum(width, height)
-    sized = (np.maximum(width, height) <= largest) & (width >= 1.5 * scene.touch)
+    free = scene.without(taken)
+    small = free & (np.maximum(width, height) <= LARGEST * scene.size[RECT].min())
+    sized = small & scene.square(RECT) & (width >= 1.5 * scene.touch)
     stacks: dict[int, IntArray] = {}
     inner: set[int] = set()
-    for k in sorted(
-        np.flatnonzero(free & near_round & sized).tolist(), key=lambda k: (-float(depth[k]), k)
-    ):
+    for k in sorted(np.flatnonzero(sized).tolist(), key=lambda k: (-float(depth[k]), k)):
         stack = _stack(scene, k, free)
         proud = float(scene.high[k, FRONT] - scene.low[stack, FRONT].min()) >= 0.25 * width[k]
         if k not in inner and proud and is_round(scene, k):
@@ -54,21 +47,19 @@ def find_knobs(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
             inner |= {int(piece) for piece in stack}
     round_ones = sorted(stacks)
     plates = {k: _plate(scene, k, stacks[k]) for k in round_ones}
-    small = free & (np.maximum(width, height) <= largest)
     knobs = [k for k in round_ones if plates[k] >= 0 and _has_company(scene, k, plates, small)]
-    knobs.sort(
-        key=lambda k: (
-            -round(float(scene.high[k, UP]) / scene.touch),
-            float(scene.low[k, SIDEWAYS]),
-        )
+    knobs.sort(key=lambda k: scene.reading_place(scene.low[k], scene.high[k]))
+    axis = np.eye(3)[FRONT]
+    guess = ("is round and turns without end; its stops are unknown",)
+    return tuple(
+        Mover(PartKind.KNOB, Motion.endless(axis, scene.middle[k]), stacks[k], guess) for k in knobs
     )
-    return tuple(_knob(scene, k, stacks[k]) for k in knobs)
 
 
 def is_round(scene: Scene, piece: int) -> bool:
     """Tell whether a piece's outline is a circle: corners near the rim in all directions."""
     corners = scene.triangles[scene.labels == piece].reshape(-1, 3)[:, RECT]
-    center = (scene.low[piece] + scene.high[piece])[RECT] / 2.0
+    center = scene.middle[piece, RECT]
     radius = float(scene.extents[piece, SIDEWAYS]) / 2.0
     return goes_round(corners - center, 0.93 * radius, 1.04 * radius)
 
@@ -90,7 +81,7 @@ def goes_round(offsets: FloatArray, inner: float, outer: float) -> bool:
 
 def _plate(scene: Scene, piece: int, stack: IntArray) -> int:
     """Return the piece that a knob sits on with its stack; -1 if hidden or on nothing."""
-    start = (scene.low[piece] + scene.high[piece]) / 2.0
+    start = scene.middle[piece].copy()
     start[RECT] += 0.2 * scene.extents[piece][RECT]
     start[FRONT] = scene.box[0, FRONT] - scene.touch
     small = np.flatnonzero((scene.extents[:, RECT] < scene.extents[piece, RECT]).all(axis=1))
@@ -111,7 +102,7 @@ def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArra
     plate = plates[knob]
     close = scene.within(scene.low[plate] - scene.touch, scene.high[plate] + scene.touch, RECT)
     front = np.abs(scene.high[:, FRONT] - scene.high[knob, FRONT]) <= 2.0 * scene.touch
-    return twins >= PAIR or int((small & close & front).sum()) > BUTTONS
+    return twins > 1 or int((small & close & front).sum()) > BUTTONS
 
 
 def _stack(scene: Scene, knob: int, free: BoolArray) -> IntArray:
@@ -124,10 +115,3 @@ def _stack(scene: Scene, knob: int, free: BoolArray) -> IntArray:
         & (scene.high[:, FRONT] <= scene.high[knob, FRONT] + scene.touch)
     )
     return np.union1d(np.flatnonzero(inside), [knob])
-
-
-def _knob(scene: Scene, knob: int, pieces: IntArray) -> Mover:
-    origin: FloatArray = (scene.low[knob] + scene.high[knob]) / 2.0
-    axis = np.array([0.0, 1.0, 0.0])
-    guess = ("is round and turns without end; its stops are unknown",)
-    return Mover(PartKind.KNOB, Motion.endless(axis, origin), pieces, guess)

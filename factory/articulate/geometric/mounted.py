@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
 from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
-from .slab import HAIR, FrontSlab, rect_area
+from .slab import FrontSlab, overlap_area, rect_area
 
 LONGEST_HANDLE = 0.92
 """Of the panel's side: what runs along all of it is trim."""
@@ -18,10 +19,7 @@ HANDLE_AREA = 0.3
 
 def with_mounted(scene: Scene, seed: FrontSlab, seeds: list[FrontSlab]) -> FrontSlab:
     """Add small pieces in front of the slab: handle, knobs, trim; what protrudes is the handle."""
-    shared = (
-        np.minimum(scene.high, seed.high)[:, RECT] - np.maximum(scene.low, seed.low)[:, RECT] + HAIR
-    )
-    overlap = np.prod(np.maximum(shared, 0.0), axis=1)
+    overlap = overlap_area(scene.low, scene.high, seed.low, seed.high)
     own = rect_area(scene.extents)
     reach = max(0.12 * max(seed.width, seed.height), scene.touch)
     small = own <= HANDLE_AREA * max(seed.area, 1e-12)
@@ -31,17 +29,17 @@ def with_mounted(scene: Scene, seed: FrontSlab, seeds: list[FrontSlab]) -> Front
     )
     ahead = scene.low[:, FRONT] <= seed.high[FRONT]
     other_slabs = {p for s in seeds for p in s.slabs}
-    mounted = [
-        int(i) for i in np.flatnonzero(small & inside & near & ahead) if int(i) not in seed.slabs
-    ]
+    on_it = small & inside & near & ahead & scene.without(np.array(seed.slabs))
+    mounted = np.flatnonzero(on_it).tolist()
     far = small & inside & (scene.high[:, FRONT] < seed.low[FRONT]) & ~near
-    mounted += [int(i) for i in np.flatnonzero(far) if _stands_on(scene, int(i), mounted)]
-    loose = np.array(
-        [i for i in mounted if i not in other_slabs or own[i] < 0.15 * seed.area], dtype=np.int64
-    )
-    return replace(
-        seed, mounted=tuple(int(i) for i in loose), handle=handle_box(scene, seed, loose)
-    )
+    mounted += [i for i in np.flatnonzero(far).tolist() if _stands_on(scene, i, mounted)]
+    loose = [i for i in mounted if i not in other_slabs or own[i] < 0.15 * seed.area]
+    return holding(scene, seed, loose)
+
+
+def holding(scene: Scene, seed: FrontSlab, mounted: Sequence[int]) -> FrontSlab:
+    """Return a slab with these pieces mounted on it, and the handle that they make."""
+    return replace(seed, mounted=tuple(mounted), handle=_handle_box(scene, seed, mounted))
 
 
 def _stands_on(scene: Scene, piece: int, posts: list[int]) -> bool:
@@ -58,11 +56,11 @@ def _own_grip(scene: Scene, seed: FrontSlab) -> FloatArray | None:
     return np.stack([out.min(axis=0), out.max(axis=0)]) if len(out) else None
 
 
-def handle_box(scene: Scene, seed: FrontSlab, mounted: IntArray) -> FloatArray | None:
+def _handle_box(scene: Scene, seed: FrontSlab, mounted: Sequence[int]) -> FloatArray | None:
     """Return the box of what can be held on a panel, shape [2, 3]; ``None`` if nothing."""
     if seed.is_box and (grip := _own_grip(scene, seed)) is not None:
         return grip
-    outer = protruding(scene, seed, mounted)
+    outer = _protruding(scene, seed, mounted)
     if not len(outer) or _crowded(scene, seed, outer):
         return None
     box = scene.box_of(outer)
@@ -72,11 +70,12 @@ def handle_box(scene: Scene, seed: FrontSlab, mounted: IntArray) -> FloatArray |
     return None if sides.max() > LONGEST_HANDLE and not _is_inset_bar(seed, box) else box
 
 
-def protruding(scene: Scene, seed: FrontSlab, mounted: IntArray) -> IntArray:
+def _protruding(scene: Scene, seed: FrontSlab, mounted: Sequence[int]) -> IntArray:
     """Return those of the mounted pieces that stand out furthest; none if nothing stands out."""
-    protrusion = seed.low[FRONT] - scene.low[mounted, FRONT]
+    pieces = np.array(mounted, dtype=np.int64)
+    protrusion = seed.low[FRONT] - scene.low[pieces, FRONT]
     longest = float(protrusion.max(initial=0.0))
-    return np.asarray(mounted[(protrusion >= 0.6 * longest) & (longest >= 0.75 * scene.touch)])
+    return np.asarray(pieces[(protrusion >= 0.6 * longest) & (longest >= 0.75 * scene.touch)])
 
 
 def is_crowded(scene: Scene, panel: FrontSlab) -> bool:
@@ -84,25 +83,12 @@ def is_crowded(scene: Scene, panel: FrontSlab) -> bool:
 
     More than two; two that are not level; or two side by side in the middle, as of a pair of doors.
     """
-    return _crowded(scene, panel, protruding(scene, panel, np.array(panel.mounted, dtype=np.int64)))
+    return _crowded(scene, panel, _protruding(scene, panel, panel.mounted))
 
 
 def _crowded(scene: Scene, panel: FrontSlab, outer: IntArray) -> bool:
-    boxes: list[tuple[FloatArray, FloatArray]] = []
-    for piece in outer:
-        low = scene.low[piece] - scene.touch
-        high = scene.high[piece] + scene.touch
-        near = [
-            k
-            for k, (other_low, other_high) in enumerate(boxes)
-            if (low <= other_high).all() and (high >= other_low).all()
-        ]
-        for k in reversed(near):
-            low = np.minimum(low, boxes[k][0])
-            high = np.maximum(high, boxes[k][1])
-            del boxes[k]
-        boxes.append((low, high))
-    middles = [(low + high) / 2.0 for low, high in boxes]
+    labels = scene.label_touching(outer, 2.0 * scene.touch)
+    middles = [scene.box_of(outer[labels == grip]).mean(axis=0) for grip in np.unique(labels)]
     if len(middles) != 2:
         return len(middles) > 2
     apart = np.abs(middles[0] - middles[1])

@@ -6,9 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from .mounted import handle_box
-from .scene import FRONT, RECT, SIDEWAYS, UP, Scene
-from .slab import STANDS_OFF, FrontSlab, overlap_area, rect_area
+from .mounted import holding
+from .scene import FRONT, RECT, Scene
+from .slab import FrontSlab, overlap_area, rect_area
+
+#: Pieces below this share of a panel do not hide it.
+STANDS_OFF = 0.08
 
 
 def resolve_nesting(scene: Scene, seeds: list[FrontSlab]) -> list[FrontSlab]:
@@ -27,26 +30,22 @@ def resolve_nesting(scene: Scene, seeds: list[FrontSlab]) -> list[FrontSlab]:
             if independent:
                 frames.add(m)
             else:
-                extra.setdefault(m, []).extend(int(p) for p in seed.pieces)
+                extra.setdefault(m, []).extend(seed.pieces.tolist())
                 absorbed.add(k)
             break
-    kept = []
-    for k, seed in enumerate(seeds):
-        if k in absorbed or k in frames:
-            continue
-        kept.append(
-            replace(
-                seed, mounted=tuple(sorted({*seed.mounted, *extra.get(k, [])} - set(seed.slabs)))
-            )
-        )
-    return unshare(scene, kept)
+    kept = [
+        replace(seed, mounted=tuple(sorted({*seed.mounted, *extra.get(k, [])} - set(seed.slabs))))
+        for k, seed in enumerate(seeds)
+        if k not in absorbed and k not in frames
+    ]
+    return _unshare(scene, kept)
 
 
 def _own_handle(host: FrontSlab, inner: FrontSlab) -> bool:
     if host.handle is None or inner.handle is None:
         return host.handle is not None
     rect = overlap_area(host.handle[0], host.handle[1], inner.low, inner.high)
-    return rect < 0.5 * float(np.prod((host.handle[1] - host.handle[0])[RECT]))
+    return bool(rect < 0.5 * np.prod((host.handle[1] - host.handle[0])[RECT]))
 
 
 def _within(scene: Scene, inner: FrontSlab, host: FrontSlab) -> bool:
@@ -56,40 +55,31 @@ def _within(scene: Scene, inner: FrontSlab, host: FrontSlab) -> bool:
     return bool(covered and ahead and behind and not inner.is_box and not host.is_box)
 
 
-def unshare(scene: Scene, panels: list[FrontSlab]) -> list[FrontSlab]:
+def _unshare(scene: Scene, panels: list[FrontSlab]) -> list[FrontSlab]:
     """Leave a piece on two panels to the one it overlaps most, else to the smaller one."""
     best: dict[int, tuple[float, float, int]] = {}
     for k, panel in enumerate(panels):
         for piece in panel.mounted:
             overlap = overlap_area(scene.low[piece], scene.high[piece], panel.low, panel.high)
-            key = (round(overlap, 9), -panel.area, -k)
+            key = (round(float(overlap), 9), -panel.area, -k)
             if piece not in best or key > best[piece]:
                 best[piece] = key
     slabs = {p for panel in panels for p in panel.slabs}
-    result = []
-    for k, panel in enumerate(panels):
-        mine = np.array(
-            [p for p in panel.mounted if -best[p][2] == k and p not in slabs], dtype=np.int64
-        )
-        result.append(
-            replace(
-                panel, mounted=tuple(int(p) for p in mine), handle=handle_box(scene, panel, mine)
-            )
-        )
-    return result
+    return [
+        holding(scene, panel, [p for p in panel.mounted if -best[p][2] == k and p not in slabs])
+        for k, panel in enumerate(panels)
+    ]
 
 
 def is_visible(scene: Scene, panel: FrontSlab) -> bool:
     """Tell whether most rays from the front meet the panel first, whatever stands off it."""
-    hits = 0
     small = np.flatnonzero(rect_area(scene.extents) < STANDS_OFF * panel.area)
     through = np.setdiff1d(small, panel.pieces)
     start = scene.box[0, FRONT] - scene.touch
     shares = (0.15, 0.5, 0.85)
-    for u in shares:
-        for v in shares:
-            x = panel.low[SIDEWAYS] + u * panel.width
-            z = panel.low[UP] + v * panel.height
-            _, piece = scene.first_hit(np.array([x, start, z]), FRONT, 1, through)
-            hits += piece in panel.pieces
-    return hits >= 5
+    first = [
+        scene.first_hit(panel.point(u, start, v), FRONT, 1, through)[1]
+        for u in shares
+        for v in shares
+    ]
+    return int(np.isin(first, panel.pieces).sum()) >= 5

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ...geometry.triangles import doubled_normals
 from ...mesh import IntArray
 from .mounted import with_mounted
 from .nesting import is_visible, resolve_nesting
-from .scene import FRONT, SIDEWAYS, UP, Scene
+from .scene import FRONT, PLAN, SIDEWAYS, UP, Scene
 from .slab import FrontSlab, overlap_area
 
 MAX_SEEDS = 64
@@ -27,7 +29,7 @@ def find_panels(scene: Scene) -> tuple[FrontSlab, ...]:
     """Find all slabs that could be seen from the front, largest first; no piece is in two."""
     seeds = [_panel(scene, (int(i),)) for i in _seed_pieces(scene)]
     seeds = _join_layers(scene, seeds)
-    seeds += [_box_panel(scene, int(i)) for i in _box_pieces(scene)]
+    seeds += _box_panels(scene)
     seeds.sort(key=lambda seed: -round(seed.area, 12))
     seeds = _without_frame_strips([_with_frame(scene, seed, seeds) for seed in seeds])
     seeds = [with_mounted(scene, seed, seeds) for seed in seeds]
@@ -42,9 +44,8 @@ def _seed_pieces(scene: Scene) -> IntArray:
     width, depth, height = scene.extents.T
     short = np.minimum(width, height)
     long = np.maximum(width, height)
-    whole = scene.size[SIDEWAYS] * scene.size[UP]
     fits = (
-        (width * height >= SMALLEST_AREA * whole)
+        (width * height >= SMALLEST_AREA * scene.front_area)
         & (depth <= THICKEST * short)
         & (long <= LONGEST_ASPECT * short)
     )
@@ -55,25 +56,25 @@ def _seed_pieces(scene: Scene) -> IntArray:
     return np.asarray(index[order][:MAX_SEEDS])
 
 
-def _box_pieces(scene: Scene) -> IntArray:
-    """Return the pieces that are drawers by themselves.
+def _box_panels(scene: Scene) -> Iterator[FrontSlab]:
+    """Yield the fronts of pieces that are drawers by themselves.
 
     Deep, with a flat front, open at the top, not the whole object.
     """
     width, depth, height = scene.extents.T
-    whole = scene.size[SIDEWAYS] * scene.size[UP]
+    whole = scene.front_area
     deep = (depth > THICKEST * np.minimum(width, height)) & (depth >= 0.3 * scene.size[FRONT])
     part = (width * height >= SMALLEST_AREA * whole) & (width * height <= 0.8 * whole)
     inner = scene.high[:, UP] < scene.box[1, UP] - scene.touch / 4
     index = np.flatnonzero(deep & part & inner & (height <= 3.0 * width))
-    return np.array(
-        [
-            i
-            for i in index[:MAX_SEEDS]
-            if _flat_front(scene, int(i)) is not None and is_open_box(scene, int(i))
-        ],
-        dtype=np.int64,
-    )
+    for piece in index[:MAX_SEEDS].tolist():
+        front = _flat_front(scene, piece)
+        if front is not None and is_open_box(scene, piece):
+            low = scene.low[piece].copy()
+            high = scene.high[piece].copy()
+            low[FRONT] = front
+            high[FRONT] = front + 0.05 * scene.extents[piece, FRONT]
+            yield FrontSlab((piece,), low, high, is_box=True)
 
 
 def _flat_front(scene: Scene, piece: int) -> float | None:
@@ -95,22 +96,11 @@ def _flat_front(scene: Scene, piece: int) -> float | None:
 def is_open_box(scene: Scene, piece: int) -> bool:
     """Tell whether a ray from the middle leaves the piece upwards and meets its bottom."""
     others = np.flatnonzero(np.arange(len(scene.low)) != piece)
-    middle = (scene.low[piece] + scene.high[piece]) / 2.0
-    middle[[SIDEWAYS, FRONT]] += 0.03 * scene.extents[piece, [SIDEWAYS, FRONT]]
-    above, _ = scene.first_hit(middle, UP, 1, others)
-    below, _ = scene.first_hit(middle, UP, -1, others)
-    left, _ = scene.first_hit(middle, SIDEWAYS, -1, others)
-    back, _ = scene.first_hit(middle, FRONT, 1, others)
-    return bool(np.isinf(above) and np.isfinite(below) and np.isfinite(left) and np.isfinite(back))
-
-
-def _box_panel(scene: Scene, piece: int) -> FrontSlab:
-    low = scene.low[piece].copy()
-    high = scene.high[piece].copy()
-    front = _flat_front(scene, piece)
-    low[FRONT] = low[FRONT] if front is None else front
-    high[FRONT] = low[FRONT] + 0.05 * scene.extents[piece, FRONT]
-    return FrontSlab((piece,), low, high, is_box=True)
+    middle = scene.middle[piece].copy()
+    middle[PLAN] += 0.03 * scene.extents[piece, PLAN]
+    ways = [(UP, 1), (UP, -1), (SIDEWAYS, -1), (FRONT, 1)]
+    above, *around = scene.distances(middle, ways, others)
+    return bool(np.isinf(above) and np.isfinite(around).all())
 
 
 def _join_layers(scene: Scene, seeds: list[FrontSlab]) -> list[FrontSlab]:
@@ -151,10 +141,9 @@ def _with_frame(scene: Scene, seed: FrontSlab, seeds: list[FrontSlab]) -> FrontS
     lying = (np.abs(width - seed.width) <= 0.45 * seed.width) & (height < width)
     shallow = depth <= max(3.0 * seed.depth, 0.15 * min(seed.width, seed.height))
     candidates = np.flatnonzero(near & thin & flush_enough & (upright | lying) & shallow)
-    strips = [int(i) for i in candidates if int(i) not in taken]
-    left_right = [i for i in strips if height[i] > width[i]]
-    top_bottom = [i for i in strips if height[i] <= width[i]]
-    if len(left_right) < 2 or len(top_bottom) < 2:
+    strips = [i for i in candidates.tolist() if i not in taken]
+    left_right = sum(height[i] > width[i] for i in strips)
+    if min(left_right, len(strips) - left_right) < 2:
         return seed
     return _panel(scene, seed.slabs + tuple(strips))
 

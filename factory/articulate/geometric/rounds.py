@@ -5,32 +5,28 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import JointKind
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, IntArray
 from ...part import PartKind
 from ...views.raster import Side
 from ..proposal import Motion
 from .knobs import is_round
 from .movers import Mover
-from .scene import FRONT, PLAN, SIDEWAYS, UP, Scene, quarter_turn
+from .scene import FRONT, PLAN, RECT, SIDEWAYS, UP, Scene, quarter_turn
 
 FROM_ABOVE = Side.FRONT.frame.T @ Side.TOP.frame
 """The view whose front is the top of the scene: its y points down, its z to the back."""
-HIGHEST_CAP = 0.5
-"""Of the object's height."""
-NARROW = 0.5
-"""A knob's radius is at most this share of its lid's."""
+HIGHEST = 0.5
+"""Of the object's height: a cap, or a wheel."""
 LIFT = 0.5
 """Share of its height by which a lid is lifted: visible, since a lid that comes off has no end."""
-LARGEST_WHEEL = 0.5
-"""Of the object's height."""
 
 
 def find_cap(scene: Scene) -> tuple[Mover, ...]:
     """Find what tops a round body about its upright axis: a cap that turns, a lid that lifts."""
     above = scene.turned(FROM_ABOVE)
-    tallest = HIGHEST_CAP * scene.size[UP]
+    tallest = HIGHEST * scene.size[UP]
     reach = scene.high[:, UP] >= scene.box[1, UP] - 0.25 * scene.size[UP]
-    fits = reach & (scene.extents[:, UP] <= tallest) & _square(scene)
+    fits = reach & (scene.extents[:, UP] <= tallest) & _is_square(scene)
     for cap in sorted(np.flatnonzero(fits), key=lambda k: -float(np.prod(scene.extents[k, PLAN]))):
         if not is_round(above, int(cap)):
             continue
@@ -42,40 +38,36 @@ def find_cap(scene: Scene) -> tuple[Mover, ...]:
     return ()
 
 
-def _square(scene: Scene) -> FloatArray:
-    width, depth, _ = scene.extents.T
-    return np.asarray(
-        (np.abs(width - depth) <= 0.06 * np.maximum(width, depth)) & (width >= 2.0 * scene.touch)
-    )
+def _is_square(scene: Scene) -> BoolArray:
+    return scene.square(PLAN) & (scene.extents[:, SIDEWAYS] >= 2.0 * scene.touch)
 
 
 def _tops_a_body(scene: Scene, cap: int, group: IntArray) -> bool:
     """Tell whether only one body, as wide and coaxial, is below the cap and touches it."""
-    rest = np.setdiff1d(np.arange(len(scene.low)), group)
+    rest = np.flatnonzero(scene.without(group))
     if not len(rest):
         return False
     width = float(scene.extents[cap, SIDEWAYS])
-    middle = (scene.low + scene.high)[:, PLAN] / 2.0
-    coaxial = np.linalg.norm(middle[rest] - middle[cap], axis=1) <= 0.05 * width
+    aside = np.linalg.norm((scene.middle[rest] - scene.middle[cap])[:, PLAN], axis=1)
     near = scene.high[rest, UP] >= scene.low[cap, UP] - scene.touch
     below = scene.low[rest, UP] < scene.low[cap, UP] - 0.5 * scene.extents[cap, UP]
     sides = scene.extents[rest][:, PLAN]
     as_wide = (sides.min(axis=1) >= 0.75 * width) & (sides.max(axis=1) <= 1.6 * width)
-    body = rest[coaxial & near & below & as_wide & _square(scene)[rest]]
+    body = rest[(aside <= 0.05 * width) & near & below & as_wide & _is_square(scene)[rest]]
     if (
         not len(body)
         or scene.extents[rest][:, PLAN].max() > 1.05 * scene.extents[body][:, PLAN].max()
     ):
         return False
     # What stands beside the cap (a spout, a handle) stays; what passes through it would hold it.
-    inside = np.linalg.norm(middle[rest] - middle[cap], axis=1) <= 0.5 * width
-    return not bool((inside & (scene.high[rest, UP] > scene.high[cap, UP] + scene.touch)).any())
+    through = scene.high[rest, UP] > scene.high[cap, UP] + scene.touch
+    return not bool((through & (aside <= 0.5 * width)).any())
 
 
 def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
     width = float(scene.extents[cap, SIDEWAYS])
-    origin: FloatArray = (scene.low[cap] + scene.high[cap]) / 2.0
-    up = np.array([0.0, 0.0, 1.0])
+    origin = scene.middle[cap]
+    up = np.eye(3)[UP]
     if float(np.ptp(scene.box_of(group), axis=0).max()) > 1.5 * width:
         guess = ("sticks out from the round top of a round body; assumed to turn by half a turn",)
         motion = Motion(JointKind.REVOLUTE, up, origin, 0.0, np.pi)
@@ -90,29 +82,21 @@ def _cap(scene: Scene, cap: int, group: IntArray) -> Mover:
 
 
 def _has_knob(scene: Scene, cap: int, group: IntArray) -> bool:
+    """Tell whether the top quarter of a cap is at most half as wide as the cap."""
     corners = scene.triangles[np.isin(scene.labels, group)].reshape(-1, 3)
     low = float(scene.low[cap, UP])
     high = float(scene.high[group, UP].max())
     top = corners[corners[:, UP] >= high - 0.25 * (high - low)]
-    offset = (top - (scene.low[cap] + scene.high[cap]) / 2.0)[:, PLAN]
-    return bool(
-        np.linalg.norm(offset, axis=1).max() <= NARROW * 0.5 * float(scene.extents[cap, SIDEWAYS])
-    )
+    offset = np.linalg.norm((top - scene.middle[cap])[:, PLAN], axis=1)
+    return bool(offset.max() <= 0.25 * scene.extents[cap, SIDEWAYS])
 
 
 def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
     """Return the one round plate that lies level inside a closed space, as in a microwave oven."""
     width, _, height = scene.extents.T
-    large = width >= 0.3 * float(scene.size[PLAN].min())
-    free = np.ones(len(width), dtype=bool)
-    free[taken] = False
-    flat = (
-        free
-        & large
-        & (height <= 0.15 * width)
-        & _square(scene)
-        & (scene.high[:, UP] <= scene.box[:, UP].mean())
-    )
+    free = scene.without(taken)
+    flat = free & (width >= 0.3 * scene.size[PLAN].min()) & (height <= 0.15 * width)
+    flat &= _is_square(scene) & (scene.high[:, UP] <= scene.box[:, UP].mean())
     above = scene.turned(FROM_ABOVE)
     plates = [int(k) for k in np.flatnonzero(flat) if is_round(above, int(k))]
     if not plates:
@@ -123,22 +107,19 @@ def find_turntables(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
     pieces = np.flatnonzero(group & free)
     if not set(plates) <= set(pieces.tolist()) or not _is_enclosed(scene, plate, pieces):
         return ()
-    origin: FloatArray = (scene.low[plate] + scene.high[plate]) / 2.0
     guess = ("is a round plate inside a closed space; assumed to turn without end",)
-    up = np.array([0.0, 0.0, 1.0])
-    return (Mover(PartKind.TURNTABLE, Motion.endless(up, origin), pieces, guess),)
+    motion = Motion.endless(np.eye(3)[UP], scene.middle[plate])
+    return (Mover(PartKind.TURNTABLE, motion, pieces, guess),)
 
 
 def _is_enclosed(scene: Scene, plate: int, pieces: IntArray) -> bool:
     """Tell whether something stands on all six sides of a plate."""
-    start = (scene.low[plate] + scene.high[plate]) / 2.0
+    start = scene.middle[plate].copy()
     start[UP] = scene.high[pieces, UP].max() + scene.touch
-    half = 0.5 * float(scene.extents[plate, SIDEWAYS])
-    for axis, sign in ((SIDEWAYS, -1), (SIDEWAYS, 1), (FRONT, -1), (FRONT, 1), (UP, 1), (UP, -1)):
-        distance, _ = scene.first_hit(start, axis, sign, pieces)
-        if not np.isfinite(distance) or (axis != UP and distance < half):
-            return False
-    return True
+    around = scene.distances(start, [(axis, sign) for axis in PLAN for sign in (-1, 1)], pieces)
+    level = scene.distances(start, [(UP, 1), (UP, -1)], pieces)
+    far = around.min() >= 0.5 * scene.extents[plate, SIDEWAYS]
+    return bool(far and np.isfinite(around).all() and np.isfinite(level).all())
 
 
 def find_wheels(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
@@ -152,24 +133,15 @@ def find_wheels(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:
 
 def _wheels(scene: Scene, taken: IntArray) -> list[Mover]:
     width, depth, height = scene.extents.T
-    free = np.ones(len(width), dtype=bool)
-    free[taken] = False
+    free = scene.without(taken)
     floor = scene.low[:, UP] <= scene.box[0, UP] + 0.1 * height
-    shaped = (np.abs(width - height) <= 0.06 * np.maximum(width, height)) & (depth <= 0.9 * width)
-    sized = (height <= LARGEST_WHEEL * scene.size[UP]) & (height >= 2.0 * scene.touch)
+    shaped = scene.square(RECT) & (depth <= 0.9 * width)
+    sized = (height <= HIGHEST * scene.size[UP]) & (height >= 2.0 * scene.touch)
     sized &= (depth >= 0.1 * width) & (depth <= 0.5 * scene.size[FRONT])
     wheels = [
         int(k) for k in np.flatnonzero(free & floor & shaped & sized) if is_round(scene, int(k))
     ]
-    equal = [
-        [
-            m
-            for m in wheels
-            if abs(height[m] - height[k]) <= 0.05 * height[k] and m != k and _apart(scene, k, m)
-        ]
-        for k in wheels
-    ]
-    wheels = [k for k, others in zip(wheels, equal, strict=True) if others]
+    wheels = [k for k in wheels if any(_are_alike(scene, k, other) for other in wheels)]
     largest = max((float(height[k]) for k in wheels), default=0.0)
     wheels = [k for k in wheels if height[k] >= 0.4 * largest]
     done: set[int] = set()
@@ -181,14 +153,14 @@ def _wheels(scene: Scene, taken: IntArray) -> list[Mover]:
         inside = scene.within(scene.low[k] - slack, scene.high[k] + slack)
         pieces = np.union1d(np.flatnonzero(inside & free), [k])
         done |= {int(p) for p in pieces}
-        origin: FloatArray = (scene.low[k] + scene.high[k]) / 2.0
         guess = ("is round and stands on the ground with its like; assumed to roll",)
-        axis = np.array([0.0, 1.0, 0.0])
-        movers.append(Mover(PartKind.WHEEL, Motion.endless(axis, origin), pieces, guess))
+        motion = Motion.endless(np.eye(3)[FRONT], scene.middle[k])
+        movers.append(Mover(PartKind.WHEEL, motion, pieces, guess))
     return movers
 
 
-def _apart(scene: Scene, a: int, b: int) -> bool:
-    """Return whether two pieces are not about the same place, as a tyre and its rim are."""
-    middle = (scene.low + scene.high) / 2.0
-    return bool(np.abs(middle[a] - middle[b]).max() > 0.5 * scene.extents[a, UP])
+def _are_alike(scene: Scene, a: int, b: int) -> bool:
+    """Return whether two pieces are as high, and not in one place as a tyre and its rim are."""
+    height = scene.extents[a, UP]
+    apart = np.abs(scene.middle[a] - scene.middle[b]).max() > 0.5 * height
+    return bool(apart and abs(scene.extents[b, UP] - height) <= 0.05 * height)

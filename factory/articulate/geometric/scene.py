@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ...geometry.edges import label_linked
-from ...geometry.triangles import doubled_normals, ends_of
+from ...geometry.triangles import ends_of
 from ...mesh import BoolArray, FloatArray, IntArray
 
 FRONT = 1
@@ -67,6 +67,16 @@ class Scene:
         return self.high - self.low
 
     @cached_property
+    def middle(self) -> FloatArray:
+        """Return the middles of the pieces' boxes [m], shape [piece_count, 3]."""
+        return (self.low + self.high) / 2.0
+
+    def square(self, axes: Sequence[int]) -> BoolArray:
+        """Return which pieces are as long along one of two axes as along the other, to 6 %."""
+        one, other = self.extents[:, axes].T
+        return np.asarray(np.abs(one - other) <= 0.06 * np.maximum(one, other))
+
+    @cached_property
     def facing(self) -> FloatArray:
         """Return the area of the pieces projected on the front plane [m2], shape [piece_count]."""
         sides = self.triangles[:, 1:, RECT] - self.triangles[:, :1, RECT]
@@ -87,6 +97,11 @@ class Scene:
         """Return the box sides of everything [m], shape [3]."""
         return np.asarray(self.box[1] - self.box[0])
 
+    @property
+    def front_area(self) -> float:
+        """Return the area of the whole front [m2]."""
+        return float(self.size[SIDEWAYS] * self.size[UP])
+
     @cached_property
     def touch(self) -> float:
         """Return the gap below which pieces touch [m]: 0.4 % of the diagonal."""
@@ -100,6 +115,14 @@ class Scene:
     def meeting(self, low: FloatArray, high: FloatArray) -> BoolArray:
         """Return which pieces' boxes meet a box [m], shape [piece_count]."""
         return np.asarray((self.low <= high).all(axis=1) & (self.high >= low).all(axis=1))
+
+    def without(self, pieces: IntArray) -> BoolArray:
+        """Return which pieces are none of those given, shape [piece_count]."""
+        return ~np.isin(np.arange(len(self.low)), pieces)
+
+    def reading_place(self, low: FloatArray, high: FloatArray) -> tuple[int, float]:
+        """Return what sorts boxes [m] from top to bottom, and in a row from left to right."""
+        return -round(float(high[UP]) / self.touch), float(low[SIDEWAYS])
 
     def label_touching(self, pieces: IntArray, gap: float) -> IntArray:
         """Return the group of each piece: boxes a gap [m] apart at most, or linked by others."""
@@ -119,8 +142,20 @@ class Scene:
         """Return the same pieces after another rotation of the view, shape [3, 3]."""
         return Scene(self.triangles @ rotation.T, self.labels, rotation @ self.rotation)
 
+    def distances(
+        self, start: FloatArray, ways: Sequence[tuple[int, int]], ignored: IntArray
+    ) -> FloatArray:
+        """Measure how far it is to what each way meets first [m]; infinite where nothing is.
+
+        Args:
+            start: view frame [m], shape [3].
+            ways: axis and sign of each.
+            ignored: pieces that are gone through.
+        """
+        return np.array([self.first_hit(start, *way, ignored)[0] for way in ways])
+
     def first_hit(
-        self, origin: FloatArray, axis: int, sign: int, ignored: IntArray | None = None
+        self, origin: FloatArray, axis: int, sign: int, ignored: IntArray
     ) -> tuple[float, int]:
         """Return distance [m] and piece of the first triangle along ``sign * axis``.
 
@@ -139,8 +174,7 @@ class Scene:
         near = (low[a] <= origin[a]) & (high[a] >= origin[a])
         near &= (low[b] <= origin[b]) & (high[b] >= origin[b])
         hit = np.flatnonzero(near)
-        if ignored is not None and len(ignored):
-            hit = hit[~np.isin(self.labels[hit], ignored)]
+        hit = hit[~np.isin(self.labels[hit], ignored)]
         corners = self.triangles[hit]
         plane = corners[:, :, [a, b]] - origin[[a, b]]
         weights = np.stack(
@@ -172,20 +206,3 @@ def quarter_turn(turns: int) -> FloatArray:
     """Return the rotation about z by ``turns`` quarter turns, exact, shape [3, 3]."""
     c, s = ((1, 0), (0, 1), (-1, 0), (0, -1))[turns % 4]
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-
-
-def level_yaw(triangles: FloatArray) -> float:
-    """Return the angle [rad] in (-pi/4, pi/4] of the object's upright faces to the axes.
-
-    The area-weighted circular mean of four times the heading of upright faces: four, since walls
-    meet at right angles. Zero when no heading dominates.
-    """
-    normals = doubled_normals(triangles)
-    area = np.linalg.norm(normals, axis=1)
-    upright = np.abs(normals[:, 2]) < 0.2 * area
-    heading = np.arctan2(normals[upright, 1], normals[upright, 0])
-    mean = np.sum(area[upright] * np.exp(4j * heading))
-    if not upright.any() or abs(mean) < 0.5 * area[upright].sum():
-        return 0.0
-    yaw = float(np.angle(mean)) / 4.0
-    return yaw if abs(yaw) > np.radians(0.5) else 0.0

@@ -12,10 +12,6 @@ from .scene import FRONT, RECT, SIDEWAYS, UP
 
 #: Against rounding [m].
 HAIR = 1e-9
-#: Rows: to the right, up and away from the viewer, in the view frame.
-VIEW = np.eye(3)[[SIDEWAYS, UP, FRONT]]
-STANDS_OFF = 0.08
-"""Pieces below this share of a panel do not hide it."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +59,11 @@ class FrontSlab:
         """Return the middle of the slab's box [m], shape [3]."""
         return np.asarray((self.low + self.high) / 2.0)
 
+    def point(self, across: float, depth: float, up: float) -> FloatArray:
+        """Return a point [m] at shares of the front's sides, at a depth [m], shape [3]."""
+        x = self.low[SIDEWAYS] + across * self.width
+        return np.array([x, depth, self.low[UP] + up * self.height])
+
     @property
     def has_side_handle(self) -> bool:
         """Tell whether an upright handle is near the left or right edge: it turns."""
@@ -79,16 +80,24 @@ class FrontSlab:
 
     def outline(self, opens: OpensBy) -> Panel:
         """Return it as a panel, in the view frame, that opens so."""
-        across = [SIDEWAYS, UP]
-        return Panel(VIEW, self.low[across], self.high[across], self.low[FRONT], self.depth, opens)
+        # To the right, up and away from the viewer.
+        frame = np.eye(3)[[SIDEWAYS, UP, FRONT]]
+        return Panel(frame, self.low[RECT], self.high[RECT], self.low[FRONT], self.depth, opens)
 
 
 def overlap_area(
     low: FloatArray, high: FloatArray, other_low: FloatArray, other_high: FloatArray
-) -> float:
-    """Return the area that two boxes share, seen from the front [m2]; a line is a hair wide."""
-    sides = np.minimum(high, other_high)[RECT] - np.maximum(low, other_low)[RECT] + HAIR
-    return float(np.prod(np.maximum(sides, 0.0)))
+) -> FloatArray:
+    """Return the area that boxes share with another, seen from the front [m2]; a line has some.
+
+    Args:
+        low: their lower corners [m], shape [..., 3].
+        high: their upper corners [m], shape [..., 3].
+        other_low: lower corner of the other [m], shape [3].
+        other_high: its upper corner [m].
+    """
+    sides = np.minimum(high, other_high) - np.maximum(low, other_low) + HAIR
+    return np.asarray(np.prod(np.maximum(sides[..., RECT], 0.0), axis=-1))
 
 
 def rect_area(extents: FloatArray) -> FloatArray:

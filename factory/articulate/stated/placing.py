@@ -16,6 +16,7 @@ from ...mesh import FloatArray, IntArray, Mesh
 from ...part import OpensBy, PartKind
 from ...views.raster import Side
 from ...views.view import Views
+from ..geometric.rounds import FROM_ABOVE
 from ..proposal import Motion
 from ..seams.fronts import Front, fronts_of
 from ..seams.placing import OpeningPart, box_behind, panel_mover
@@ -33,8 +34,6 @@ from .wholes import SeenPieces, StatedWay
 MOST_SHARED = 0.25
 #: From above the back is at the top of the picture.
 _EDGES_ABOVE = {**EDGES, Hinge.BACK: OpensBy.TOP, Hinge.FRONT: OpensBy.BOTTOM}
-#: Turns the top of an object to where its front is.
-FROM_ABOVE = Side.FRONT.frame.T @ Side.TOP.frame
 
 
 @dataclass(frozen=True, eq=False)

@@ -68,10 +68,7 @@ def _without(plan: Plan, going: dict[str, Finding], evidence: RepairEvidence) ->
 
 
 def _given_up(joint: str, part: str, finding: Finding) -> Repair:
-    told = Repair(
-        RepairKind.JOINT_GIVEN_UP, (part,), joints=(joint,), code=finding.code, why=finding.message
-    )
-    if finding.code != "rest_penetration":
-        return told
-    others = tuple(other for other in finding.parts if other != part)
-    return replace(told, kind=RepairKind.OVERLAPPING_GIVEN_UP, parts=(part, *others))
+    overlaps = finding.code == "rest_penetration"
+    kind = RepairKind.OVERLAPPING_GIVEN_UP if overlaps else RepairKind.JOINT_GIVEN_UP
+    others = [other for other in finding.parts if overlaps and other != part]
+    return Repair(kind, (part, *others), joints=(joint,), code=finding.code, why=finding.message)

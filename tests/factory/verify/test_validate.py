@@ -76,7 +76,7 @@ def test_what_ran_out_of_time_is_asked_again_and_what_was_said_is_not(tmp_path):
     stages = Stages(BuildConfig(simulators=("sapien",)), Store(tmp_path / "cache"))
     hurried = Hurried()
     inspected = [inspect(bundle, hurried, (), stages) for _ in range(3)]
-    assert [verdict.status for verdict in inspected] == ["unjudged", "passed", "passed"]
+    assert [verdict.report.status for verdict in inspected] == ["unjudged", "passed", "passed"]
     assert hurried.examined == 2
     hurried.checked = 0
     asked = (bundle, hurried, (), inspected[-1], stages)

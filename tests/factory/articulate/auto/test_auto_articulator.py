@@ -121,7 +121,7 @@ def test_what_turns_and_slides_gets_two_joints_with_a_carrier_between():
 def test_a_drawer_that_rules_find_is_as_open_as_the_evidence_says(sign, limits, monkeypatch):
     truth = make_object("cabinet", 5)
     joint = next(joint for joint in truth.joints if not joint.turns)
-    part = LearnedPart(face_parts(truth) == joint.child, 1.0, 0.9, 0.9, 0.9, Guess(), 0.0, 0.0)
+    part = LearnedPart(face_parts(truth) == joint.child, 1.0, 0.9, 0.9, 0.9, Guess())
     seen = Motion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
     judged = proposals._Judged(part, MotionEvidence(seen, 0.9), MotionEvidence(None, 0.0))
     monkeypatch.setattr(proposals, "_judged", lambda *_: [judged])

@@ -25,7 +25,7 @@ def mask(*faces):
 def view(labels, sign=1.0, confidence=0.9, moves=0.9, both=0.0, slide=None):
     root = SeenPart(1.0, 0.0, 0.0, 0.0, 1.0, None, None, 0.0, 0.0)
     door = SeenPart(confidence, moves, 1.0, both, 0.8, sign * UP, np.zeros(3), 0.0, 1.5, slide)
-    return NetworkView(np.array(labels), (root, door), np.array([-1, 0]))
+    return NetworkView(np.array(labels), (root, door))
 
 
 def test_a_part_seen_from_every_side_is_agreed_on_and_its_axis_is_the_majoritys():
