@@ -7,7 +7,7 @@ from fault_corpus.exhibits import edited, mjcf, urdf
 from fault_corpus.things import Body, Move, Thing, at, box
 
 from asset_factory.sim_checks.checks.result import CheckResult
-from asset_factory.sim_checks.report import Severity
+from asset_factory.sim_checks.report import Report, Severity
 
 Boxes = tuple[tuple[tuple[float, float, float], tuple[float, float, float]], ...]
 
@@ -79,7 +79,7 @@ def write_lid(folder: Path) -> Path:
     return path
 
 
-def codes(result: CheckResult, severity: Severity = Severity.ERROR) -> list[str]:
+def codes(result: CheckResult | Report, severity: Severity = Severity.ERROR) -> list[str]:
     return [finding.code for finding in result.findings if finding.severity is severity]
 
 

@@ -18,7 +18,7 @@ from fuzz_hostile_usd import USD_PAGES
 from fuzz_mutations import mutated
 from fuzz_trial import try_case
 
-from asset_factory.sim_checks.processes.isolation import Limits, WarmChild
+from asset_factory.sim_checks.processes.isolation import Limits
 
 LIMITS = Limits(wall_s=120.0, memory_bytes=4 * 2**30)
 #: MuJoCo's compiler and USD need a child for each file: the benchmark has time for that.
@@ -43,15 +43,9 @@ def try_sample(number):
     return [try_case(case) for case in sample(number)]
 
 
-@pytest.fixture(scope="module")
-def child():
-    with WarmChild() as child:
-        yield child
-
-
 @pytest.mark.parametrize("number", [0, 1])
-def test_every_hostile_file_ends_in_a_verdict_and_touches_nothing_else(child, number):
-    trials = child.call(try_sample, number, limits=LIMITS).unwrap()
+def test_every_hostile_file_ends_in_a_verdict_and_touches_nothing_else(reading_child, number):
+    trials = reading_child.call(try_sample, number, limits=LIMITS).unwrap()
     assert len(trials) > 140
     assert [(t.name, t.verdict, t.broke, t.detail) for t in trials if t.failed] == []
     verdicts = {trial.verdict for trial in trials}
@@ -84,6 +78,6 @@ def try_traitor(name):
 
 
 @pytest.mark.parametrize("name", TRAITORS)
-def test_the_watch_sees_what_a_reader_must_not_do(child, name):
-    told = child.call(try_traitor, name, limits=LIMITS).unwrap()
+def test_the_watch_sees_what_a_reader_must_not_do(reading_child, name):
+    told = reading_child.call(try_traitor, name, limits=LIMITS).unwrap()
     assert any(name in said for said in told)

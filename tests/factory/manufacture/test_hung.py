@@ -5,7 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from held_parts import CONFIG, PAIR, box, cut, cut_free, deepest, hulls_of, mesh_of, require_refused
+from held_parts import (
+    CONFIG,
+    PAIR,
+    box,
+    cut,
+    cut_free,
+    cylinder,
+    deepest,
+    hulls_of,
+    mesh_of,
+    require_refused,
+)
 
 from asset_factory.factory.articulation import Joint, rotation_about
 from asset_factory.factory.manufacture.separate.budget import SeenSurface
@@ -14,12 +25,6 @@ from asset_factory.factory.manufacture.separate.hung import well_hung
 RADIUS, ARM = 0.05, 0.32
 UP = np.array([0.0, 0.0, 1.0])
 ALONG = np.array([1.0, 0.0, 0.0])
-
-
-def cylinder(radius, low, high, sections=12):
-    made = trimesh.creation.cylinder(radius, high - low, sections=sections)
-    made.apply_translation([0.0, 0.0, (low + high) / 2.0])
-    return made
 
 
 #: A lever on the hollow top of a post: a hub, and an arm to one side of it.

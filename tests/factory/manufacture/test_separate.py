@@ -3,19 +3,18 @@
 import numpy as np
 import pytest
 import trimesh
+from held_parts import CONFIG, PAIR, cut, cut_free, cylinder
+from held_parts import box as box_between
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plain_solids import box_between, parted
+from plain_solids import parted
 from plain_solids import sized_box as box
 
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Hull
-from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.outside import outside
 from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
-from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
-from asset_factory.factory.manufacture.separate.along import hull_depth
 from asset_factory.factory.manufacture.separate.budget import SeenSurface
 from asset_factory.factory.manufacture.separate.clip import (
     clipped,
@@ -25,23 +24,17 @@ from asset_factory.factory.manufacture.separate.clip import (
 )
 from asset_factory.factory.mesh import Mesh
 
-CONFIG = SeparateConfig()
-PAIR = ("base", "mover")
-
 
 def hull(size, center=(0, 0, 0)):
     return Hull(*box(size, center))
 
 
-def object_of(base, mover, joint=None, third=None):
-    """Boxes as parts: one base, one mover held by a joint, and a third fixed to the base."""
-    shapes = [base, mover, *([third] if third else [])]
-    meshes = [[Mesh.from_triangles(*box(*shape))] for shape in shapes]
-    slide = joint or Joint("slide", JointKind.PRISMATIC, 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.3)
-    joints = [slide]
-    if third:
-        joints.append(Joint("other", JointKind.PRISMATIC, 0, 2, [0, 0, 1], [0, 0, 0], 0.0, 0.3))
-    return parted(dict(zip(("base", "mover", "third"), meshes, strict=False)), *joints)
+def solid(size, center=(0, 0, 0)):
+    return Mesh.from_triangles(*box(size, center))
+
+
+SLIDE = Joint("slide", JointKind.PRISMATIC, 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.3)
+TURN = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
 
 
 def pieces_of(*hulls):
@@ -55,29 +48,25 @@ def gap(result, pose=None):
 
 def test_what_decomposition_added_is_taken_off():
     # The meshes are 4 mm apart; the base's hull bulges 7 mm.
-    tree = object_of(((1, 1, 0.1), (0, 0, 0)), ((1, 1, 0.1), (0, 0, 0.104)))
+    meshes = {"body": [solid((1, 1, 0.1))], "mover": [solid((1, 1, 0.1), (0, 0, 0.104))]}
+    tree = parted(meshes, SLIDE)
     bulging = pieces_of(hull((1, 1, 0.114)), hull((1, 1, 0.1), (0, 0, 0.104)))
     assert gap(separate(tree, bulging, [], CONFIG, 64)) == pytest.approx(-0.003)
-    result = separate(tree, bulging, [("mover", "base")], CONFIG, 64)
+    result = separate(tree, bulging, [PAIR[::-1]], CONFIG, 64)
     assert gap(result) == pytest.approx(CONFIG.clearance_m, abs=1e-9)
     assert result.refused == {}
     assert result.hidden == {}
 
 
 def test_hulls_that_are_apart_are_not_touched():
-    tree = object_of(((1, 1, 0.1), (0, 0, 0)), ((1, 1, 0.1), (0, 0, 0.2)))
-    pieces = pieces_of(hull((1, 1, 0.1)), hull((1, 1, 0.1), (0, 0, 0.2)))
-    after = separate(tree, pieces, [PAIR], CONFIG, 64).pieces
-    assert all(a is b for a, b in zip(after, pieces, strict=True))
+    _, before, result = cut([solid((1, 1, 0.1))], [solid((1, 1, 0.1), (0, 0, 0.2))], SLIDE)
+    assert all(a is b for a, b in zip(result.pieces, before, strict=True))
 
 
 def stem_in_a_block(sunk):
     """A stem of 20 mm, 200 mm long, that turns in a block it reaches into."""
-    stem = ((0.02, 0.02, 0.2), (0, 0, 0.15 - sunk))
-    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
-    tree = object_of(((0.3, 0.3, 0.1), (0, 0, 0)), stem, turn)
-    pieces = pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem))
-    return separate(tree, pieces, [PAIR], CONFIG, 64)
+    stem = solid((0.02, 0.02, 0.2), (0, 0, 0.15 - sunk))
+    return cut([solid((0.3, 0.3, 0.1))], [stem], TURN)[2]
 
 
 def test_a_stem_loses_the_little_that_is_hidden_in_its_socket_and_the_depth_is_told():
@@ -101,41 +90,26 @@ def test_a_stem_of_which_much_is_hidden_is_kept_whole_in_a_socket():
     assert 0.02 * 0.02 * 0.03 < socket < 0.05 * 0.05 * 0.05
 
 
-def cylinder(radius, low, high):
-    made = trimesh.creation.cylinder(radius, high - low, sections=24)
-    made.apply_translation([0.0, 0.0, (low + high) / 2.0])
-    return Mesh.from_triangles(made.vertices, made.faces)
-
-
 def test_a_round_stem_that_nearly_fills_its_column_is_kept_whole_in_a_socket():
     # A spout in its base: walls of four pieces would leave the column's own surface bare.
-    column, stem = cylinder(0.05, 0.0, 0.2), cylinder(0.03, 0.05, 0.5)
+    column, stem = cylinder(0.05, 0.0, 0.2, sections=24), cylinder(0.03, 0.05, 0.5, sections=24)
     turn = Joint("turn", JointKind.CONTINUOUS, 0, 1, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
-    tree = parted({"base": [column], "mover": [stem]}, turn)
-    hulls = [Hull(mesh.vertices, mesh.faces) for mesh in (column, stem)]
-    result = separate(tree, pieces_of(*hulls), [PAIR], CONFIG, 64)
-    assert result.refused == {}
+    _, _, result = cut_free([column], [stem], turn)
     assert result.trimmed == {}
-    assert result.pieces[1].hulls[0].volume == pytest.approx(hulls[1].volume, rel=1e-6)
-    after = [list(piece.hulls) for piece in result.pieces]
-    way = relative_poses(tree, 0, 1, 60)
-    assert max(hull_depth(*after, pose) for pose in way) == 0.0
+    assert result.pieces[1].hulls[0].volume == pytest.approx(stem.volume, rel=1e-6)
 
 
 def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
     # A toaster of three metres: its lever's tongue is 100 mm wide, the slot in its front 50.
-    solids = [
+    sides = [
         box_between((-1.5, 0.0, 0.0), (-0.025, 3.0, 3.0)),
         box_between((0.025, 0.0, 0.0), (1.5, 3.0, 3.0)),
-        box_between((-0.05, -0.2, 1.5), (0.05, 0.25, 1.6)),
     ]
-    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.4)
-    tree = parted({"base": solids[:2], "mover": solids[2:]}, slide)
-    left, right, mover = (Hull(mesh.vertices, mesh.faces) for mesh in solids)
-    pieces = (SolidPieces((left, right), "exact"), *pieces_of(mover))
-    result = separate(tree, pieces, [PAIR], CONFIG, 64)
+    tongue = box_between((-0.05, -0.2, 1.5), (0.05, 0.25, 1.6))
+    down = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.4)
+    _, _, result = cut(sides, [tongue], down)
     assert result.refused == {}
-    assert result.pieces[1].hulls[0].volume == pytest.approx(mover.volume, rel=1e-6)
+    assert result.pieces[1].hulls[0].volume == pytest.approx(tongue.volume, rel=1e-6)
     (slot,) = result.trimmed[PAIR]
     assert slot.depth_m == pytest.approx(0.025 + CONFIG.clearance_m, abs=1e-4)
     assert slot.area < 0.01
@@ -143,18 +117,18 @@ def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
 
 def test_parts_that_get_deeper_along_the_joint_are_left_alone():
     # A drawer that slides 0.3 m towards a wall 0.1 m away.
-    tree = object_of(((0.1, 1, 1), (0.65, 0, 0)), ((1, 0.5, 0.5), (0, 0, 0)))
-    pieces = pieces_of(hull((0.1, 1, 1), (0.65, 0, 0)), hull((1, 0.5, 0.5)))
-    result = separate(tree, pieces, [PAIR], CONFIG, 64)
+    _, before, result = cut([solid((0.1, 1, 1), (0.65, 0, 0))], [solid((1, 0.5, 0.5))], SLIDE)
     assert "deeper than at rest" in result.refused[PAIR].reason
-    assert result.pieces == pieces
+    assert result.pieces == before
 
 
 def test_overlap_without_a_joint_between_is_left_alone():
     # Two neighbours, overlapping by 8 mm, both held by the base.
     shapes = [((2, 2, 0.1), (0, 0, -2))]
     shapes += [((0.5, 0.5, 0.5), (0, y, 0)) for y in (0, 0.492)]
-    tree = object_of(shapes[0], shapes[1], third=shapes[2])
+    meshes = {name: [solid(*shape)] for name, shape in zip((*PAIR, "third"), shapes, strict=True)}
+    other = Joint("other", JointKind.PRISMATIC, 0, 2, [0, 0, 1], [0, 0, 0], 0.0, 0.3)
+    tree = parted(meshes, SLIDE, other)
     pieces = pieces_of(*(hull(*shape) for shape in shapes))
     result = separate(tree, pieces, [("mover", "third")], CONFIG, 64)
     assert "overlap by 8.00 mm at rest and no joint" in result.refused[("mover", "third")].reason
@@ -190,22 +164,16 @@ def test_sheets_that_cross_at_a_slight_angle_are_not_cut_to_knife_s_edges():
 
 def test_a_cut_that_would_take_too_much_is_refused():
     # Planes take the stem; a pit for all of its turn would be as wide as so slim a base.
-    stem = ((0.02, 0.02, 0.05), (0, 0, 0.04))
-    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
+    stem = solid((0.02, 0.02, 0.05), (0, 0, 0.04))
     for width, refused in ((0.032, True), (0.06, False)):
-        base = (width, width, 0.1)
-        tree = object_of((base, (0, 0, 0)), stem, turn)
-        result = separate(tree, pieces_of(hull(base), hull(*stem)), [PAIR], CONFIG, 64)
+        _, _, result = cut([solid((width, width, 0.1))], [stem], TURN)
         assert (PAIR in result.refused) == refused
 
 
 def test_what_sticks_out_on_the_other_side_is_not_cut_off():
     # A rod through a board: neither half of it may go, only what is in the board.
-    rod = ((0.02, 0.02, 0.4), (0, 0, 0))
-    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
-    tree = object_of(((0.3, 0.3, 0.02), (0, 0, 0.1)), rod, turn)
-    pieces = pieces_of(hull((0.3, 0.3, 0.02), (0, 0, 0.1)), hull(*rod))
-    result = separate(tree, pieces, [PAIR], CONFIG, 64)
+    board = solid((0.3, 0.3, 0.02), (0, 0, 0.1))
+    _, _, result = cut([board], [solid((0.02, 0.02, 0.4))], TURN)
     assert result.refused == {}
     rods = result.pieces[1].hulls
     assert sum(each.volume for each in rods) == pytest.approx(0.02**2 * (0.4 - 0.025))

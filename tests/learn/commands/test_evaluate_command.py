@@ -114,7 +114,6 @@ def test_the_published_conventions_and_procedural_objects(tmp_path):
 @pytest.mark.parametrize(
     ("flags", "message"),
     [
-        (("--set", "imagined"), "--set must be one of real, procedural, folder"),
         (("--method", "oracle"), "no method 'oracle'"),
         (("--method", "predictions"), "want the folder of <case>.npz files"),
         (

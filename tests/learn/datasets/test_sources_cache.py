@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from box_world import write_urdf
 from registry_samples import BAD_REPORT, REPORT
 from usda import CABINET, stage, write
 
@@ -20,10 +21,6 @@ from asset_factory.learn.datasets.making import sampled_item, turned_sampled
 from asset_factory.learn.samples.sampled_object import read_sampled
 
 SETTINGS = SourceSettings(points=64, wall_s=60.0)
-BOX = (
-    '<link name="{}"><visual><origin xyz="{}"/><geometry><box size="{}"/></geometry>'
-    "</visual></link>"
-)
 HINGE = (
     '<joint name="hinge" type="{}"><parent link="base"/><child link="door"/>'
     '<origin xyz="-0.5 -0.31 0"/>'
@@ -33,11 +30,8 @@ HINGE = (
 
 def cabinet(folder, kind="revolute", depth=0.6):
     folder.mkdir(parents=True, exist_ok=True)
-    body = BOX.format("base", "0 0 0", f"1 {depth} 0.8")
-    body += BOX.format("door", "0.5 0 0", "1 0.02 0.8")
-    path = folder / "cabinet.urdf"
-    path.write_text(f'<robot name="cabinet">{body}{HINGE.format(kind)}</robot>', encoding="utf-8")
-    return path
+    boxes = {"base": ((0, 0, 0), (1, depth, 0.8)), "door": ((0.5, 0, 0), (1, 0.02, 0.8))}
+    return write_urdf(folder, boxes, HINGE.format(kind)).rename(folder / "cabinet.urdf")
 
 
 def bring(tmp_path, kind="description", **changes):

@@ -12,6 +12,7 @@ from ros_packages import (
     write_mjcf_package,
     write_package,
 )
+from small_cabinet import codes
 
 from asset_factory.sim_checks.read.gather import gather
 from asset_factory.sim_checks.read.roots import (
@@ -28,10 +29,6 @@ def checked(judge):
     return lambda path, *roots, outside=False: judge.check(
         path, (), options=ReadOptions(roots, outside)
     )
-
-
-def codes(report):
-    return [finding.code for finding in report.errors]
 
 
 def told(report):

@@ -5,6 +5,7 @@ import sys
 
 import pytest
 from ros_packages import MESHES, PACKAGE, SLIDE, link, write_meshes
+from small_cabinet import codes
 
 from asset_factory.sim_checks.read import xacro
 from asset_factory.sim_checks.read.roots import ReadOptions
@@ -28,10 +29,6 @@ def write_xacro(folder, body, name="cabinet.urdf.xacro"):
     path = folder / "urdf" / name
     path.write_text(ROBOT.format(body))
     return path
-
-
-def codes(report):
-    return [finding.code for finding in report.errors]
 
 
 def test_macros_includes_arguments_and_packages_are_expanded(tmp_path, judge):

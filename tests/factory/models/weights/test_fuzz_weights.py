@@ -1,12 +1,11 @@
 """What fuzzing found in the readers of checkpoints, each once."""
 
-import json
 import struct
 import time
 import zipfile
 
 import pytest
-from fuzz_cases import SHARED, pickled_number, pickled_text
+from fuzz_cases import SHARED, locked, pickled_tensor, pickled_text, safetensors
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.weights.checkpoint import open_checkpoint
@@ -28,17 +27,8 @@ def torch_file(folder, description, **members):
     return file
 
 
-def tensor(size=1):
-    storage = b"ctorch\nFloatStorage\n" + pickled_text("0") + pickled_text("cpu")
-    stored = b"(" + pickled_text("storage") + storage + b"K\1tQ"
-    sizes = b"(" + pickled_number(size) + b"t(K\1t"
-    hooks = b"ccollections\nOrderedDict\n)R"
-    rebuild = b"ctorch._utils\n_rebuild_tensor_v2\n("
-    return rebuild + stored + b"K\0" + sizes + b"\x89" + hooks + b"tR"
-
-
 def one_tensor(size=1):
-    return b"\x80\x02}" + pickled_text("a") + tensor(size) + b"s."
+    return b"\x80\x02}" + pickled_text("a") + pickled_tensor(0, (size,)) + b"s."
 
 
 #: A pair of the pair before, twice, sixty times: a few bytes with 2^60 leaves. By DUP, which torch
@@ -71,7 +61,7 @@ def test_shared_pairs_are_neither_hashed_nor_printed(body, tmp_path):
     "code", [b"cos\nsystem\n(NtR", b"(Nios\nsystem\n", b"(cos\nsystem\nNo", b"(Nishutil\nrmtree\n"]
 )
 def test_what_a_file_would_call_is_refused(code, tmp_path):
-    body = pickled_text("b") + code + pickled_text("a") + tensor()
+    body = pickled_text("b") + code + pickled_text("a") + pickled_tensor(0, (1,))
     with pytest.raises(ConfigError, match=r"os\.system|posix\.system|Unsupported operand"):
         open_checkpoint(torch_file(tmp_path, b"\x80\x02}(" + body + b"u."))
 
@@ -79,7 +69,7 @@ def test_what_a_file_would_call_is_refused(code, tmp_path):
 def test_what_torch_would_call_is_a_stand_in(tmp_path):
     (tmp_path / "dear").mkdir()
     call = b"cshutil\nrmtree\n(" + pickled_text(str(tmp_path / "dear")) + b"tR"
-    body = pickled_text("b") + call + pickled_text("a") + tensor()
+    body = pickled_text("b") + call + pickled_text("a") + pickled_tensor(0, (1,))
     found = open_checkpoint(torch_file(tmp_path, b"\x80\x02}(" + body + b"u."))
     assert list(found.tensors) == ["a"]
     assert (tmp_path / "dear").is_dir()
@@ -91,10 +81,8 @@ def test_a_bomb_beside_the_description_is_not_unpacked(tmp_path):
 
 
 def test_a_locked_or_lying_archive_is_refused(tmp_path):
-    data = bytearray(torch_file(tmp_path, one_tensor()).read_bytes())
-    for mark, offset in ((b"PK\x03\x04", 6), (b"PK\x01\x02", 8)):
-        data[data.find(mark) + offset] |= 1
-    (tmp_path / "locked.pt").write_bytes(data)
+    data = torch_file(tmp_path, one_tensor()).read_bytes()
+    (tmp_path / "locked.pt").write_bytes(locked(data))
     with pytest.raises(ConfigError, match="unsupported encryption"):
         open_checkpoint(tmp_path / "locked.pt")
     data = bytearray(torch_file(tmp_path, one_tensor(size=1_000_000)).read_bytes())
@@ -105,10 +93,10 @@ def test_a_locked_or_lying_archive_is_refused(tmp_path):
         open_checkpoint(tmp_path / "lies.pt")
 
 
-def safetensors(folder, header):
-    text = header if isinstance(header, bytes) else json.dumps(header).encode()
-    (folder / "w.safetensors").write_bytes(struct.pack("<Q", len(text)) + text + bytes(16))
-    return folder / "w.safetensors"
+def opened(folder, header):
+    """A safetensors file of that header, looked into."""
+    (folder / "w.safetensors").write_bytes(safetensors(header, bytes(16)))
+    return open_checkpoint(folder / "w.safetensors")
 
 
 @pytest.mark.parametrize(
@@ -125,13 +113,13 @@ def safetensors(folder, header):
 def test_sizes_that_are_no_sizes_are_refused_at_once(entry, tmp_path):
     started = time.process_time()
     with pytest.raises(ConfigError, match="not safetensors, damaged or cut off: ") as caught:
-        open_checkpoint(safetensors(tmp_path, {"a": entry}))
+        opened(tmp_path, {"a": entry})
     assert time.process_time() - started < QUICK_S
     assert len(str(caught.value)) < 600
 
 
 def test_a_header_of_nothing_but_brackets_is_refused_before_it_is_parsed(tmp_path):
     with pytest.raises(ConfigError, match="invalid type: sequence"):
-        open_checkpoint(safetensors(tmp_path, b"[" + b"{}," * 1_000_001 + b"1]"))
+        opened(tmp_path, [*[{}] * 1_000_001, 1])
     with pytest.raises(ConfigError, match="invalid type: map, expected a string"):
-        open_checkpoint(safetensors(tmp_path, {"__metadata__": {"terms": {"a": 1}}}))
+        opened(tmp_path, {"__metadata__": {"terms": {"a": 1}}})
