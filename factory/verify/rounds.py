@@ -9,7 +9,7 @@ from pathlib import Path
 from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.judge import Judge
 
-from ..articulate.closing import close_guessed, left_open
+from ..articulate.drawn import close_guessed, left_open
 from ..articulation import Articulation
 from ..asset import Asset
 from ..errors import InputRejected, Unjudged

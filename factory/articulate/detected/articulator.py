@@ -19,7 +19,7 @@ from ...models.detector.decode import Dense
 from ...part import Part, PartKind, Proposer
 from ...views.raster import Side
 from ..articulator import Articulator, HypothesisMaker
-from ..closing import note_open
+from ..closing import note_open, with_closed_hinges
 from ..origin import MeshOrigin
 from ..proposal import Hypothesis
 from ..pruning import keep_parts
@@ -102,7 +102,7 @@ class DetectedArticulator(HypothesisMaker):
             return [self._noted(each, sure_kind) for each in made]
         least = self.agreement.least if self.least is None else self.least
         shell = MeshOrigin.of(mesh).is_shell
-        if (drawn := open_panels(mesh, detection)) is not None:
+        if (drawn := open_panels(mesh, detection, one_piece=shell)) is not None:
             shut = closed(drawn)
             mesh = shut.mesh
             detection = detect(mesh)
@@ -129,8 +129,10 @@ class DetectedArticulator(HypothesisMaker):
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if len(sure) > len(guess.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
-        told = [with_whole_drawers(each) for each in made if each.movable_joints]
-        told = told or [self._still(mesh, guess, detection)]
+        moving = [with_whole_drawers(each) for each in made if each.movable_joints]
+        told = [with_closed_hinges(each) for each in moving] or [
+            self._still(mesh, guess, detection)
+        ]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])
         if drawn is not None:
             told = [reopened(each, drawn) for each in told]

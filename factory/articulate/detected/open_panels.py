@@ -69,7 +69,7 @@ class _Closing:
     hollow: float
 
 
-def open_panels(mesh: Mesh, detection: Detection) -> Articulation | None:
+def open_panels(mesh: Mesh, detection: Detection, *, one_piece: bool) -> Articulation | None:
     """Return the object with the panels that stand open; ``None`` if none does.
 
     Their joints' lower limits close them; ``posing.closed`` does it.
@@ -77,11 +77,14 @@ def open_panels(mesh: Mesh, detection: Detection) -> Articulation | None:
     Args:
         mesh: whose sides look along the axes.
         detection: what the detector says of it.
+        one_piece: that it is such a mesh. Of others only lids are looked for: pieces that somebody
+            modelled tell doors and flaps, and ``closing`` tells which of them stand open.
     """
     panelled, lidded = (
         float(detection.kinds[[KINDS.index(kind) for kind in kinds]].sum()) >= SURE
         for kinds in (PANELLED, LIDDED)
     )
+    panelled = panelled and one_piece
     if detection.opens < SURE or not (panelled or lidded):
         return None
     views = Views(mesh)

@@ -1,65 +1,76 @@
-"""Guessed hinges that stand open: made closed, and the asset left as it is drawn."""
+"""Hinges whose parts stand open in the mesh: their lower limit is the closed pose."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_mend import cabinet
+from modelled_furniture import METAL, board
+from plain_solids import cylinder, parted
+from target_worlds import world
 
-from asset_factory.factory.articulate.closing import close_guessed, left_open
-from asset_factory.factory.articulation import rotation_about
+from asset_factory.factory.articulate.closing import with_closed_hinges
+from asset_factory.factory.articulation import Joint, JointKind
+from asset_factory.factory.geometry.posing import posed
+from asset_factory.factory.part import PartKind
 
-OPEN = np.radians(60.0)
-
-
-def drawn_open(confidence=0.9):
-    """Return an asset whose door is closed, and its hypothesis, in which it stands open."""
-    asset = cabinet(upper=1.5)
-    (joint,) = asset.articulation.joints
-    stated = replace(asset.articulation, joints=(replace(joint, confidence=confidence),))
-    asset = replace(asset, articulation=stated)
-    return asset, left_open(asset, replaced(asset, -OPEN)).articulation
+HINGE = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [0.0, 0.0, 0.4], 0.0, np.pi)
 
 
-def replaced(asset, lower):
-    """Return the articulation of an asset with another lower limit."""
-    (joint,) = asset.articulation.joints
-    return replace(asset.articulation, joints=(replace(joint, lower=lower, upper=1.5 + lower),))
+def cupboard(handle=0.05, kind=PartKind.DOOR):
+    """A case that is open in front, with a closed door hinged at its left."""
+    case = [
+        board((0.0, 0.0, 0.0), (0.02, 0.4, 0.8)),
+        board((0.58, 0.0, 0.0), (0.6, 0.4, 0.8)),
+        board((0.0, 0.38, 0.0), (0.6, 0.4, 0.8)),
+        board((0.0, 0.0, 0.0), (0.6, 0.4, 0.02)),
+        board((0.0, 0.0, 0.78), (0.6, 0.4, 0.8)),
+    ]
+    door = [
+        board((0.0, -0.02, 0.0), (0.6, -0.001, 0.8)),
+        board((0.54, -0.02 - handle, 0.3), (0.56, -0.02, 0.5), METAL),
+    ]
+    whole = parted({"body": case, "door": door}, HINGE)
+    return replace(whole, parts=(whole.parts[0], replace(whole.parts[1], kind=kind)))
 
 
-def test_a_guessed_hinge_is_closed_and_anybody_elses_is_not():
-    asset, drawn = drawn_open()
-    closed = close_guessed(drawn)
-    assert closed.mesh.bounds == pytest.approx(asset.articulation.mesh.bounds)
-    assert (closed.joints[0].lower, closed.joints[0].upper) == pytest.approx((0.0, 1.5))
-    stated = replace(drawn, joints=(replace(drawn.joints[0], confidence=None),))
-    assert close_guessed(stated) is stated
-    assert close_guessed(closed) is closed
+def guessed(opened, whole):
+    """The object standing open, and a joint that a proposer sees from there on."""
+    standing = posed(whole, {"hinge": opened})
+    return replace(standing, joints=(replace(standing.joints[0], lower=0.0, upper=np.pi / 2),))
 
 
-def test_the_asset_is_left_as_drawn_with_all_that_its_door_has():
-    asset, drawn = drawn_open()
-    made = left_open(asset, drawn)
-    (joint,) = made.articulation.joints
-    assert (joint.lower, joint.upper) == pytest.approx((-OPEN, 1.5 - OPEN))
-    assert made.articulation.mesh.bounds == pytest.approx(drawn.mesh.bounds)
-    turn = rotation_about(joint.axis, OPEN)
-    before, after = asset.bodies[joint.child], made.bodies[joint.child]
-    for old, new in zip(before.hulls, after.hulls, strict=True):
-        assert new.vertices == pytest.approx((old.vertices - joint.origin) @ turn.T + joint.origin)
-        assert new.volume == pytest.approx(old.volume)
-    arm = before.inertial.center - joint.origin
-    assert after.inertial.center == pytest.approx(turn @ arm + joint.origin)
-    assert after.inertial.tensor == pytest.approx(turn @ before.inertial.tensor @ turn.T)
-    assert made.bodies[0] == asset.bodies[0]
-    back = left_open(made, replaced(made, OPEN))
-    assert back is made
+@pytest.mark.parametrize("degrees", [40, 90, 120, 175])
+def test_a_door_that_stands_open_closes(degrees):
+    opened = np.radians(degrees)
+    found = with_closed_hinges(guessed(opened, cupboard()))
+    (joint,) = found.joints
+    assert found.notes[-1].startswith(f"'door' stands open by {degrees} degrees")
+    assert joint.lower == pytest.approx(-opened, abs=1e-6)
+    assert joint.range == pytest.approx(max(np.pi / 2, opened))
 
 
-def test_a_hinge_that_a_repair_shortened_opens_as_far_as_it_goes():
-    asset, drawn = drawn_open()
-    (joint,) = asset.articulation.joints
-    short = replace(asset.articulation, joints=(replace(joint, upper=0.4),))
-    made = left_open(replace(asset, articulation=short), drawn)
-    assert made.articulation.joints[0].lower == pytest.approx(-0.4)
-    assert made.articulation.joints[0].upper == pytest.approx(0.0)
+def test_a_hinge_seen_the_wrong_way_round_is_turned():
+    seen = guessed(2.0, cupboard())
+    backward = replace(seen, joints=(replace(seen.joints[0], axis=[0, 0, 1]),))
+    (joint,) = with_closed_hinges(backward).joints
+    np.testing.assert_allclose(joint.axis, [0, 0, -1])
+    assert joint.lower == pytest.approx(-2.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("handle", [0.05, 0.3])
+def test_a_closed_door_stays_closed_however_far_its_handle_stands_out(handle):
+    whole = cupboard(handle)
+    assert with_closed_hinges(whole).joints == whole.joints
+
+
+def test_a_part_that_closes_nothing_stays_as_it_is_drawn():
+    seen = guessed(1.0, cupboard(kind=PartKind.KNOB))
+    assert with_closed_hinges(seen).joints == seen.joints
+
+
+def test_a_lever_is_not_taken_for_open_because_upright_it_would_be_smaller():
+    column = cylinder(2, (0.0, 0.0), 0.04, (0.0, 0.3), METAL)
+    lever = board((0.0, -0.02, 0.301), (0.4, 0.02, 0.32))
+    joint = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, -1, 0], [0.0, 0.0, 0.31], 0.0, 1.5)
+    whole = world([lever], joint, [column])
+    assert with_closed_hinges(whole).joints == whole.joints

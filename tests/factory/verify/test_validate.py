@@ -80,5 +80,5 @@ def test_what_ran_out_of_time_is_asked_again_and_what_was_said_is_not(tmp_path):
     assert hurried.examined == 2
     hurried.checked = 0
     asked = (bundle, hurried, (), inspected[-1], stages)
-    assert [validate(*asked).status for _ in range(3)] == ["unjudged", "passed", "passed"]
+    assert [validate(*asked).report.status for _ in range(3)] == ["unjudged", "passed", "passed"]
     assert hurried.checked == 2

@@ -1,0 +1,64 @@
+"""Guessed hinges that stand open: made closed, and the asset left as it is drawn."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from test_mend import cabinet
+
+from asset_factory.factory.articulate.drawn import close_guessed, left_open
+from asset_factory.factory.articulation import rotation_about
+
+OPEN = np.radians(60.0)
+
+
+def drawn_open(confidence=0.9):
+    """Return an asset whose door is closed, and its hypothesis, in which it stands open."""
+    asset = cabinet(upper=1.5)
+    (joint,) = asset.articulation.joints
+    stated = replace(asset.articulation, joints=(replace(joint, confidence=confidence),))
+    asset = replace(asset, articulation=stated)
+    return asset, left_open(asset, replaced(asset, -OPEN)).articulation
+
+
+def replaced(asset, lower):
+    """Return the articulation of an asset with another lower limit."""
+    (joint,) = asset.articulation.joints
+    return replace(asset.articulation, joints=(replace(joint, lower=lower, upper=1.5 + lower),))
+
+
+def test_a_guessed_hinge_is_closed_and_anybody_elses_is_not():
+    asset, drawn = drawn_open()
+    closed = close_guessed(drawn)
+    assert closed.mesh.bounds == pytest.approx(asset.articulation.mesh.bounds)
+    assert (closed.joints[0].lower, closed.joints[0].upper) == pytest.approx((0.0, 1.5))
+    stated = replace(drawn, joints=(replace(drawn.joints[0], confidence=None),))
+    assert close_guessed(stated) is stated
+    assert close_guessed(closed) is closed
+
+
+def test_the_asset_is_left_as_drawn_with_all_that_its_door_has():
+    asset, drawn = drawn_open()
+    made = left_open(asset, drawn)
+    (joint,) = made.articulation.joints
+    assert (joint.lower, joint.upper) == pytest.approx((-OPEN, 1.5 - OPEN))
+    assert made.articulation.mesh.bounds == pytest.approx(drawn.mesh.bounds)
+    turn = rotation_about(joint.axis, OPEN)
+    before, after = asset.bodies[joint.child], made.bodies[joint.child]
+    for old, new in zip(before.hulls, after.hulls, strict=True):
+        assert new.vertices == pytest.approx((old.vertices - joint.origin) @ turn.T + joint.origin)
+        assert new.volume == pytest.approx(old.volume)
+    arm = before.inertial.center - joint.origin
+    assert after.inertial.center == pytest.approx(turn @ arm + joint.origin)
+    assert after.inertial.tensor == pytest.approx(turn @ before.inertial.tensor @ turn.T)
+    assert made.bodies[0].hulls[0].vertices == pytest.approx(asset.bodies[0].hulls[0].vertices)
+    assert left_open(asset, asset.articulation) is asset
+
+
+def test_a_hinge_that_a_repair_shortened_opens_as_far_as_it_goes():
+    asset, drawn = drawn_open()
+    (joint,) = asset.articulation.joints
+    short = replace(asset.articulation, joints=(replace(joint, upper=0.4),))
+    made = left_open(replace(asset, articulation=short), drawn)
+    assert made.articulation.joints[0].lower == pytest.approx(-0.4)
+    assert made.articulation.joints[0].upper == pytest.approx(0.0)
