@@ -30,7 +30,7 @@ PANELLED = (
 )  # fmt: skip
 LIDDED = ("chest", "case", "bin", "toilet", "crate", "barrel")
 #: From this probability on an object is such a one, and has something that opens.
-SURE = 0.5
+SURE = 0.8
 #: Sides along which hinges lie, and how thick is thin; later ones only where nothing is found.
 ALONG = (Side.RIGHT, Side.TOP, Side.FRONT)
 THIN = (0.045, 0.07)
