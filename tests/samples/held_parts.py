@@ -28,6 +28,12 @@ def box(low: Sequence[float], high: Sequence[float]) -> trimesh.Trimesh:
     return trimesh.creation.box(bounds=[low, high])
 
 
+def cylinder(radius: float, low: float, high: float, sections: int) -> trimesh.Trimesh:
+    """An upright cylinder about the z axis between two heights [m]."""
+    made = trimesh.creation.cylinder(radius, high - low, sections=sections)
+    return made.apply_translation([0.0, 0.0, (low + high) / 2.0])
+
+
 def mesh_of(solids: Sequence[Solid]) -> Mesh:
     return concatenate([Mesh.from_triangles(each.vertices, each.faces) for each in solids])
 

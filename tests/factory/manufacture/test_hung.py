@@ -5,7 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from held_parts import CONFIG, PAIR, box, cut, cut_free, deepest, hulls_of, mesh_of, require_refused
+from held_parts import (
+    CONFIG,
+    PAIR,
+    box,
+    cut,
+    cut_free,
+    cylinder,
+    deepest,
+    hulls_of,
+    mesh_of,
+    require_refused,
+)
 
 from asset_factory.factory.articulation import Joint, rotation_about
 from asset_factory.factory.manufacture.separate.budget import SeenSurface
@@ -15,18 +26,11 @@ RADIUS, ARM = 0.05, 0.32
 UP = np.array([0.0, 0.0, 1.0])
 ALONG = np.array([1.0, 0.0, 0.0])
 
-
-def cylinder(radius, low, high, sections=12):
-    made = trimesh.creation.cylinder(radius, high - low, sections=sections)
-    made.apply_translation([0.0, 0.0, (low + high) / 2.0])
-    return made
-
-
 #: A lever on the hollow top of a post: a hub, and an arm to one side of it.
-HUB = cylinder(RADIUS, 0.3, 0.36)
+HUB = cylinder(RADIUS, 0.3, 0.36, 12)
 LEVER = [HUB, box((0.0, -0.02, 0.33), (ARM, 0.02, 0.36))]
-COLLAR = cylinder(RADIUS + 0.02, 0.28, 0.31, sections=40)
-POST = [cylinder(0.04, 0.0, 0.28), COLLAR]
+COLLAR = cylinder(RADIUS + 0.02, 0.28, 0.31, 40)
+POST = [cylinder(0.04, 0.0, 0.28, 12), COLLAR]
 TURN = Joint("turn", "revolute", 0, 1, UP, [0.0, 0.0, 0.33], 0.0, np.pi / 2.0)
 
 
@@ -94,10 +98,8 @@ def test_what_a_long_arm_passes_between_two_poses_is_cut_too():
 @pytest.mark.parametrize("share", np.linspace(0.0, 0.8, 5))
 def test_what_leaves_its_frame_keeps_the_distance_that_engines_feel(share):
     # Its round end passes a round post at 1.3 mm, in the first tenth of its way.
-    end = cylinder(0.002, 0.0, 0.1)
-    end.apply_translation([0.8, 0.0, 0.0])
-    post = cylinder(0.002, 0.0, 0.1)
-    post.apply_translation([0.8 + 0.004 + 0.0013, 0.0, 0.0])
+    end = cylinder(0.002, 0.0, 0.1, 12).apply_translation([0.8, 0.0, 0.0])
+    post = cylinder(0.002, 0.0, 0.1, 12).apply_translation([0.8 + 0.004 + 0.0013, 0.0, 0.0])
     angle = 0.1 + share * 0.005
     post.apply_transform(trimesh.transformations.rotation_matrix(angle, UP))
     arm = box((0.0, -0.002, 0.0), (0.8, 0.002, 0.1))

@@ -3,19 +3,16 @@
 import numpy as np
 import pytest
 import trimesh
+from held_parts import CONFIG, PAIR, box, cut, cut_free, cylinder, held
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plain_solids import box_between, parted
-from plain_solids import sized_box as box
+from plain_solids import parted, sized_box
 
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Hull
-from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.outside import outside
 from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
-from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
-from asset_factory.factory.manufacture.separate.along import hull_depth
 from asset_factory.factory.manufacture.separate.budget import SeenSurface
 from asset_factory.factory.manufacture.separate.clip import (
     clipped,
@@ -25,59 +22,43 @@ from asset_factory.factory.manufacture.separate.clip import (
 )
 from asset_factory.factory.mesh import Mesh
 
-CONFIG = SeparateConfig()
-PAIR = ("base", "mover")
+SLIDE = Joint("slide", JointKind.PRISMATIC, 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.3)
+TURN = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
 
 
 def hull(size, center=(0, 0, 0)):
-    return Hull(*box(size, center))
-
-
-def object_of(base, mover, joint=None, third=None):
-    """Boxes as parts: one base, one mover held by a joint, and a third fixed to the base."""
-    shapes = [base, mover, *([third] if third else [])]
-    meshes = [[Mesh.from_triangles(*box(*shape))] for shape in shapes]
-    slide = joint or Joint("slide", JointKind.PRISMATIC, 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.3)
-    joints = [slide]
-    if third:
-        joints.append(Joint("other", JointKind.PRISMATIC, 0, 2, [0, 0, 1], [0, 0, 0], 0.0, 0.3))
-    return parted(dict(zip(("base", "mover", "third"), meshes, strict=False)), *joints)
+    return Hull(*sized_box(size, center))
 
 
 def pieces_of(*hulls):
     return tuple(SolidPieces((one,), "exact") for one in hulls)
 
 
-def gap(result, pose=None):
-    first, second = (piece.hulls[0] for piece in result.pieces[:2])
-    return -meeting(first, second, np.eye(4) if pose is None else pose).depth
+def gap(result):
+    first, second = (piece.hulls[0] for piece in result.pieces)
+    return -meeting(first, second, np.eye(4)).depth
 
 
 def test_what_decomposition_added_is_taken_off():
-    # The meshes are 4 mm apart; the base's hull bulges 7 mm.
-    tree = object_of(((1, 1, 0.1), (0, 0, 0)), ((1, 1, 0.1), (0, 0, 0.104)))
-    bulging = pieces_of(hull((1, 1, 0.114)), hull((1, 1, 0.1), (0, 0, 0.104)))
+    # The meshes are 4 mm apart; the body's hull bulges 7 mm.
+    body, mover = hull((1, 1, 0.1)), hull((1, 1, 0.1), (0, 0, 0.104))
+    tree = held([body], [mover], SLIDE)
+    bulging = pieces_of(hull((1, 1, 0.114)), mover)
     assert gap(separate(tree, bulging, [], CONFIG, 64)) == pytest.approx(-0.003)
-    result = separate(tree, bulging, [("mover", "base")], CONFIG, 64)
+    result = separate(tree, bulging, [PAIR[::-1]], CONFIG, 64)
     assert gap(result) == pytest.approx(CONFIG.clearance_m, abs=1e-9)
     assert result.refused == {}
     assert result.hidden == {}
 
 
 def test_hulls_that_are_apart_are_not_touched():
-    tree = object_of(((1, 1, 0.1), (0, 0, 0)), ((1, 1, 0.1), (0, 0, 0.2)))
-    pieces = pieces_of(hull((1, 1, 0.1)), hull((1, 1, 0.1), (0, 0, 0.2)))
-    after = separate(tree, pieces, [PAIR], CONFIG, 64).pieces
-    assert all(a is b for a, b in zip(after, pieces, strict=True))
+    _, before, result = cut([hull((1, 1, 0.1))], [hull((1, 1, 0.1), (0, 0, 0.2))], SLIDE)
+    assert all(a is b for a, b in zip(result.pieces, before, strict=True))
 
 
 def stem_in_a_block(sunk):
     """A stem of 20 mm, 200 mm long, that turns in a block it reaches into."""
-    stem = ((0.02, 0.02, 0.2), (0, 0, 0.15 - sunk))
-    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
-    tree = object_of(((0.3, 0.3, 0.1), (0, 0, 0)), stem, turn)
-    pieces = pieces_of(hull((0.3, 0.3, 0.1)), hull(*stem))
-    return separate(tree, pieces, [PAIR], CONFIG, 64)
+    return cut([hull((0.3, 0.3, 0.1))], [hull((0.02, 0.02, 0.2), (0, 0, 0.15 - sunk))], TURN)[2]
 
 
 def test_a_stem_loses_the_little_that_is_hidden_in_its_socket_and_the_depth_is_told():
@@ -101,41 +82,24 @@ def test_a_stem_of_which_much_is_hidden_is_kept_whole_in_a_socket():
     assert 0.02 * 0.02 * 0.03 < socket < 0.05 * 0.05 * 0.05
 
 
-def cylinder(radius, low, high):
-    made = trimesh.creation.cylinder(radius, high - low, sections=24)
-    made.apply_translation([0.0, 0.0, (low + high) / 2.0])
-    return Mesh.from_triangles(made.vertices, made.faces)
-
-
 def test_a_round_stem_that_nearly_fills_its_column_is_kept_whole_in_a_socket():
     # A spout in its base: walls of four pieces would leave the column's own surface bare.
-    column, stem = cylinder(0.05, 0.0, 0.2), cylinder(0.03, 0.05, 0.5)
+    column, stem = cylinder(0.05, 0.0, 0.2, 24), cylinder(0.03, 0.05, 0.5, 24)
     turn = Joint("turn", JointKind.CONTINUOUS, 0, 1, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
-    tree = parted({"base": [column], "mover": [stem]}, turn)
-    hulls = [Hull(mesh.vertices, mesh.faces) for mesh in (column, stem)]
-    result = separate(tree, pieces_of(*hulls), [PAIR], CONFIG, 64)
-    assert result.refused == {}
+    _, before, result = cut_free([column], [stem], turn, poses=60)
     assert result.trimmed == {}
-    assert result.pieces[1].hulls[0].volume == pytest.approx(hulls[1].volume, rel=1e-6)
-    after = [list(piece.hulls) for piece in result.pieces]
-    way = relative_poses(tree, 0, 1, 60)
-    assert max(hull_depth(*after, pose) for pose in way) == 0.0
+    whole = before[1].hulls[0].volume
+    assert result.pieces[1].hulls[0].volume == pytest.approx(whole, rel=1e-6)
 
 
 def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
     # A toaster of three metres: its lever's tongue is 100 mm wide, the slot in its front 50.
-    solids = [
-        box_between((-1.5, 0.0, 0.0), (-0.025, 3.0, 3.0)),
-        box_between((0.025, 0.0, 0.0), (1.5, 3.0, 3.0)),
-        box_between((-0.05, -0.2, 1.5), (0.05, 0.25, 1.6)),
-    ]
+    sides = [box((-1.5, 0.0, 0.0), (-0.025, 3.0, 3.0)), box((0.025, 0.0, 0.0), (1.5, 3.0, 3.0))]
+    lever = box((-0.05, -0.2, 1.5), (0.05, 0.25, 1.6))
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.4)
-    tree = parted({"base": solids[:2], "mover": solids[2:]}, slide)
-    left, right, mover = (Hull(mesh.vertices, mesh.faces) for mesh in solids)
-    pieces = (SolidPieces((left, right), "exact"), *pieces_of(mover))
-    result = separate(tree, pieces, [PAIR], CONFIG, 64)
+    _, _, result = cut(sides, [lever], slide)
     assert result.refused == {}
-    assert result.pieces[1].hulls[0].volume == pytest.approx(mover.volume, rel=1e-6)
+    assert result.pieces[1].hulls[0].volume == pytest.approx(lever.volume, rel=1e-6)
     (slot,) = result.trimmed[PAIR]
     assert slot.depth_m == pytest.approx(0.025 + CONFIG.clearance_m, abs=1e-4)
     assert slot.area < 0.01
@@ -143,25 +107,26 @@ def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
 
 def test_parts_that_get_deeper_along_the_joint_are_left_alone():
     # A drawer that slides 0.3 m towards a wall 0.1 m away.
-    tree = object_of(((0.1, 1, 1), (0.65, 0, 0)), ((1, 0.5, 0.5), (0, 0, 0)))
-    pieces = pieces_of(hull((0.1, 1, 1), (0.65, 0, 0)), hull((1, 0.5, 0.5)))
-    result = separate(tree, pieces, [PAIR], CONFIG, 64)
+    wall, drawer = hull((0.1, 1, 1), (0.65, 0, 0)), hull((1, 0.5, 0.5))
+    _, before, result = cut([wall], [drawer], SLIDE)
     assert "deeper than at rest" in result.refused[PAIR].reason
-    assert result.pieces == pieces
+    assert result.pieces == before
 
 
 def test_overlap_without_a_joint_between_is_left_alone():
     # Two neighbours, overlapping by 8 mm, both held by the base.
     shapes = [((2, 2, 0.1), (0, 0, -2))]
     shapes += [((0.5, 0.5, 0.5), (0, y, 0)) for y in (0, 0.492)]
-    tree = object_of(shapes[0], shapes[1], third=shapes[2])
+    meshes = [[Mesh.from_triangles(*sized_box(*shape))] for shape in shapes]
+    lift = Joint("lift", JointKind.PRISMATIC, 0, 2, [0, 0, 1], [0, 0, 0], 0.0, 0.3)
+    tree = parted(dict(zip(("base", "one", "other"), meshes, strict=True)), SLIDE, lift)
     pieces = pieces_of(*(hull(*shape) for shape in shapes))
-    result = separate(tree, pieces, [("mover", "third")], CONFIG, 64)
-    assert "overlap by 8.00 mm at rest and no joint" in result.refused[("mover", "third")].reason
+    result = separate(tree, pieces, [("one", "other")], CONFIG, 64)
+    assert "overlap by 8.00 mm at rest and no joint" in result.refused[("one", "other")].reason
 
 
 def turned_box(size, center, axis, angle, about):
-    vertices, faces = box(size, center)
+    vertices, faces = sized_box(size, center)
     turn = trimesh.transformations.rotation_matrix(angle, axis, about)
     return trimesh.transform_points(vertices, turn), faces
 
@@ -170,7 +135,7 @@ def test_sheets_that_cross_at_a_slight_angle_are_not_cut_to_knife_s_edges():
     # Two flaps of a carton, hinged at sides that meet in a corner; one plane takes all of either.
     angle = np.radians(0.5)
     shapes = [
-        box((0.4, 0.3, 0.1), (0, 0, -0.06)),
+        sized_box((0.4, 0.3, 0.1), (0, 0, -0.06)),
         turned_box((0.4, 0.15, 0.001), (0, -0.075, 0), [1, 0, 0], angle, [0, -0.15, 0]),
         turned_box((0.15, 0.3, 0.001), (-0.125, 0, 0), [0, -1, 0], angle, [-0.2, 0, 0]),
     ]
@@ -190,22 +155,16 @@ def test_sheets_that_cross_at_a_slight_angle_are_not_cut_to_knife_s_edges():
 
 def test_a_cut_that_would_take_too_much_is_refused():
     # Planes take the stem; a pit for all of its turn would be as wide as so slim a base.
-    stem = ((0.02, 0.02, 0.05), (0, 0, 0.04))
-    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
+    stem = hull((0.02, 0.02, 0.05), (0, 0, 0.04))
     for width, refused in ((0.032, True), (0.06, False)):
-        base = (width, width, 0.1)
-        tree = object_of((base, (0, 0, 0)), stem, turn)
-        result = separate(tree, pieces_of(hull(base), hull(*stem)), [PAIR], CONFIG, 64)
+        _, _, result = cut([hull((width, width, 0.1))], [stem], TURN)
         assert (PAIR in result.refused) == refused
 
 
 def test_what_sticks_out_on_the_other_side_is_not_cut_off():
     # A rod through a board: neither half of it may go, only what is in the board.
-    rod = ((0.02, 0.02, 0.4), (0, 0, 0))
-    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
-    tree = object_of(((0.3, 0.3, 0.02), (0, 0, 0.1)), rod, turn)
-    pieces = pieces_of(hull((0.3, 0.3, 0.02), (0, 0, 0.1)), hull(*rod))
-    result = separate(tree, pieces, [PAIR], CONFIG, 64)
+    board, rod = hull((0.3, 0.3, 0.02), (0, 0, 0.1)), hull((0.02, 0.02, 0.4))
+    _, _, result = cut([board], [rod], TURN)
     assert result.refused == {}
     rods = result.pieces[1].hulls
     assert sum(each.volume for each in rods) == pytest.approx(0.02**2 * (0.4 - 0.025))
