@@ -5,6 +5,7 @@ import struct
 import zlib
 
 import pytest
+from fuzz_cases import DAE
 from mesh_cube import (
     WRITERS,
     gltf_parts,
@@ -185,34 +186,6 @@ def test_a_reference_that_leaves_the_folder_is_external(reference, tmp_path):
     assert _rejected(obj).code == "external_reference"
 
 
-#: A triangle that shows a picture.
-COLLADA = """<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><unit name="meter" meter="1"/></asset>
-<library_images><image id="i"><init_from>{}</init_from></image></library_images>
-<library_effects><effect id="e"><profile_COMMON>
-<newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>
-<newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam>
-<technique sid="c"><lambert><diffuse><texture texture="t" texcoord="UV"/></diffuse></lambert>
-</technique></profile_COMMON></effect></library_effects>
-<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
-<library_geometries><geometry id="g"><mesh><source id="p">
-<float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
-<accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
-<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common>
-</source><source id="u"><float_array id="b" count="6">0 0 1 0 0 1</float_array>
-<technique_common><accessor source="#b" count="3" stride="2"><param name="S" type="float"/>
-<param name="T" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="1" material="x"><input semantic="VERTEX" source="#v" offset="0"/>
-<input semantic="TEXCOORD" source="#u" offset="0" set="0"/><p>0 1 2</p></triangles>
-</mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="w"><node><instance_geometry url="#g"><bind_material>
-<technique_common><instance_material symbol="x" target="#m"><bind_vertex_input semantic="UV"
-input_semantic="TEXCOORD" input_set="0"/></instance_material></technique_common>
-</bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#w"/></scene></COLLADA>"""
-
-
 def test_a_collada_file_shows_pictures_of_its_own_folder_only(tmp_path):
     pytest.importorskip("collada", reason="pycollada is not installed")
     inside = tmp_path / "inside"
@@ -220,13 +193,13 @@ def test_a_collada_file_shows_pictures_of_its_own_folder_only(tmp_path):
     for folder in (tmp_path, inside):
         (folder / "wood.png").write_bytes(png())
     path = inside / "picture.dae"
-    path.write_text(COLLADA.format("wood.png"))
+    path.write_text(DAE.format("wood.png"))
     assert load_mesh(path, CONFIG).mesh.materials[0].texture is not None
     for reference in ("../wood.png", f"{tmp_path}/wood.png", f"file://{tmp_path}/wood.png"):
-        path.write_text(COLLADA.format(reference))
+        path.write_text(DAE.format(reference))
         assert _rejected(path).code == "external_reference"
     (inside / "link.png").symlink_to(tmp_path / "wood.png")
-    path.write_text(COLLADA.format("link.png"))
+    path.write_text(DAE.format("link.png"))
     assert _rejected(path).code == "external_reference"
 
 
