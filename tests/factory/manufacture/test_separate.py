@@ -6,7 +6,7 @@ import trimesh
 from held_parts import CONFIG, PAIR, box, cut, cut_free, cylinder, held
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plain_solids import parted, sized_box
+from plain_solids import parted, sized_box, sized_hull
 
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Hull
@@ -26,10 +26,6 @@ SLIDE = Joint("slide", JointKind.PRISMATIC, 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.3
 TURN = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 1.0)
 
 
-def hull(size, center=(0, 0, 0)):
-    return Hull(*sized_box(size, center))
-
-
 def pieces_of(*hulls):
     return tuple(SolidPieces((one,), "exact") for one in hulls)
 
@@ -41,9 +37,9 @@ def gap(result):
 
 def test_what_decomposition_added_is_taken_off():
     # The meshes are 4 mm apart; the body's hull bulges 7 mm.
-    body, mover = hull((1, 1, 0.1)), hull((1, 1, 0.1), (0, 0, 0.104))
+    body, mover = sized_hull((1, 1, 0.1)), sized_hull((1, 1, 0.1), (0, 0, 0.104))
     tree = held([body], [mover], SLIDE)
-    bulging = pieces_of(hull((1, 1, 0.114)), mover)
+    bulging = pieces_of(sized_hull((1, 1, 0.114)), mover)
     assert gap(separate(tree, bulging, [], CONFIG, 64)) == pytest.approx(-0.003)
     result = separate(tree, bulging, [PAIR[::-1]], CONFIG, 64)
     assert gap(result) == pytest.approx(CONFIG.clearance_m, abs=1e-9)
@@ -52,13 +48,17 @@ def test_what_decomposition_added_is_taken_off():
 
 
 def test_hulls_that_are_apart_are_not_touched():
-    _, before, result = cut([hull((1, 1, 0.1))], [hull((1, 1, 0.1), (0, 0, 0.2))], SLIDE)
+    _, before, result = cut(
+        [sized_hull((1, 1, 0.1))], [sized_hull((1, 1, 0.1), (0, 0, 0.2))], SLIDE
+    )
     assert all(a is b for a, b in zip(result.pieces, before, strict=True))
 
 
 def stem_in_a_block(sunk):
     """A stem of 20 mm, 200 mm long, that turns in a block it reaches into."""
-    return cut([hull((0.3, 0.3, 0.1))], [hull((0.02, 0.02, 0.2), (0, 0, 0.15 - sunk))], TURN)[2]
+    return cut(
+        [sized_hull((0.3, 0.3, 0.1))], [sized_hull((0.02, 0.02, 0.2), (0, 0, 0.15 - sunk))], TURN
+    )[2]
 
 
 def test_a_stem_loses_the_little_that_is_hidden_in_its_socket_and_the_depth_is_told():
@@ -107,7 +107,7 @@ def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
 
 def test_parts_that_get_deeper_along_the_joint_are_left_alone():
     # A drawer that slides 0.3 m towards a wall 0.1 m away.
-    wall, drawer = hull((0.1, 1, 1), (0.65, 0, 0)), hull((1, 0.5, 0.5))
+    wall, drawer = sized_hull((0.1, 1, 1), (0.65, 0, 0)), sized_hull((1, 0.5, 0.5))
     _, before, result = cut([wall], [drawer], SLIDE)
     assert "deeper than at rest" in result.refused[PAIR].reason
     assert result.pieces == before
@@ -120,7 +120,7 @@ def test_overlap_without_a_joint_between_is_left_alone():
     meshes = [[Mesh.from_triangles(*sized_box(*shape))] for shape in shapes]
     lift = Joint("lift", JointKind.PRISMATIC, 0, 2, [0, 0, 1], [0, 0, 0], 0.0, 0.3)
     tree = parted(dict(zip(("base", "one", "other"), meshes, strict=True)), SLIDE, lift)
-    pieces = pieces_of(*(hull(*shape) for shape in shapes))
+    pieces = pieces_of(*(sized_hull(*shape) for shape in shapes))
     result = separate(tree, pieces, [("one", "other")], CONFIG, 64)
     assert "overlap by 8.00 mm at rest and no joint" in result.refused[("one", "other")].reason
 
@@ -155,15 +155,15 @@ def test_sheets_that_cross_at_a_slight_angle_are_not_cut_to_knife_s_edges():
 
 def test_a_cut_that_would_take_too_much_is_refused():
     # Planes take the stem; a pit for all of its turn would be as wide as so slim a base.
-    stem = hull((0.02, 0.02, 0.05), (0, 0, 0.04))
+    stem = sized_hull((0.02, 0.02, 0.05), (0, 0, 0.04))
     for width, refused in ((0.032, True), (0.06, False)):
-        _, _, result = cut([hull((width, width, 0.1))], [stem], TURN)
+        _, _, result = cut([sized_hull((width, width, 0.1))], [stem], TURN)
         assert (PAIR in result.refused) == refused
 
 
 def test_what_sticks_out_on_the_other_side_is_not_cut_off():
     # A rod through a board: neither half of it may go, only what is in the board.
-    board, rod = hull((0.3, 0.3, 0.02), (0, 0, 0.1)), hull((0.02, 0.02, 0.4))
+    board, rod = sized_hull((0.3, 0.3, 0.02), (0, 0, 0.1)), sized_hull((0.02, 0.02, 0.4))
     _, _, result = cut([board], [rod], TURN)
     assert result.refused == {}
     rods = result.pieces[1].hulls
@@ -226,5 +226,5 @@ def test_what_a_plane_would_leave_of_a_hull_is_known_before_it_is_cut(seed):
 
 def test_a_box_cut_by_planes_along_its_faces_leaves_its_share():
     planes = np.array([[1.0, 0, 0]] * 4), np.array([4.5, 4.75, 5.5, 9.0])
-    shares = volumes_below(hull((1, 2, 3), (5, 0, 0)), *planes)
+    shares = volumes_below(sized_hull((1, 2, 3), (5, 0, 0)), *planes)
     assert shares == pytest.approx([0.0, 1.5, 6.0, 6.0])
