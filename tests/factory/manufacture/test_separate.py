@@ -74,9 +74,7 @@ def test_a_stem_of_which_much_is_hidden_is_kept_whole_in_a_socket():
     assert stem.volume == pytest.approx(0.02 * 0.02 * 0.2, rel=1e-6)
     around = result.pieces[0].hulls
     for angle in np.linspace(0.0, 1.0, 9):
-        pose = np.eye(4)
-        pose[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-        depths = [meeting(one, stem, pose).depth for one in around]
+        depths = [meeting(one, stem, TURN.motion(angle)).depth for one in around]
         assert max(depths) <= -CONFIG.clearance_m + 1e-4
     socket = 0.009 - sum(one.volume for one in result.pieces[0].hulls)
     assert 0.02 * 0.02 * 0.03 < socket < 0.05 * 0.05 * 0.05

@@ -96,9 +96,7 @@ def test_the_front_may_look_anywhere():
     straight = articulated(fridge(), door)[0].joints[0]
     for front, quarters in (("x", 1), ("y", 2), ("-x", 3)):
         turn = np.round(rotation_about([0.0, 0.0, 1.0], quarters * np.pi / 2.0), 12)
-        pose = np.eye(4)
-        pose[:3, :3] = turn
-        made = articulated(fridge().transformed(pose), door, front=front)[0].joints[0]
+        made = articulated(fridge().turned(turn), door, front=front)[0].joints[0]
         assert made.origin == pytest.approx(turn @ straight.origin, abs=FINE)
         assert made.axis == pytest.approx(turn @ straight.axis, abs=1e-9)
 
