@@ -10,6 +10,7 @@ from plain_solids import parted, sized_box, sized_hull
 
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Hull
+from asset_factory.factory.manufacture.decompose.convex import hull_of
 from asset_factory.factory.manufacture.decompose.outside import outside
 from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
 from asset_factory.factory.manufacture.separate import separate
@@ -174,8 +175,7 @@ def test_what_sticks_out_on_the_other_side_is_not_cut_off():
 @given(st.integers(0, 10_000), st.floats(-0.05, 0.05))
 def test_clipping_keeps_exactly_one_side(seed, offset):
     generator = np.random.default_rng(seed)
-    made = trimesh.convex.convex_hull(generator.normal(size=(20, 3)) * 0.1)
-    whole = Hull(made.vertices, made.faces)
+    whole = hull_of(generator.normal(size=(20, 3)) * 0.1)
     normal = generator.normal(size=3)
     normal /= np.linalg.norm(normal)
     below = clipped(whole, normal, offset)
@@ -190,10 +190,8 @@ def test_clipping_keeps_exactly_one_side(seed, offset):
 @given(st.integers(0, 10_000))
 def test_two_hulls_cut_apart_have_the_gap_and_take_no_room(seed):
     generator = np.random.default_rng(seed)
-    solids = []
-    for shift in (0.0, 0.12):
-        made = trimesh.convex.convex_hull(generator.normal(size=(16, 3)) * 0.05 + [shift, 0, 0])
-        solids.append(Hull(made.vertices, made.faces))
+    places = ([0.0, 0.0, 0.0], [0.12, 0.0, 0.0])
+    solids = [hull_of(generator.normal(size=(16, 3)) * 0.05 + place) for place in places]
     pose = np.eye(4)
     met = meeting(*solids, pose)
     first, second = cut_apart(*solids, pose, met, 0.002)
@@ -209,8 +207,7 @@ def test_two_hulls_cut_apart_have_the_gap_and_take_no_room(seed):
 @given(st.integers(0, 10_000))
 def test_what_a_plane_would_leave_of_a_hull_is_known_before_it_is_cut(seed):
     generator = np.random.default_rng(seed)
-    made = trimesh.convex.convex_hull(generator.normal(size=(16, 3)) + generator.normal(size=3))
-    one = Hull(made.vertices, made.faces)
+    one = hull_of(generator.normal(size=(16, 3)) + generator.normal(size=3))
     # Planes through corners as well, and planes beside the hull.
     normals = np.concatenate([generator.normal(size=(4, 3)), np.eye(3)])
     normals /= np.linalg.norm(normals, axis=1)[:, None]
