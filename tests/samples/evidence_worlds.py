@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from asset_factory.factory.articulate.evidence import Partition
-from asset_factory.factory.articulation import Articulation, rotation_about
-from asset_factory.factory.mesh import Material, Mesh
+from asset_factory.factory.articulation import Articulation
+from asset_factory.factory.geometry.posing import face_parts, turned
+from asset_factory.factory.mesh import Material
 from asset_factory.learn.objects.kit.assembly import FRONT, Assembly, facing_front
 from asset_factory.learn.objects.kit.boards import carcass, tray
 from asset_factory.learn.objects.kit.casework import swung
@@ -77,12 +78,8 @@ def oven() -> Articulation:
 
 def partition(articulation: Articulation, yaw: float = 0.0) -> Partition:
     """Its labels over its mesh, turned about z by ``yaw`` [rad]; joints are forgotten."""
-    face_part = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
-    for index, part in enumerate(articulation.parts):
-        face_part[part.faces] = index
-    turned = articulation.mesh.vertices @ rotation_about(np.array([0.0, 0.0, 1.0]), yaw).T
     parents = np.array([-1, *(joint.parent for joint in articulation.joints)])
-    return Partition(Mesh.from_triangles(turned, articulation.mesh.faces), face_part, parents)
+    return Partition(turned(articulation, yaw).mesh, face_parts(articulation), parents)
 
 
 def apart(first: np.ndarray, axis: np.ndarray, second: np.ndarray) -> float:

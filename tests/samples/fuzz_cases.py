@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 import usda
-from mesh_cube import WRITERS, gltf_parts, pack_glb, write_obj, write_stl
+from mesh_cube import WRITERS, gltf_parts, pack_glb, png, write_obj, write_stl
 
 #: Stands in a file for the folder outside, which nobody may look into.
 OUTSIDE = b"@OUTSIDE@"
@@ -51,20 +51,33 @@ ASSETS = """<mujocoinclude><asset><mesh name="cube" file="cube.stl" scale="1 1 1
   <texture name="wood" type="2d" file="wood.png"/>
   <material name="wood" texture="wood" texrepeat="1 1"/>
 </asset></mujocoinclude>"""
+#: A triangle that shows a picture of that name.
 DAE = """<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
+<asset><unit name="meter" meter="1"/></asset>
+<library_images><image id="i"><init_from>{}</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON>
+<newparam sid="s"><surface type="2D"><init_from>i</init_from></surface></newparam>
+<newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam>
+<technique sid="c"><lambert><diffuse><texture texture="t" texcoord="UV"/></diffuse></lambert>
+</technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
 <library_geometries><geometry id="g"><mesh><source id="p">
-<float_array id="a" count="12">0 0 0 1 0 0 0 1 0 0 0 1
-</float_array><technique_common><accessor source="#a" count="4" stride="3">
-<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
-</accessor></technique_common></source>
+<float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+<accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common>
+</source><source id="u"><float_array id="b" count="6">0 0 1 0 0 1</float_array>
+<technique_common><accessor source="#b" count="3" stride="2"><param name="S" type="float"/>
+<param name="T" type="float"/></accessor></technique_common></source>
 <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="4"><input semantic="VERTEX"
-source="#v" offset="0"/><p>0 2 1 0 1 3 1 2 3 0 3 2</p></triangles></mesh></geometry>
-</library_geometries><library_visual_scenes><visual_scene id="s">
-<node><instance_geometry url="#g"/></node></visual_scene>
-</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
+<triangles count="1" material="x"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="TEXCOORD" source="#u" offset="0" set="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="w"><node><instance_geometry url="#g"><bind_material>
+<technique_common><instance_material symbol="x" target="#m"><bind_vertex_input semantic="UV"
+input_semantic="TEXCOORD" input_set="0"/></instance_material></technique_common>
+</bind_material></instance_geometry></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#w"/></scene></COLLADA>"""
 SIDECAR = b'category = "fridge"\nup = "y"\nheight = 1.7\ndensity = 600.0\nlicense = "CC-BY-4.0"\n'
 
 
@@ -252,7 +265,7 @@ def seeds() -> dict[str, Case]:
     obj = found["obj"]
     add("mtl", "load", obj.entry, obj.files, "cube.mtl")
     add("png", "load", obj.entry, obj.files, "wood.png")
-    add("dae", "load", "cube.dae", {"cube.dae": DAE.encode()})
+    add("dae", "load", "cube.dae", {"cube.dae": DAE.format("wood.png").encode(), "wood.png": png()})
     add("npz", "load", "cube.glb", annotated(packed(prediction())), "pred.npz")
     add("toml", "load", "cube.glb", annotated(packed(prediction())), "cube.toml")
     meshes = cube_files()

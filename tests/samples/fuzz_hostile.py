@@ -78,9 +78,7 @@ def _references() -> Iterator[Case]:
         sidecar = b"annotation = " + json.dumps(array).encode()
         files = {**annotated(packed(prediction())), "cube.toml": sidecar}
         yield folder_case("toml", f"annotation-{number}", "cube.glb", files, links("npz"))
-        shown = f"<init_from>{picture.replace('&', '')}</init_from>"
-        images = f"<library_images><image id='i'>{shown}</image></library_images><library_geo"
-        dae = _changed("dae", "cube.dae", b"<library_geo", images)["cube.dae"]
+        dae = _changed("dae", "cube.dae", b"wood.png", picture.replace("&", ""))["cube.dae"]
         yield single(f"dae-picture-{number}", "cube.dae", dae, links=links("png"))
     cube = {"cube.glb": pack_glb(*gltf_parts())}
     found = {"other.glb": "@OUTSIDE@/secret.png", "o.xml": "@OUTSIDE@/secret.xml"}

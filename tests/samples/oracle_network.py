@@ -3,6 +3,7 @@
 import numpy as np
 
 from asset_factory.factory.articulation import JointKind
+from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.models.particulate.proxy import proxy_of
 from asset_factory.factory.models.particulate.sampling import sample
@@ -28,9 +29,7 @@ class Oracle:
         self.queries = list(
             queries or np.random.default_rng(5).permutation(PARTS)[: len(truth.parts)]
         )
-        self.owner = np.zeros(len(truth.mesh.faces), dtype=np.int64)
-        for index, part in enumerate(truth.parts):
-            self.owner[part.faces] = index
+        self.owner = face_parts(truth)
         self.calls = []
 
     def __call__(self, shown, context):

@@ -7,6 +7,7 @@ import numpy as np
 import trimesh
 
 from asset_factory.factory.articulation import Articulation, Joint, Part
+from asset_factory.factory.asset import Hull
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.learn.objects.kit import shapes
 
@@ -30,6 +31,11 @@ def sized_box(
     """The vertices and faces of a box of that size about a point [m]."""
     made = trimesh.creation.box(size)
     return np.asarray(made.vertices) + at, np.asarray(made.faces)
+
+
+def sized_hull(size: Sequence[float], at: Sequence[float] = (0.0, 0.0, 0.0)) -> Hull:
+    """The same box as a hull."""
+    return Hull(*sized_box(size, at))
 
 
 def box_between(

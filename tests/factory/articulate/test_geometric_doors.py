@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from one_piece import mesh_of
 from plain_solids import box_between as box
 from plain_solids import carcass
+from stated_parts import block
 from test_geometric import articulate
 
 from asset_factory.factory.articulation import JointKind
-from asset_factory.factory.mesh import Mesh
 
 FRAME = [
     box((0.0, 0.0, 0.0), (0.06, 0.12, 2.1)),
@@ -73,29 +74,13 @@ def test_shelves_behind_a_door_with_a_side_handle_do_not_make_it_a_drawer():
 
 def tub(low, high, grip):
     """A drawer as one surface, open at the top; perhaps with a bump fused to its front."""
-    (x0, y0, z0) = low
-    (x1, y1, z1) = high
-    outer = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
     w = 0.01
-    inner = [(x0 + w, y0 + w), (x1 - w, y0 + w), (x1 - w, y1 - w), (x0 + w, y1 - w)]
-    rings = [(outer, z0), (outer, z1), (inner, z1), (inner, z0 + w)]
-    vertices = [(x, y, z) for corners, z in rings for x, y in corners]
-    faces = [[2, 1, 0], [3, 2, 0], [12, 13, 14], [12, 14, 15]]
-    sides = [(ring + k, ring + (k + 1) % 4, 4) for ring in (0, 4, 8) for k in range(4)]
-    for a, b, up in sides[1:] if grip else sides:
-        faces += [[a, b, b + up], [a, b + up, a + up]]
+    inside = block(np.add(low, w), (high[0] - w, high[1] - w, high[2] + w))
+    solid = block(low, high) - inside
     if grip:
-        x = (x0 + x1) / 2
-        z = (z0 + z1) / 2
-        square = [(x - 0.05, z - 0.01), (x + 0.05, z - 0.01), (x + 0.05, z + 0.01)]
-        square += [(x - 0.05, z + 0.01)]
-        vertices += [(x, y, z) for y in (y0, y0 - 0.06) for x, z in square]
-        for here, there in (([0, 1, 5, 4], [16, 17, 18, 19]), ([16, 17, 18, 19], [20, 21, 22, 23])):
-            for k in range(4):
-                m = (k + 1) % 4
-                faces += [[here[k], here[m], there[m]], [here[k], there[m], there[k]]]
-        faces += [[20, 21, 22], [20, 22, 23]]
-    return Mesh.from_triangles(vertices, faces)
+        x, _, z = np.add(low, high) / 2.0
+        solid += block((x - 0.05, low[1] - 0.06, z - 0.01), (x + 0.05, low[1] + w, z + 0.01))
+    return mesh_of(solid, edge=1.0)
 
 
 @pytest.mark.parametrize("grip", [True, False])

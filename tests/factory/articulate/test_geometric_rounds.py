@@ -1,6 +1,7 @@
 """What is round turns or lifts: caps, lids, levers, turntables, wheels, the knobs of a cooktop."""
 
 import numpy as np
+import trimesh
 from plain_solids import box_between as box
 from plain_solids import carcass
 from test_geometric import articulate
@@ -11,26 +12,11 @@ from asset_factory.factory.mesh import Mesh
 
 def lathe(profile, center=(0.0, 0.0), axis=2):
     """A closed solid of revolution of (radius, height) pairs, about z or an axis at ``center``."""
-    count = 24
-    angle = np.arange(count) / count * 2.0 * np.pi
-    circle = np.stack([np.cos(angle), np.sin(angle), np.zeros(count)], axis=1)
-    rings = [r * circle + [0.0, 0.0, h] for r, h in profile]
-    tips = np.array([[0.0, 0.0, profile[0][1]], [0.0, 0.0, profile[-1][1]]])
-    vertices = np.concatenate([*rings, tips])
-    k = np.arange(count)
-    following = (np.arange(count) + 1) % count
-    faces = []
-    for a in range(0, len(profile) * count - count, count):
-        b = a + count
-        faces += [np.stack([a + k, a + following, b + following], axis=1)]
-        faces += [np.stack([a + k, b + following, b + k], axis=1)]
-    last = len(vertices) - 1
-    top = last - 1 - count
-    faces += [np.stack([np.full(count, last - 1), following, k], axis=1)]
-    faces += [np.stack([np.full(count, last), top + k, top + following], axis=1)]
-    turned = vertices[:, {1: [1, 2, 0], 2: [0, 1, 2]}[axis]]
+    outline = [(0.0, profile[0][1]), *profile, (0.0, profile[-1][1])]
+    made = trimesh.creation.revolve(np.array(outline), sections=24)
+    turned = np.asarray(made.vertices)[:, {1: [1, 2, 0], 2: [0, 1, 2]}[axis]]
     turned[:, [other for other in range(3) if other != axis]] += center
-    return Mesh.from_triangles(turned, np.concatenate(faces))
+    return Mesh.from_triangles(turned, made.faces)
 
 
 BOTTLE = lathe([(0.04, 0.0), (0.04, 0.2), (0.03, 0.22)])

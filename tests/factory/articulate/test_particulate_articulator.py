@@ -14,6 +14,7 @@ from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.articulation import JointKind, Weights
 from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
+from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.models.particulate.prediction import MotionClass
 from asset_factory.learn.objects.catalog import DEMO_CATEGORIES, make_object
 from asset_factory.learn.surfaces import fused_like
@@ -91,9 +92,7 @@ def test_a_fused_mesh_keeps_its_moving_parts():
     truth = fused_like(make_object("cabinet", 1), seed=0, resolution=60)
     found = asked(truth, wrong=0.05)
     assert len(found.movable_joints) == len(truth.movable_joints)
-    owner = np.zeros(len(truth.mesh.faces), dtype=int)
-    for index, part in enumerate(truth.parts):
-        owner[part.faces] = index
+    owner = face_parts(truth)
     agreed = sum(max(np.bincount(owner[part.faces])) for part in found.parts)
     assert agreed / len(owner) > 0.97
     plain = asked(truth, config=replace(CONFIG, refinement="component"))

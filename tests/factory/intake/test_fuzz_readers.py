@@ -24,15 +24,17 @@ LIMITS = Limits(wall_s=120.0, memory_bytes=4 * 2**30)
 #: MuJoCo's compiler and USD need a child for each file: the benchmark has time for that.
 QUICK = tuple(kind for kind in seeds() if not kind.startswith(("mjcf", "usd")))
 USD = tuple(kind for kind in seeds() if kind.startswith("usd"))
+#: Kind -> how many of it, where more than of others.
+MOST = {"glb": 101}
 #: Page of attacks -> every how many of its cases.
 ATTACKS = {"references": 7, "gltf_counts": 6, "tables": 4, "names": 2, "sidecars": 5}
 ATTACKS |= {"entities": 11, "predictions": 11, "usd_by_hand": 23}
 
 
 def sample(number):
-    """Ten of each kind, and some attacks by hand."""
+    """A hundred of GLB, whose JSON can be of any shape, ten of each other, some attacks by hand."""
     pages = {**MESH_PAGES, **TEXT_PAGES, **USD_PAGES}
-    damaged = [mutated(seeds()[kind], k) for kind in QUICK for k in range(11)]
+    damaged = [mutated(seeds()[kind], k) for kind in QUICK for k in range(MOST.get(kind, 11))]
     damaged += [mutated(seeds()[kind], k) for kind in USD for k in range(3)]
     attacks = chain(*(islice(pages[page](), 0, None, every) for page, every in ATTACKS.items()))
     cases = (*damaged, *attacks)

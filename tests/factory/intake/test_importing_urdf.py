@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.intake.importers.load import load_description
+from asset_factory.sim_checks.geometry.placing import rigid
 
 BOX = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
 TETRA = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
@@ -193,13 +194,6 @@ def test_too_many_faces_are_refused_with_the_number(tmp_path):
     assert (found.code, found.value) == ("too_large", 36)
 
 
-def homogeneous(rotation, translation):
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation.as_matrix()
-    matrix[:3, 3] = translation
-    return matrix
-
-
 number = st.floats(-2.0, 2.0).map(lambda x: round(x, 3))
 triple = st.tuples(number, number, number)
 axes = triple.filter(lambda v: sum(x * x for x in v) > 0.01)
@@ -223,12 +217,13 @@ def test_random_trees_move_as_a_product_of_matrices_says(tmp_path, edges):
         body += joint(f"j{child}", kind, f"l{parent}", f"l{child}", written)
         unit = np.array(axis) / np.linalg.norm(axis)
         value = 1.5 * share
-        turned = homogeneous(Rotation.from_rotvec(unit * value), np.zeros(3))
-        slid = homogeneous(Rotation.identity(), unit * value)
+        turned = rigid(Rotation.from_rotvec(unit * value).as_matrix(), np.zeros(3))
+        slid = rigid(np.eye(3), unit * value)
         motion = {"prismatic": slid, "fixed": np.eye(4)}.get(kind, turned)
         # Independent of the reader: roll, then pitch, then yaw, about axes that stand still.
         roll, pitch, yaw = map(Rotation.from_rotvec, np.diag(angles))
-        frames.append(frames[parent] @ homogeneous(yaw * pitch * roll, np.array(xyz)) @ motion)
+        rest = rigid((yaw * pitch * roll).as_matrix(), np.array(xyz))
+        frames.append(frames[parent] @ rest @ motion)
     intake = load(write(tmp_path, body))
     result = articulated(intake)
     values = {f"j{n}": 1.5 * e[5] for n, e in enumerate(edges, start=1) if e[1] != "fixed"}

@@ -113,12 +113,10 @@ def test_gltf_strips_and_fans_become_triangles(mode, indices, tmp_path):
 
 
 def test_gltf_texture_transform_moves_coordinates(tmp_path):
-    document, binary = gltf_parts()
-    reference = document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
     transform = {"offset": [0.25, 0.5], "scale": [0.5, 0.25]}
-    reference["extensions"] = {"KHR_texture_transform": transform}
-    (tmp_path / "cube.glb").write_bytes(pack_glb(document, binary))
-    uv = _load(tmp_path / "cube.glb").mesh.corner_uv
+    picture = {"index": 0, "extensions": {"KHR_texture_transform": transform}}
+    materials = [{"pbrMetallicRoughness": {"baseColorTexture": picture}}]
+    uv = _load(write_glb(tmp_path, materials=materials)).mesh.corner_uv
     assert uv is not None
     u, v = np.moveaxis(cube()["uv"][cube()["faces"]], -1, 0)
     expected = np.stack([0.25 + 0.5 * u, 1 - (0.5 + 0.25 * (1 - v))], axis=-1)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 from mesh_cube import write_glb, write_off, write_stl
@@ -15,10 +16,7 @@ from asset_factory.factory.intake.sizes import scale_by_size
 
 
 def _box(folder, name, extents):
-    x, y, z = extents
-    rows = [f"v {i * x} {j * y} {k * z}" for i in (0, 1) for j in (0, 1) for k in (0, 1)]
-    faces = ["1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4"]
-    (folder / name).write_text("\n".join([*rows, *(f"f {f}" for f in faces)]))
+    trimesh.creation.box(bounds=[(0.0, 0.0, 0.0), extents]).export(folder / name)
     return folder / name
 
 

@@ -19,6 +19,7 @@ PLY = (
     "property list uchar float texcoord\nend_header\n"
     f"{CORNERS}3 0 1 2 6 0 0 1 0 0 1\n3 0 2 3 6 0 0 0 1 1 1\n"
 )
+LFS = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n"
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
 
@@ -103,6 +104,10 @@ def test_texture_coordinates_and_transparency_of_older_formats_are_read(tmp_path
     ("name", "content", "fault"),
     [
         ("bare.glb", struct.pack("<4sIIII", b"glTF", 2, 20, 0, 0x004E4942), "has no JSON chunk"),
+        ("lfs.glb", LFS, "git lfs pull"),
+        ("wrecked.glb", b"\xba\x01\x02\x03 and so on", "begins with ba 01 02 03, want 'glTF'"),
+        ("damaged.glb", b'{"asset": \xff}', "its JSON is damaged at byte 10"),
+        ("cut.glb", b'{"asset": ', "its JSON is damaged at byte"),
         ("a.ply", PLY.replace("format ascii 1.0\n", ""), "its header names no format"),
         ("b.ply", PLY.replace("ply\n", "plx\n", 1), "does not start with ply"),
         ("c.ply", PLY.rsplit("3 0 2 3", 1)[0], "ends before its 2 entries of face"),
@@ -119,6 +124,7 @@ def test_a_broken_file_is_refused_with_its_fault(name, content, fault, tmp_path)
     (tmp_path / name).write_bytes(data)
     found = refusal(load_mesh, tmp_path / name, CONFIG)
     assert (found.code, fault in found.message) == ("unreadable", True)
+    assert str(tmp_path) not in found.message
 
 
 def test_a_gltf_of_another_version_is_unsupported(tmp_path):

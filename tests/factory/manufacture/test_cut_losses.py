@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import trimesh
+from held_parts import mesh_of
 from manifold3d import Manifold
+from plain_solids import sized_hull
 
-from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.separate.budget import (
     CutLimits,
@@ -20,7 +20,6 @@ from asset_factory.factory.manufacture.separate.budget import (
 )
 from asset_factory.factory.manufacture.separate.clip import SHEET_M, clipped
 from asset_factory.factory.manufacture.separate.overlap import thickness_m
-from asset_factory.factory.mesh import Mesh
 
 CONFIG = SeparateConfig()
 LIMITS = CutLimits(free_m=0.006, trimmed_m=0.025)
@@ -59,9 +58,8 @@ def test_a_part_may_not_be_bared_over_more_than_its_share():
 
 def plate():
     """A plate of 600 x 200 x 2 mm, and how it is seen."""
-    made = trimesh.creation.box((0.6, 0.2, 0.002))
-    mesh = Mesh.from_triangles(made.vertices, made.faces)
-    return Hull(mesh.vertices, mesh.faces), SeenSurface.of(mesh)
+    whole = sized_hull((0.6, 0.2, 0.002))
+    return whole, SeenSurface.of(mesh_of([whole]))
 
 
 def lost_by(surface, before, after):

@@ -1,9 +1,8 @@
 """An asset of many hulls gets fewer, around the same geometry."""
 
 import numpy as np
-import trimesh
+from plain_solids import sized_hull
 
-from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import BuildConfig, HullsConfig
 from asset_factory.factory.manufacture.decompose.fewer import fewer
 from asset_factory.factory.manufacture.decompose.outside import uncovered
@@ -18,11 +17,8 @@ def joined(pieces, most, coarsest, store=None):
 
 def comb(teeth, gap_m):
     """Bars of 20 mm side by side, so far apart."""
-    hulls = []
-    for number in range(teeth):
-        made = trimesh.creation.box((0.02, 0.02, 0.3))
-        shift = [number * (0.02 + gap_m), 0, 0]
-        hulls.append(Hull(np.asarray(made.vertices) + shift, np.asarray(made.faces)))
+    pitch = 0.02 + gap_m
+    hulls = [sized_hull((0.02, 0.02, 0.3), (number * pitch, 0, 0)) for number in range(teeth)]
     return SolidPieces(tuple(hulls), "exact")
 
 

@@ -20,7 +20,7 @@ WIDTH, HEIGHT, DEPTH = 0.5, 0.7, 0.4
 GAP = 0.003
 
 
-def carcass(shelf_m=0.02):
+def carcass():
     """Boards of a cabinet that is open towards -y; its door lies between the sides."""
     w, h, d, t = WIDTH, HEIGHT, DEPTH, THICK
     return [
@@ -29,7 +29,7 @@ def carcass(shelf_m=0.02):
         box((0, 0, -t), (w, d, 0)),
         box((0, 0, h), (w, d, h + t)),
         box((0, d - t, 0), (w, d, h)),
-        box((0, THICK + shelf_m, h / 2), (w, d - t, h / 2 + t)),
+        box((0, THICK + 0.02, h / 2), (w, d - t, h / 2 + t)),
     ]
 
 
@@ -47,13 +47,14 @@ def test_a_hinge_in_the_edge_gets_the_room_that_its_corner_needs():
     assert all(each.area < CONFIG.planed_area for each in trimmed)
 
 
-def test_a_door_that_lies_3_mm_in_its_frame_is_cut_free():
-    low = DOOR.vertices.min(axis=0)
-    high = DOOR.vertices.max(axis=0)
-    more = np.array([0.006, 0.0, 0.0])
-    wide = box(low - more, high + more)
-    front = replace(HINGE, origin=[0.0, 0.0, HEIGHT / 2])
-    cut_free(carcass(), [wide], front, poses=200)
+@pytest.mark.parametrize(
+    ("left", "right", "at"),
+    [(0.006, 0.006, 0.0), (0.0, GAP + 0.004, GAP)],
+    ids=["3 mm in its frame at both sides", "4 mm in it across from its hinge"],
+)
+def test_a_door_that_is_too_wide_for_its_frame_is_cut_free(left, right, at):
+    wide = box(DOOR.bounds[0] - [left, 0.0, 0.0], DOOR.bounds[1] + [right, 0.0, 0.0])
+    cut_free(carcass(), [wide], replace(HINGE, origin=[at, 0.0, HEIGHT / 2]), poses=200)
 
 
 SHIFT = 0.05 * DIAGONAL
@@ -94,13 +95,6 @@ def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not
         pieces = tuple(SolidPieces(hulls_of(own), "exact") for own in boxes.values())
         result = separate(tree, pieces, [("left", "right")], CONFIG, 64)
         assert (("left", "right") in result.refused) == refused
-
-
-def test_a_door_whose_far_edge_scrapes_its_frame_is_cut_back_there():
-    # The hinge lies on the front, but the door reaches 4 mm into the opposite side.
-    low, high = DOOR.vertices.min(axis=0), DOOR.vertices.max(axis=0)
-    wide = box(low, high + np.array([GAP + 0.004, 0.0, 0.0]))
-    cut_free(carcass(), [wide], replace(HINGE, origin=[GAP, 0.0, HEIGHT / 2]), poses=200)
 
 
 def test_a_cap_that_turns_and_lifts_is_held_by_its_bottle():

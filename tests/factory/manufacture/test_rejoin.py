@@ -2,22 +2,16 @@
 
 import numpy as np
 import pytest
-from plain_solids import sized_box
+from plain_solids import sized_hull
 
-from asset_factory.factory.asset import Hull
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
 from asset_factory.factory.manufacture.separate.separate import with_hulls
 
-
-def block(size, center=(0.0, 0.0, 0.0)):
-    return Hull(*sized_box(size, center))
-
-
-PANEL = SolidPieces((block((0.3, 0.3, 0.02)),), "exact")
+PANEL = SolidPieces((sized_hull((0.3, 0.3, 0.02)),), "exact")
 #: The panel in nine tiles, without the one in the middle.
 PLACES = [(x, y, 0.0) for x in (-0.1, 0.0, 0.1) for y in (-0.1, 0.0, 0.1) if (x, y) != (0.0, 0.0)]
-TILES = [block((0.1, 0.1, 0.02), place) for place in PLACES]
+TILES = [sized_hull((0.1, 0.1, 0.02), place) for place in PLACES]
 
 
 def test_tiles_around_a_hole_become_four_walls_and_the_hole_stays_open():
@@ -29,7 +23,7 @@ def test_tiles_around_a_hole_become_four_walls_and_the_hole_stays_open():
 
 
 def test_tiles_further_apart_than_rounding_stay_apart():
-    apart = [block((0.1, 0.1, 0.02)), block((0.1, 0.1, 0.02), (0.101, 0.0, 0.0))]
+    apart = [sized_hull((0.1, 0.1, 0.02)), sized_hull((0.1, 0.1, 0.02), (0.101, 0.0, 0.0))]
     assert len(with_hulls(PANEL, apart, 64).hulls) == 2
 
 

@@ -8,6 +8,7 @@ import pytest
 import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
+from plain_solids import sized_box
 
 from asset_factory.factory.articulate.auto.contacts import _touching, contacts_of, settled
 from asset_factory.factory.mesh import Mesh, concatenate
@@ -17,8 +18,7 @@ BODY, DOOR, HANDLE, SHELF, FAR = range(5)
 
 
 def box(size, center):
-    made = trimesh.creation.box(size)
-    return Mesh.from_triangles(made.vertices + np.array(center), made.faces)
+    return Mesh.from_triangles(*sized_box(size, center))
 
 
 #: A body, a door 20 mm before it, a handle on the door, a shelf on the body's back, and something

@@ -97,14 +97,19 @@ def test_handles_are_found_on_a_fused_surface():
 
 
 def test_a_plain_door_is_taken_at_its_far_edge_and_a_plain_drawer_in_its_middle():
-    hinged = find_handle(world([PANEL]), 1)
+    """Where nothing sticks out the handle is the flat patch that is taken hold of."""
+    articulation = world([PANEL])
+    hinged = find_handle(articulation, 1)
     assert hinged.source == "far_edge"
     assert hinged.point[0] == pytest.approx(0.4)
     assert hinged.point[2] == pytest.approx(0.3)
+    patch = articulation.mesh.submesh(hinged.faces)
+    np.testing.assert_allclose(patch.bounds, [[0.4, -0.02, 0.0], [0.4, -0.003, 0.6]])
     sliding = find_handle(world([PANEL], SLIDE), 1)
     assert sliding.source == "front"
     np.testing.assert_allclose(sliding.point, [0.2, -0.02, 0.3], atol=1e-9)
     np.testing.assert_allclose(sliding.normal, [0.0, -1.0, 0.0], atol=1e-9)
+    assert len(sliding.faces) == 2
 
 
 def test_of_two_protrusions_the_one_far_from_the_hinge_is_the_handle():
@@ -123,15 +128,6 @@ def test_a_handle_fixed_to_the_door_as_a_part_of_its_own_is_found():
     handle = find_handle(articulation, 1)
     # Those looking for a handle on the link that moves find the patch of it that lies nearest.
     np.testing.assert_array_equal(handle.faces, [16, 17, *range(24, 36)])
-
-
-def test_where_nothing_sticks_out_the_handle_is_the_flat_patch_that_is_taken_hold_of():
-    articulation = world([PANEL])
-    handle = find_handle(articulation, 1)
-    patch = articulation.mesh.submesh(handle.faces)
-    np.testing.assert_allclose(patch.bounds, [[0.4, -0.02, 0.0], [0.4, -0.003, 0.6]])
-    sliding = find_handle(world([PANEL], SLIDE), 1)
-    assert len(sliding.faces) == 2
 
 
 def test_the_root_and_fixed_parts_have_no_handle():
