@@ -176,5 +176,5 @@ def _leaf(across: FloatArray, share: FloatArray) -> FloatArray:
         share: of its length, likewise.
     """
     ends = [np.percentile(across[each], [5.0, 95.0]) for each in (share < ENDS, share > 1.0 - ENDS)]
-    low, high = np.max(ends, axis=0)[0], np.min(ends, axis=0)[1]
-    return np.array([low, high]) if low < high else np.percentile(across, [5.0, 95.0])
+    both = np.array([np.max(ends, axis=0)[0], np.min(ends, axis=0)[1]])
+    return both if both[0] < both[1] else np.percentile(across, [5.0, 95.0])
