@@ -13,11 +13,12 @@ from tests.factory.articulate.detected.test_detected_articulator import detected
 from asset_factory.factory.articulate.detected.open_panels import open_panels, reopened, with_closed
 from asset_factory.factory.articulate.rigid import rigid_articulation
 from asset_factory.factory.articulation import JointKind, rotation_about
-from asset_factory.factory.geometry.posing import closed
+from asset_factory.factory.geometry.posing import closed, posed
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.models.detector.canvas import KINDS
 from asset_factory.factory.models.detector.detect import Detection
 from asset_factory.factory.part import PartKind
+from asset_factory.learn.objects import make_object
 from asset_factory.learn.surfaces import coloured_skin
 
 OPENS = 0.99
@@ -142,11 +143,13 @@ def test_closed_panels_take_the_place_of_what_others_find_there():
 
 
 def test_an_open_door_is_closed_before_anybody_else_is_asked():
-    drawn = coloured_skin(standing_open(DOOR, 75.0)[0], 0)
-    made = detected(rigid_articulation(drawn, "auto", ()))[0].articulation
-    (joint,) = made.joints
-    assert made.parts[joint.child].kind is PartKind.DOOR
-    assert joint.axis == pytest.approx((0.0, 0.0, -1.0), abs=0.02)
+    made = make_object("fridge", 2)
+    (true, *_) = made.movable_joints
+    drawn = coloured_skin(posed(made, {true.name: np.radians(75.0)}).mesh, 0)
+    told = detected(rigid_articulation(drawn, "auto", ()))[0].articulation
+    (joint,) = [each for each in told.joints if each.lower < 0.0]
+    assert told.parts[joint.child].kind is PartKind.DOOR
+    assert joint.axis == pytest.approx(true.axis, abs=0.02)
     assert joint.lower == pytest.approx(np.radians(-75.0), abs=0.05)
-    assert made.mesh.bounds == pytest.approx(drawn.bounds, abs=1e-6)
-    assert any("stands open by 7" in note for note in made.notes)
+    assert told.mesh.bounds == pytest.approx(drawn.bounds, abs=1e-6)
+    assert any("stands open by 75 degrees" in note for note in told.notes)
