@@ -68,16 +68,19 @@ def _predictions() -> Iterator[Case]:
             for slides in (False, True):
                 shape = prediction()[field].shape
                 changes = {field: np.full(shape, value), "is_part_prismatic": [False, slides]}
-                yield case(f"{field}-{value}-{slides}", packed(prediction(**changes)))
+                told = case if value == 1e-320 else refused
+                yield told(f"{field}-{value}-{slides}", packed(prediction(**changes)))
                 one = np.array(prediction()[field])
                 one[1, -1] = value
                 changes[field] = one
-                yield case(f"{field}-{value}-{slides}-one", packed(prediction(**changes)))
+                yield told(f"{field}-{value}-{slides}-one", packed(prediction(**changes)))
     yield case("cycle", packed(prediction(motion_hierarchy=[[0, 1], [1, 0]])))
     yield case("itself", packed(prediction(motion_hierarchy=[[1, 1]])))
-    yield case("edges", packed(prediction(motion_hierarchy=np.tile([[0, 1]], (1_000_000, 1)))))
+    yield refused("edges", packed(prediction(motion_hierarchy=np.tile([[0, 1]], (1_000_000, 1)))))
     far = np.array([[0, 2**63 - 1]])
     yield refused("huge-edge", packed(prediction(motion_hierarchy=far)))
+    line = [[0.0] * 6, [0.0, 0.0, 1e-7, 1e8, 0.0, 0.0]]
+    yield case("far", packed(prediction(revolute_plucker=line)), least="bad_axis")
     unsigned = np.full(12, 2**64 - 1, dtype=np.uint64)
     yield refused("unsigned", packed(prediction(face_part_ids=unsigned)))
     yield case("parts", packed(_chained(4096)))
@@ -86,6 +89,8 @@ def _predictions() -> Iterator[Case]:
     members = {f"{name}.npy": _npy(value) for name, value in prediction().items()}
     bomb = pickle.dumps(Bomb())
     yield refused("pickle", zipped({**members, "face_part_ids.npy": bomb}))
+    for name, data in {"cut": b"\x93NUMPY\x01\x00\x10\x00{'descr': (((((  ", "none": b"x"}.items():
+        yield refused(f"array-{name}", zipped(dict.fromkeys(members, data)))
     begin = b"{'descr': '<i8', 'fortran_order': False, 'shape': "
     for name, head in {
         "shape": begin + b"(1099511627776,), }",

@@ -7,9 +7,8 @@ import sys
 import time
 from pathlib import Path
 
-import numpy as np
 import pytest
-from fuzz_cases import MJCF, URDF, annotated, cube_files, locked, packed, prediction
+from fuzz_cases import MJCF, URDF, cube_files
 from mesh_cube import gltf_parts, pack_glb, png, write_glb, write_obj
 from refusing import refusal
 
@@ -19,7 +18,6 @@ from asset_factory.factory.geometry.soup import unique_names
 from asset_factory.factory.intake.discover import find_inputs
 from asset_factory.factory.intake.formats import gltf_document, obj
 from asset_factory.factory.intake.images import load_texture
-from asset_factory.factory.intake.importers import prediction as prediction_reader
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 
@@ -228,33 +226,6 @@ def test_too_many_shapes_are_refused_before_they_are_made(tmp_path):
     boxes = '<visual><geometry><box size="1 1 1"/></geometry></visual>' * 10_001
     text = URDF.replace("<inertial>", boxes + "<inertial>")
     assert "shapes" in refused(described(tmp_path, text)).message
-
-
-def bad_predictions():
-    good = packed(prediction())
-    return {
-        "locked": locked(good),
-        "many edges": packed(prediction(motion_hierarchy=np.tile([[0, 1]], (5000, 1)))),
-        "absurd": packed(prediction(revolute_plucker=np.full((2, 6), 1e300))),
-        "far": packed(prediction(revolute_plucker=[[0] * 6, [0, 0, 1e-7, 1e8, 0, 0]])),
-    }
-
-
-@pytest.mark.parametrize("name", bad_predictions())
-def test_a_hostile_prediction_is_refused(name, tmp_path):
-    path = laid(tmp_path, annotated(bad_predictions()[name]), "cube.glb")
-    assert refused(path).code in ("bad_annotation", "bad_axis")
-
-
-def test_an_array_whose_header_is_no_header_is_refused(tmp_path):
-    import zipfile
-
-    path = laid(tmp_path, annotated(b""), "cube.glb")
-    for data in (b"\x93NUMPY\x01\x00\x10\x00{'descr': (((((  ", b"no array"):
-        with zipfile.ZipFile(tmp_path / "pred.npz", "w") as archive:
-            for name in ("face_part_ids", "motion_hierarchy", *prediction_reader.PER_PART):
-                archive.writestr(f"{name}.npy", data)
-        assert refused(path).code == "bad_annotation"
 
 
 def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path):
