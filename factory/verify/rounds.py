@@ -86,9 +86,9 @@ class Rounds:
         asset = left_open(draft.asset, self.articulation)
         if asset is draft.asset:
             return draft, verdict
-        drawn = self._exported(asset, draft.plan, draft.findings, "as_drawn", draft.work)
-        made = replace(drawn, before=draft.before)
-        again = self._validated(made, others)
+        made = self._exported(asset, draft.plan, draft.findings, "as_drawn", draft.work)
+        made = replace(made, before=draft.before and left_open(draft.before, self.articulation))
+        again = self._validated(made, others) if made.passes else made.inspected
         return (made, again) if again.reason is None else (draft, verdict)
 
     @cached_property

@@ -102,11 +102,13 @@ class DetectedArticulator(HypothesisMaker):
             return [self._noted(each, sure_kind) for each in made]
         least = self.agreement.least if self.least is None else self.least
         shell = MeshOrigin.of(mesh).is_shell
-        if (drawn := open_panels(mesh, detection, one_piece=shell)) is not None:
+        seen = seen_from(mesh, Stated().front)
+        drawn = open_panels(seen.pieces.views, detection, one_piece=shell)
+        if drawn is not None:
             shut = closed(drawn)
             mesh = shut.mesh
             detection = detect(mesh)
-        seen = seen_from(mesh, Stated().front)
+            seen = seen_from(mesh, Stated().front)
         rated = self._rated(detection, seen, closed=shell)
         sure = [part for part in rated if part.probability >= least]
         guess = self.guess.articulate(mesh)

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...articulation import Articulation, JointKind
 from ...geometry.posing import face_parts, posed
-from ...mesh import FloatArray, Mesh
+from ...mesh import FloatArray
 from ...models.detector.canvas import KINDS
 from ...models.detector.detect import Detection
 from ...part import PartKind, Proposer
 from ...views.raster import Side, side_facing
 from ...views.view import View, Views
-from ..assembly import JOINT_SUFFIX, assembled
+from ..assembly import JOINT_SUFFIX
 from ..closing import note_open
-from ..proposal import Motion, Proposal
+from ..proposal import Motion
 from ..pruning import keep_parts
-from ..seams.cutting import Region, cut_along, inside
-from ..seams.placing import TURN, OpeningPart
+from ..seams.cutting import Region
+from ..seams.placing import TURN, OpeningPart, cut_out
 from .plates import Plate, Silhouette, sticking_out
 
 #: Kinds of object that have panels on a side, and those that have a lid.
@@ -69,13 +69,13 @@ class _Closing:
     hollow: float
 
 
-def open_panels(mesh: Mesh, detection: Detection, *, one_piece: bool) -> Articulation | None:
+def open_panels(views: Views, detection: Detection, *, one_piece: bool) -> Articulation | None:
     """Return the object with the panels that stand open; ``None`` if none does.
 
     Their joints' lower limits close them; ``posing.closed`` does it.
 
     Args:
-        mesh: whose sides look along the axes.
+        views: of a mesh whose sides look along the axes.
         detection: what the detector says of it.
         one_piece: that it is such a mesh. Of others only lids are looked for: pieces that somebody
             modelled tell doors and flaps, and ``closing`` tells which of them stand open.
@@ -87,7 +87,6 @@ def open_panels(mesh: Mesh, detection: Detection, *, one_piece: bool) -> Articul
     panelled = panelled and one_piece
     if detection.opens < SURE or not (panelled or lidded):
         return None
-    views = Views(mesh)
     for thin in THIN:
         seen = [each for side in ALONG if (each := sticking_out(views[side], thin)) is not None]
         found = [
@@ -97,7 +96,12 @@ def open_panels(mesh: Mesh, detection: Detection, *, one_piece: bool) -> Articul
             if (closing := _closing(views, silhouette, plate, lids=lidded, panels=panelled))
         ]
         if found:
-            return _cut_out(mesh, found)
+            made = cut_out(views.mesh, found, "", Proposer.DETECTOR, CHANCE)
+            notes = tuple(
+                note_open(f"a {made.parts[each.child].kind}", float(np.degrees(-each.lower)))
+                for each in made.joints
+            )
+            return replace(made, notes=notes) if notes and len(made.parts[0].faces) else None
     return None
 
 
@@ -145,8 +149,8 @@ def _closings(views: Views, silhouette: Silhouette, plate: Plate) -> Iterator[_C
 def _looked_into(view: View, silhouette: Silhouette, closing: _Closing) -> _Closing:
     """Return a closing with how hollow what it covers is, and the depth of the rim around that."""
     plate = closing.plate
-    right, up, away = silhouette.side.frame
-    toward, outward = (each @ np.stack([right, up]) for each in (closing.toward, closing.outward))
+    *plane, away = silhouette.side.frame
+    toward, outward = np.stack([closing.toward, closing.outward]) @ plane
     start = float(plate.root @ closing.toward)
     corners = view.raster.pixels(
         np.array(
@@ -178,7 +182,7 @@ def _opening(silhouette: Silhouette, closing: _Closing) -> OpeningPart:
     face and not past its end.
     """
     plate = closing.plate
-    right, up, away = silhouette.side.frame
+    *plane, away = silhouette.side.frame
     on = plate.inner(closing.toward)
     slope = float(plate.along @ closing.outward)
     pivot = on + (closing.face - float(on @ closing.outward)) / slope * plate.along
@@ -190,7 +194,6 @@ def _opening(silhouette: Silhouette, closing: _Closing) -> OpeningPart:
     start = min(silhouette.low @ closing.toward, silhouette.high @ closing.toward)
     past = max(float(start - root @ closing.toward), 0.0)
     pivot = pivot + np.linalg.solve(np.eye(2) - turn, past * closing.toward)
-    plane = np.stack([right, up])
     across = plate.across @ plane
     # To the right and up run clockwise about what points away from the viewer.
     axis = -away if sine < 0.0 else away
@@ -220,34 +223,6 @@ def _opening(silhouette: Silhouette, closing: _Closing) -> OpeningPart:
     else:
         kind = PartKind.DOOR if silhouette.side is Side.TOP else PartKind.FLAP
     return OpeningPart(kind, region, motion)
-
-
-def _cut_out(mesh: Mesh, found: Sequence[OpeningPart]) -> Articulation | None:
-    """Return the object with parts cut out; ``None`` if nothing is in them or beside them."""
-    cut = cut_along(mesh, (part.region for part in found))
-    owner = np.zeros(len(cut.mesh.faces), dtype=np.int64)
-    proposals: list[Proposal] = []
-    for part in found:
-        own = inside(cut.mesh, part.region) & (owner == 0)
-        if own.any():
-            owner[own] = len(proposals) + 1
-            own_proposal = Proposal(
-                part.kind,
-                own,
-                part.motion,
-                proposer=Proposer.DETECTOR,
-                existence=CHANCE,
-                probability=CHANCE,
-            )
-            proposals.append(own_proposal)
-    if not (proposals and (owner == 0).any()):
-        return None
-    made = assembled(cut.mesh, owner, proposals, "")
-    notes = tuple(
-        note_open(f"a {made.parts[each.child].kind}", float(np.degrees(-each.lower)))
-        for each in made.joints
-    )
-    return replace(made, notes=notes)
 
 
 def reopened(made: Articulation, drawn: Articulation) -> Articulation:

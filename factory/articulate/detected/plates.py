@@ -113,15 +113,16 @@ def _places(raster: Raster, pixels: BoolArray) -> FloatArray:
 def _plates(view: View, arms: IntArray, distance: FloatArray, longest: float) -> Iterator[Plate]:
     """Yield the arms that are plates; ``arms`` are numbered pixels, ``distance`` is to the body."""
     raster = view.raster
-    middles = raster.pixels(view.mesh.vertices[view.mesh.faces].mean(axis=1))
-    places = np.rint(middles[:, :2]).astype(np.int64) + 1
-    row, column = np.clip(places, 0, np.array(arms.shape) - 1).T
+    middles = view.mesh.vertices[view.mesh.faces].mean(axis=1)
+    row, column = raster.nearest(middles @ view.side.frame.T)
     for number in range(1, int(arms.max()) + 1):
         arm = arms == number
+        if arm.sum() * raster.pixel < LONG * longest:
+            continue
         # Corners of the body stick out of it as well: only the far half tells what a plate is.
         far = arm & (distance > distance[arm].max() / 2.0)
-        faces = view.mesh.faces[far[row, column]]
-        if arm.sum() * raster.pixel < LONG * longest or not len(faces):
+        faces = view.mesh.faces[far[row + 1, column + 1]]
+        if not len(faces):
             continue
         beside = ndimage.distance_transform_edt(~arm) * raster.pixel <= BESIDE * longest
         depths = view.mesh.vertices[faces].reshape(-1, 3) @ view.side.frame[2]

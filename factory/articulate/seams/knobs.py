@@ -8,12 +8,10 @@ from ...articulation import Articulation
 from ...mesh import Mesh
 from ...part import PartKind, Proposer
 from ...views.view import Views
-from ..assembly import assembled
-from ..proposal import Motion, Proposal
+from ..proposal import Motion
 from ..rigid import rigid_articulation
-from .cutting import cut_along, inside
 from .handles import FEWEST, Face, Protrusion, cleared
-from .placing import OpeningPart, box_before
+from .placing import OpeningPart, box_before, cut_out
 from .relief import Relief, reliefs_of
 
 #: A knob covers so much of its box: a disc 0.79.
@@ -39,22 +37,7 @@ def knobs_of(mesh: Mesh, articulator: str) -> Articulation:
     movers = max((knobs_on(side, cleared(side)) for side in sides), key=len)
     if not movers:
         return rigid_articulation(mesh, articulator, ())
-    made = cut_along(mesh, [mover.region for mover in movers]).mesh
-    owner = np.zeros(len(made.faces), dtype=np.int64)
-    for number, mover in enumerate(movers, start=1):
-        owner[inside(made, mover.region) & (owner == 0)] = number
-    proposals = [
-        Proposal(
-            mover.kind,
-            owner == number,
-            mover.motion,
-            proposer=Proposer.SIDES,
-            existence=LIKELY,
-            probability=LIKELY,
-        )
-        for number, mover in enumerate(movers, start=1)
-    ]
-    return assembled(made, owner, proposals, articulator)
+    return cut_out(mesh, movers, articulator, Proposer.SIDES, LIKELY)
 
 
 def knobs_on(relief: Relief, face: Face) -> tuple[OpeningPart, ...]:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...articulation import JointKind
-from ...mesh import FloatArray
-from ...part import OpensBy, Panel, PartKind
+from ...articulation import Articulation, JointKind
+from ...mesh import FloatArray, Mesh
+from ...part import OpensBy, Panel, PartKind, Proposer
 from ...views.raster import Side
-from ..proposal import Motion
-from .cutting import Region
+from ..assembly import assembled
+from ..proposal import Motion, Proposal
+from .cutting import Region, cut_along, inside
 from .edges import leaf_thickness, thickness_behind
 from .fronts import Front
 from .rectangles import Rectangle
@@ -57,6 +58,41 @@ class OpeningPart:
             motion=self.motion.turned(rotation),
             panel=None if self.panel is None else self.panel.turned(rotation),
         )
+
+
+def cut_out(
+    mesh: Mesh,
+    parts: Sequence[OpeningPart],
+    articulator: str,
+    proposer: Proposer,
+    probability: float,
+) -> Articulation:
+    """Return a mesh with parts cut out of it; each has the faces that no earlier one has, if any.
+
+    Args:
+        mesh: metres, z up.
+        parts: that open.
+        articulator: who is asked.
+        proposer: who says that they open.
+        probability: that one does, 0 to 1.
+    """
+    cut = cut_along(mesh, (part.region for part in parts)).mesh
+    owner = np.zeros(len(cut.faces), dtype=np.int64)
+    proposals: list[Proposal] = []
+    for part in parts:
+        own = inside(cut, part.region) & (owner == 0)
+        if own.any():
+            proposal = Proposal(
+                part.kind,
+                own,
+                part.motion,
+                proposer=proposer,
+                existence=probability,
+                probability=probability,
+            )
+            proposals.append(proposal)
+            owner[own] = len(proposals)
+    return assembled(cut, owner, proposals, articulator)
 
 
 def box_behind(side: Side, low: FloatArray, high: FloatArray) -> Region:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from modelled_furniture import METAL, board
-from plain_solids import cylinder, parted
+from plain_solids import carcass, cylinder, parted
 from target_worlds import world
 
 from asset_factory.factory.articulate.closing import with_closed_hinges
@@ -18,18 +18,11 @@ HINGE = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [0.0, 0.0, 0.4], 0.
 
 def cupboard(handle=0.05, kind=PartKind.DOOR):
     """A case that is open in front, with a closed door hinged at its left."""
-    case = [
-        board((0.0, 0.0, 0.0), (0.02, 0.4, 0.8)),
-        board((0.58, 0.0, 0.0), (0.6, 0.4, 0.8)),
-        board((0.0, 0.38, 0.0), (0.6, 0.4, 0.8)),
-        board((0.0, 0.0, 0.0), (0.6, 0.4, 0.02)),
-        board((0.0, 0.0, 0.78), (0.6, 0.4, 0.8)),
-    ]
     door = [
         board((0.0, -0.02, 0.0), (0.6, -0.001, 0.8)),
         board((0.54, -0.02 - handle, 0.3), (0.56, -0.02, 0.5), METAL),
     ]
-    whole = parted({"body": case, "door": door}, HINGE)
+    whole = parted({"body": carcass(0.6, 0.4, 0.8), "door": door}, HINGE)
     return replace(whole, parts=(whole.parts[0], replace(whole.parts[1], kind=kind)))
 
 

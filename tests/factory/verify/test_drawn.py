@@ -1,6 +1,9 @@
 """Guessed hinges that stand open: made closed, and the asset left as it is drawn."""
 
 from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +11,9 @@ from test_mend import cabinet
 
 from asset_factory.factory.articulate.drawn import close_guessed, left_open
 from asset_factory.factory.articulation import rotation_about
+from asset_factory.factory.manufacture.plan import Plan
+from asset_factory.factory.verify.drafts import HypothesisDraft
+from asset_factory.factory.verify.rounds import Rounds
 
 OPEN = np.radians(60.0)
 
@@ -62,3 +68,23 @@ def test_a_hinge_that_a_repair_shortened_opens_as_far_as_it_goes():
     made = left_open(replace(asset, articulation=short), drawn)
     assert made.articulation.joints[0].lower == pytest.approx(-0.4)
     assert made.articulation.joints[0].upper == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize(
+    ("inspected", "simulated", "kept"),
+    [(None, None, True), (None, "jammed", False), ("penetrates", None, False)],
+)
+def test_only_what_passes_as_drawn_too_is_left_so(inspected, simulated, kept, monkeypatch):
+    asset, drawn = drawn_open()
+    first = SimpleNamespace(reason=None)
+    closed = HypothesisDraft(drawn, asset, None, Plan(), (), first, before=asset)
+    again = SimpleNamespace(reason=inspected)
+    drafted = partial(replace, closed, inspected=again)
+    monkeypatch.setattr(Rounds, "_exported", lambda self, made, *rest: drafted(asset=made))
+    said = SimpleNamespace(reason=simulated)
+    monkeypatch.setattr(Rounds, "_validated", lambda self, draft, others: said)
+    made, verdict = Rounds(drawn, None, Path(), None, None)._as_drawn(closed, first, ())
+    assert verdict is (said if kept else first)
+    wanted = drawn if kept else asset.articulation
+    for shown in (made.asset, made.before):
+        assert shown.articulation.mesh.bounds == pytest.approx(wanted.mesh.bounds)

@@ -1,72 +1,60 @@
 """Panels that stand open are closed; what sticks out of other things is left alone."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 pytest.importorskip("torch")
 
 from modelled_furniture import board
+from plain_solids import carcass, parted
 from tests.factory.articulate.detected.test_detected_articulator import detected
 
 from asset_factory.factory.articulate.detected.open_panels import open_panels, reopened, with_closed
 from asset_factory.factory.articulate.rigid import rigid_articulation
-from asset_factory.factory.articulation import JointKind, rotation_about
+from asset_factory.factory.articulation import Joint, JointKind, rotation_about
 from asset_factory.factory.geometry.posing import closed, posed
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.models.detector.canvas import KINDS
 from asset_factory.factory.models.detector.detect import Detection
 from asset_factory.factory.part import PartKind
+from asset_factory.factory.views.view import Views
 from asset_factory.learn.objects import make_object
 from asset_factory.learn.surfaces import coloured_skin
 
-OPENS = 0.99
 
-
-def seen(kind, opens=OPENS):
+def seen(kind, opens=0.99):
     """Return a detection of a kind of object; nothing else is asked of it."""
     kinds = np.eye(len(KINDS))[KINDS.index(kind)]
     return Detection(None, np.zeros((5, 64, 64), np.int64), kinds, opens, np.full(4, 0.25))
 
 
-def turned_about(mesh, axis, origin, degrees):
-    """Return a mesh turned about a line."""
-    rotation = rotation_about(np.array(axis, dtype=float), np.radians(degrees))
-    return replace(mesh, vertices=(mesh.vertices - origin) @ rotation.T + origin)
+def found_open(mesh, detection, one_piece=True):
+    """Return what is found to stand open on a mesh."""
+    return open_panels(Views(mesh), detection, one_piece=one_piece)
 
 
-def case():
-    """A case of boards, 0.6 wide, 0.4 deep, 0.8 high, open in front."""
-    return concatenate(
-        [
-            board((0.0, 0.0, 0.0), (0.02, 0.4, 0.8)),
-            board((0.58, 0.0, 0.0), (0.6, 0.4, 0.8)),
-            board((0.0, 0.38, 0.0), (0.6, 0.4, 0.8)),
-            board((0.0, 0.0, 0.0), (0.6, 0.4, 0.02)),
-            board((0.0, 0.0, 0.78), (0.6, 0.4, 0.8)),
-        ]
-    )
-
-
+#: Boards, 0.6 wide, 0.4 deep, 0.8 high, open in front.
+CASE = concatenate(carcass(0.6, 0.4, 0.8))
 #: Closed panels of the case: what, corners, hinge's axis and a point of it.
 DOOR = (PartKind.DOOR, (0.0, -0.02, 0.0), (0.6, 0.0, 0.8), (0.0, 0.0, -1.0), (0.0, 0.0, 0.0))
 LEAF = (PartKind.DOOR, (0.3, -0.02, 0.0), (0.6, 0.0, 0.8), (0.0, 0.0, 1.0), (0.6, 0.0, 0.0))
+OTHER = (PartKind.DOOR, (0.0, -0.02, 0.0), (0.3, 0.0, 0.8), (0.0, 0.0, -1.0), (0.0, 0.0, 0.0))
 FLAP = (PartKind.FLAP, (0.0, -0.02, 0.0), (0.6, 0.0, 0.8), (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 #: The case on its back is a chest.
-LID = (PartKind.LID, (0.0, 0.0, 0.4), (0.6, 0.8, 0.42), (-1.0, 0.0, 0.0), (0.0, 0.8, 0.4))
+LID = (PartKind.LID, (0.0, 0.0, 0.0), (0.6, 0.8, 0.02), (-1.0, 0.0, 0.0), (0.0, 0.8, 0.0))
+ON_ITS_BACK = rotation_about([1.0, 0.0, 0.0], -np.pi / 2.0)
 
 
-def standing_open(panel, degrees):
-    """Return the case, on its back if need be, with one panel open, and the same closed."""
-    kind, low, high, axis, origin = panel
-    body = case()
-    if kind is PartKind.LID:
-        body = replace(body, vertices=body.vertices[:, [0, 2, 1]] * [1.0, 1.0, -1.0] + [0, 0, 0.4])
-    leaf = board(low, high)
-    return concatenate([body, turned_about(leaf, axis, np.array(origin), degrees)]), concatenate(
-        [body, leaf]
-    )
+def standing_open(panel, degrees, beside=()):
+    """Return the case, on its back if need be, with panels open, and the same closed."""
+    named = {"body": [CASE.turned(ON_ITS_BACK) if panel is LID else CASE]}
+    joints = []
+    for number, (_, low, high, axis, origin) in enumerate([panel, *beside], start=1):
+        named[f"panel_{number}"] = [board(low, high)]
+        hinge = (JointKind.REVOLUTE, 0, number, axis, origin, 0.0, np.pi)
+        joints.append(Joint(f"hinge_{number}", *hinge))
+    shut = parted(named, *joints)
+    return posed(shut, {joint.name: np.radians(degrees) for joint in joints}).mesh, shut.mesh
 
 
 @pytest.mark.parametrize("degrees", [35.0, 90.0, 120.0])
@@ -75,7 +63,7 @@ def standing_open(panel, degrees):
 )
 def test_a_panel_that_stands_open_closes_about_its_hinge(kind, panel, degrees):
     drawn, shut = standing_open(panel, degrees)
-    found = open_panels(drawn, seen(kind), one_piece=True)
+    found = found_open(drawn, seen(kind))
     made = closed(found)
     (joint,) = made.joints
     part = made.parts[joint.child]
@@ -91,48 +79,42 @@ def test_a_panel_that_stands_open_closes_about_its_hinge(kind, panel, degrees):
 
 
 def test_two_doors_that_stand_open_both_close():
-    both = standing_open(LEAF, 80.0)[0]
-    mirrored = board((0.0, -0.02, 0.0), (0.3, 0.0, 0.8))
-    made = open_panels(
-        concatenate([both, turned_about(mirrored, (0, 0, -1), np.zeros(3), 100.0)]),
-        seen("wardrobe"),
-        one_piece=True,
-    )
+    made = found_open(standing_open(LEAF, 80.0, [OTHER])[0], seen("wardrobe"))
     assert [made.parts[joint.child].kind for joint in made.joints] == [PartKind.DOOR] * 2
     assert sorted(float(joint.axis[2]) for joint in made.joints) == pytest.approx([-1.0, 1.0])
 
 
 def test_a_case_with_its_door_closed_or_without_one_is_left_alone():
-    assert open_panels(standing_open(DOOR, 0.0)[1], seen("cabinet"), one_piece=True) is None
-    assert open_panels(case(), seen("cabinet"), one_piece=True) is None
+    assert found_open(standing_open(DOOR, 0.0)[1], seen("cabinet")) is None
+    assert found_open(CASE, seen("cabinet")) is None
 
 
 def test_of_modelled_pieces_only_lids_are_looked_for():
-    assert open_panels(standing_open(DOOR, 90.0)[0], seen("cabinet"), one_piece=False) is None
-    assert open_panels(standing_open(LID, 90.0)[0], seen("chest"), one_piece=False) is not None
+    assert found_open(standing_open(DOOR, 90.0)[0], seen("cabinet"), one_piece=False) is None
+    assert found_open(standing_open(LID, 90.0)[0], seen("chest"), one_piece=False) is not None
 
 
 def test_of_things_that_do_not_open_nothing_closes():
     drawn = standing_open(DOOR, 90.0)[0]
-    assert open_panels(drawn, seen("shelf"), one_piece=True) is None
-    assert open_panels(drawn, seen("cabinet", opens=0.2), one_piece=True) is None
-    assert open_panels(drawn, seen("chest"), one_piece=True) is None
-    assert open_panels(standing_open(LID, 90.0)[0], seen("cabinet"), one_piece=True) is None
+    assert found_open(drawn, seen("shelf")) is None
+    assert found_open(drawn, seen("cabinet", opens=0.2)) is None
+    assert found_open(drawn, seen("chest")) is None
+    assert found_open(standing_open(LID, 90.0)[0], seen("cabinet")) is None
 
 
 def test_what_would_close_a_solid_face_or_is_a_rail_is_no_panel():
     wing = board((0.0, -0.5, 0.0), (0.02, 0.0, 0.8))
     block = board((0.0, 0.0, 0.0), (0.6, 0.4, 0.8))
-    assert open_panels(concatenate([block, wing]), seen("cabinet"), one_piece=True) is None
+    assert found_open(concatenate([block, wing]), seen("cabinet")) is None
     rail = board((0.0, -0.5, 0.7), (0.02, 0.0, 0.72))
-    assert open_panels(concatenate([case(), rail]), seen("cabinet"), one_piece=True) is None
+    assert found_open(concatenate([CASE, rail]), seen("cabinet")) is None
     sheet = Mesh.from_triangles(np.eye(3) * [1.0, 1.0, 0.0], [[0, 1, 2]])
-    assert open_panels(sheet, seen("cabinet"), one_piece=True) is None
+    assert found_open(sheet, seen("cabinet")) is None
 
 
 def test_closed_panels_take_the_place_of_what_others_find_there():
     drawn = standing_open(LEAF, 90.0)[0]
-    found = open_panels(drawn, seen("cabinet"), one_piece=True)
+    found = found_open(drawn, seen("cabinet"))
     made = closed(found)
     assert reopened(made, found).mesh.bounds == pytest.approx(drawn.bounds)
     named = with_closed(made, made)
