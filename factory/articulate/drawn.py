@@ -10,11 +10,11 @@ from ..articulation import Articulation, Joint, JointKind
 from ..asset import Asset, PartBody
 from ..geometry.posing import posed
 from ..mesh import FloatArray
-from .closing import CLOSING
+from ..part import Proposer
 
 
-def close_guessed(drawn: Articulation) -> Articulation:
-    """Return an object with the guessed hinges that stand open closed, its new rest."""
+def close_seen(drawn: Articulation) -> Articulation:
+    """Return an object with the hinges that the detector saw open closed, its new rest."""
     standing = [joint for joint in drawn.movable_joints if _stands_open(drawn, joint)]
     return posed(drawn, {joint.name: joint.lower for joint in standing}) if standing else drawn
 
@@ -47,12 +47,10 @@ def left_open(asset: Asset, drawn: Articulation) -> Asset:
 
 
 def _stands_open(drawn: Articulation, joint: Joint) -> bool:
-    return (
-        joint.kind is JointKind.REVOLUTE
-        and joint.lower < 0.0
-        and joint.confidence is not None
-        and drawn.parts[joint.child].kind in CLOSING
-    )
+    """Tell whether the detector saw a part that stands open: of others the line is less sure."""
+    source = drawn.parts[joint.child].source
+    seen = source is not None and source.proposer is Proposer.DETECTOR
+    return seen and joint.kind is JointKind.REVOLUTE and joint.lower < 0.0
 
 
 def _moved(body: PartBody, pose: FloatArray) -> PartBody:

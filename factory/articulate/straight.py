@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from ..articulation import rotation_about
-from ..geometry.posing import UP
 from ..geometry.triangles import doubled_normals
 from ..mesh import FloatArray, Mesh
 
@@ -14,7 +13,7 @@ LEANING = 0.2
 #: Directions this near are one [degrees].
 SPREAD = 4
 #: Less of a turn is left as it is [degrees].
-LEAST_TURN = 0.5
+LEAST_TURN = 1.0
 #: The sides of what is not round hold this share of all that looks sideways.
 LEAST_SHARE = 0.3
 _QUARTER = 90
@@ -25,19 +24,8 @@ def straightening(mesh: Mesh) -> FloatArray | None:
 
     By at most an eighth of a turn; ``None`` for objects that are straight or round.
     """
-    yaw = level_yaw(mesh.vertices[mesh.faces])
-    return rotation_about(UP, -yaw) if yaw else None
-
-
-def level_yaw(triangles: FloatArray) -> float:
-    """Return how far most upright faces are turned from the axes, by less than an eighth [rad].
-
-    Zero where they are straight, or look every way as those of round things do.
-
-    Args:
-        triangles: corners [m], shape [face_count, 3, 3].
-    """
-    normals = doubled_normals(triangles)
+    corners = mesh.vertices[mesh.faces]
+    normals = doubled_normals(corners)
     area = np.linalg.norm(normals, axis=1)
     sideways = np.abs(normals[:, 2]) < LEANING * area
     area = area[sideways]
@@ -45,9 +33,11 @@ def level_yaw(triangles: FloatArray) -> float:
     most = np.bincount(angle.astype(np.int64) % _QUARTER, area, _QUARTER)
     near = np.sum([np.roll(most, by) for by in range(-SPREAD, SPREAD + 1)], axis=0)
     if not near.max() > LEAST_SHARE * area.sum():
-        return 0.0
+        return None
     off = (angle - near.argmax() - 0.5 + _QUARTER / 2) % _QUARTER - _QUARTER / 2
     one = np.abs(off) <= SPREAD + 0.5
     turn = float(near.argmax()) + 0.5 + float(np.average(off[one], weights=area[one]))
     turn = (turn + _QUARTER / 2) % _QUARTER - _QUARTER / 2
-    return float(np.radians(turn)) if abs(turn) >= LEAST_TURN else 0.0
+    if abs(turn) < LEAST_TURN:
+        return None
+    return rotation_about([0.0, 0.0, 1.0], -np.radians(turn))

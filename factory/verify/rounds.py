@@ -9,7 +9,7 @@ from pathlib import Path
 from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.judge import Judge
 
-from ..articulate.drawn import close_guessed, left_open
+from ..articulate.drawn import close_seen, left_open
 from ..articulation import Articulation
 from ..asset import Asset
 from ..errors import InputRejected, Unjudged
@@ -93,7 +93,7 @@ class Rounds:
 
     @cached_property
     def _closed(self) -> Articulation:
-        return close_guessed(self.articulation)
+        return close_seen(self.articulation)
 
     @cached_property
     def _spare(self) -> Spare:

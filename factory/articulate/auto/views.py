@@ -13,8 +13,8 @@ from ...mesh import FloatArray, IntArray, Mesh
 from ...models.particulate.decoding import DecodedPart
 from ...models.particulate.frames import UnitBox
 from ...models.particulate.inference import Network, infer
+from ..geometric.scene import level_yaw
 from ..proposal import Motion
-from ..straight import level_yaw
 
 MOST_VIEWS = 4
 """Quarter turns in a whole one."""

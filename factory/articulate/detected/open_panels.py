@@ -129,8 +129,6 @@ def _closings(views: Views, silhouette: Silhouette, plate: Plate) -> Iterator[_C
     for outward in np.array([[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]]):
         side = _faces(silhouette, outward)
         face = float((corners @ outward).max())
-        if side is Side.BOTTOM:
-            continue
         for toward in np.array([[-outward[1], outward[0]], [outward[1], -outward[0]]]):
             # From where the face begins to where it ends, seen from where the plate does.
             begin, end = np.sort(corners @ toward) - float(plate.root @ toward)
@@ -138,7 +136,8 @@ def _closings(views: Views, silhouette: Silhouette, plate: Plate) -> Iterator[_C
             beyond = max(off, begin, plate.length - end)
             angle = float(np.arccos(np.clip(plate.along @ toward, -1.0, 1.0)))
             if (
-                beyond < NEAR * silhouette.longest
+                side is not Side.BOTTOM
+                and beyond < NEAR * silhouette.longest
                 and plate.along @ outward > 0.0
                 and ANGLES[0] < angle < ANGLES[1]
             ):
@@ -253,7 +252,6 @@ def with_closed(guess: Articulation, closed: Articulation) -> Articulation:
         known = {each.name for each in parts}
         names = (f"{part.kind}_{count}" for count in range(len(parts)))
         name = next(each for each in names if each not in known)
-        hinge = f"{name}_{JOINT_SUFFIX[joint.kind]}"
-        joints.append(replace(joint, name=hinge, child=len(parts)))
+        joints.append(replace(joint, name=f"{name}_{JOINT_SUFFIX[joint.kind]}", child=len(parts)))
         parts.append(replace(part, name=name))
     return replace(guess, parts=tuple(parts), joints=tuple(joints))

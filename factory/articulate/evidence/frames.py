@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...articulation import rotation_about
-from ...geometry.posing import UP
 from ...mesh import FloatArray
-from ..straight import level_yaw
+from ..geometric.scene import level_yaw
 from .surfels import Surfels
 
 #: Frames whose axes agree to this are one.
@@ -18,7 +16,10 @@ DOMINANT = 0.4
 
 def level_frame(triangles: FloatArray) -> FloatArray:
     """Return as rows the level axes along the object's upright faces, and z, shape [3, 3]."""
-    return rotation_about(UP, -level_yaw(triangles))
+    yaw = level_yaw(triangles)
+    c = np.cos(yaw)
+    s = np.sin(yaw)
+    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def own_frame(surfels: Surfels) -> FloatArray | None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ...articulation import Articulation, rotation_about
+from ...articulation import Articulation
 from ...config import BuildConfig
 from ...geometry.components import connected_components
 from ...intake.intake import Intake
@@ -15,13 +15,12 @@ from ...part import PartKind
 from ..assembly import assembled
 from ..proposal import Proposal
 from ..rigid import rigid_articulation
-from ..straight import level_yaw
 from .fronts import find_fronts
 from .house_doors import find_house_doors
 from .knobs import find_top_knobs
 from .movers import Mover
 from .rounds import FROM_ABOVE, find_cap, find_turntables, find_wheels
-from .scene import FRONT, SIDEWAYS, UP, Scene, quarter_turn
+from .scene import FRONT, SIDEWAYS, UP, Scene, level_yaw, quarter_turn
 
 MOST_PIECES = 5000
 
@@ -66,9 +65,7 @@ def _found(mesh: Mesh) -> tuple[tuple[Proposal, ...], str]:
         return (), (
             f"the mesh falls into {pieces} separate pieces, more than {MOST_PIECES}: kept rigid"
         )
-    triangles = mesh.vertices[mesh.faces]
-    level = rotation_about(np.eye(3)[UP], -level_yaw(triangles))
-    scene = Scene(triangles, labels, np.eye(3)).turned(level)
+    scene = _level_scene(mesh, labels)
     if float(scene.size.min()) <= 1e-6 * float(scene.size.max()):
         return (), "the mesh is flat: kept rigid"
     movers = _best_view(scene) or tuple(m.seen_from(scene.rotation) for m in find_cap(scene))
@@ -76,6 +73,17 @@ def _found(mesh: Mesh) -> tuple[tuple[Proposal, ...], str]:
     if not movers or len(_pieces_of(movers)) == pieces:
         return (), (f"none of the {pieces} separate pieces looks like a door or drawer: kept rigid")
     return _proposals(labels, movers), ""
+
+
+def _level_scene(mesh: Mesh, labels: IntArray) -> Scene:
+    triangles = mesh.vertices[mesh.faces]
+    yaw = level_yaw(triangles)
+    scene = Scene(triangles, labels, np.eye(3))
+    if yaw == 0.0:
+        return scene
+    c = np.cos(-yaw)
+    s = np.sin(-yaw)
+    return scene.turned(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
 
 
 def _best_view(scene: Scene) -> tuple[Mover, ...]:

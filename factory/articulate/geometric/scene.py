@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ...geometry.edges import label_linked
-from ...geometry.triangles import ends_of
+from ...geometry.triangles import doubled_normals, ends_of
 from ...mesh import BoolArray, FloatArray, IntArray
 
 FRONT = 1
@@ -206,3 +206,20 @@ def quarter_turn(turns: int) -> FloatArray:
     """Return the rotation about z by ``turns`` quarter turns, exact, shape [3, 3]."""
     c, s = ((1, 0), (0, 1), (-1, 0), (0, -1))[turns % 4]
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def level_yaw(triangles: FloatArray) -> float:
+    """Return the angle [rad] in (-pi/4, pi/4] of the object's upright faces to the axes.
+
+    The area-weighted circular mean of four times the heading of upright faces: four, since walls
+    meet at right angles. Zero when no heading dominates.
+    """
+    normals = doubled_normals(triangles)
+    area = np.linalg.norm(normals, axis=1)
+    upright = np.abs(normals[:, 2]) < 0.2 * area
+    heading = np.arctan2(normals[upright, 1], normals[upright, 0])
+    mean = np.sum(area[upright] * np.exp(4j * heading))
+    if not upright.any() or abs(mean) < 0.5 * area[upright].sum():
+        return 0.0
+    yaw = float(np.angle(mean)) / 4.0
+    return yaw if abs(yaw) > np.radians(0.5) else 0.0

@@ -1,4 +1,4 @@
-"""Guessed hinges that stand open: made closed, and the asset left as it is drawn."""
+"""Hinges that are seen to stand open: made closed, and the asset left as it is drawn."""
 
 from dataclasses import replace
 from functools import partial
@@ -9,22 +9,28 @@ import numpy as np
 import pytest
 from test_mend import cabinet
 
-from asset_factory.factory.articulate.drawn import close_guessed, left_open
+from asset_factory.factory.articulate.drawn import close_seen, left_open
 from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.manufacture.plan import Plan
+from asset_factory.factory.part import PartSource, Proposer
 from asset_factory.factory.verify.drafts import HypothesisDraft
 from asset_factory.factory.verify.rounds import Rounds
 
 OPEN = np.radians(60.0)
 
 
-def drawn_open(confidence=0.9):
+def drawn_open():
     """Return an asset whose door is closed, and its hypothesis, in which it stands open."""
     asset = cabinet(upper=1.5)
-    (joint,) = asset.articulation.joints
-    stated = replace(asset.articulation, joints=(replace(joint, confidence=confidence),))
-    asset = replace(asset, articulation=stated)
+    asset = replace(asset, articulation=proposed_by(Proposer.DETECTOR, asset.articulation))
     return asset, left_open(asset, replaced(asset, -OPEN)).articulation
+
+
+def proposed_by(proposer, articulation):
+    """Return an articulation whose door somebody proposed."""
+    base, door = articulation.parts
+    parts = (base, replace(door, source=PartSource("id", proposer)))
+    return replace(articulation, parts=parts)
 
 
 def replaced(asset, lower):
@@ -33,14 +39,14 @@ def replaced(asset, lower):
     return replace(asset.articulation, joints=(replace(joint, lower=lower, upper=1.5 + lower),))
 
 
-def test_a_guessed_hinge_is_closed_and_anybody_elses_is_not():
+def test_a_hinge_that_the_detector_sees_is_closed_and_nobody_elses():
     asset, drawn = drawn_open()
-    closed = close_guessed(drawn)
+    closed = close_seen(drawn)
     assert closed.mesh.bounds == pytest.approx(asset.articulation.mesh.bounds)
     assert (closed.joints[0].lower, closed.joints[0].upper) == pytest.approx((0.0, 1.5))
-    stated = replace(drawn, joints=(replace(drawn.joints[0], confidence=None),))
-    assert close_guessed(stated) is stated
-    assert close_guessed(closed) is closed
+    for other in (proposed_by(Proposer.RULES, drawn), proposed_by(Proposer.SIDECAR, drawn)):
+        assert close_seen(other) is other
+    assert close_seen(closed) is closed
 
 
 def test_the_asset_is_left_as_drawn_with_all_that_its_door_has():

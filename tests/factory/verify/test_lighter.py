@@ -42,7 +42,7 @@ def drafted(monkeypatch, cut_off, refused_below=0, fat=0):
     monkeypatch.setattr(Rounds, "_next", lambda self, verdict, draft: None)
     monkeypatch.setattr(rounds, "dispensable_joints", lambda *asked: None)
     monkeypatch.setattr(rounds, "first_plan", lambda *asked: Plan())
-    monkeypatch.setattr(rounds, "close_guessed", lambda drawn: drawn)
+    monkeypatch.setattr(rounds, "close_seen", lambda drawn: drawn)
     config = replace(BuildConfig(), hulls=HullsConfig(most=MOST))
     nothing = None
     stages = SimpleNamespace(config=config)
