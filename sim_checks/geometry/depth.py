@@ -98,8 +98,11 @@ def widest_gap(a: CollisionHull, b: CollisionHull, direction: FloatArray) -> Hul
 
 def _nearest_to_origin(points: FloatArray) -> FloatArray:
     """Return the point of the points' convex hull that is nearest to the origin [m], shape [3]."""
+    size = np.linalg.norm(points, axis=1).max()
+    if not size > 0.0:
+        return np.zeros(3)
     # With a row of ones the weights may have any sum: the best share is the same.
-    scaled = points / np.linalg.norm(points, axis=1).max()
+    scaled = points / size
     weights, _ = nnls(np.vstack([scaled.T, np.ones(len(points))]), np.array([0.0, 0.0, 0.0, 1.0]))
     nearest: FloatArray = weights @ points / weights.sum()
     return nearest

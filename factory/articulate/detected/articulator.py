@@ -15,7 +15,6 @@ from ...geometry.posing import closed, posed, rotated
 from ...intake.stated import Hinge, Stated, StatedAlternative, StatedKind, StatedPart
 from ...mesh import Mesh
 from ...models.detector.canvas import Sort, look_at
-from ...models.detector.decode import Dense
 from ...part import Part, PartKind, Proposer
 from ...views.raster import Side
 from ..articulator import Articulator, HypothesisMaker
@@ -49,6 +48,8 @@ LEAST_CHANCE = 0.05
 BELIEVED = 0.85
 #: Kinds of object of which the detector learned too little to fix anything.
 STRANGE = frozenset({"gadget", "window", "box", "door"})
+#: Kinds of object whose rows of knobs are turned; on others, such as cabinets, they are pulled.
+KNOBBED = frozenset({"oven", "microwave", "dishwasher", "washer"})
 #: The line that a lid turns about is this far from its middle to its side.
 AT_SIDE = 0.5
 #: Of this kind the screen is looked for where it stands open.
@@ -118,7 +119,7 @@ class DetectedArticulator(HypothesisMaker):
         moves = bool(guess.movable_joints)
         if detection.kind not in STRANGE:
             cells = CellParts.of(guess, faces)
-            guess, moves = self._agreed(guess, cells, detection.dense, least, sure)
+            guess, moves = self._agreed(guess, cells, detection, least, sure)
         left = [part for part in rated if part not in sure]
         cells = CellParts.of(guess, faces)
         gone = _misplaced(cells, sure)
@@ -185,7 +186,7 @@ class DetectedArticulator(HypothesisMaker):
         self,
         guess: Articulation,
         cells: CellParts,
-        dense: Dense,
+        detection: Detection,
         least: float,
         sure: Sequence[DetectedPart],
     ) -> tuple[Articulation, bool]:
@@ -200,10 +201,13 @@ class DetectedArticulator(HypothesisMaker):
         alone = False
         for joint in guess.joints:
             part = guess.parts[joint.child]
-            support = cells.support(joint.child, dense) if part.kind in ASKED else None
+            asked = part.kind in ASKED
+            support = cells.support(joint.child, detection.dense) if asked else None
             confidence = part.confidence or 0.0
             ruled = _is_ruled(part)
             if support is None:
+                if _is_by(part, Proposer.SIDES) and detection.kind not in KNOBBED:
+                    continue
                 kept.append(joint.child)
                 alone |= ruled
                 continue
@@ -328,9 +332,12 @@ def _pulls(cells: CellParts, beside: Sequence[DetectedPart]) -> list[int]:
 
 
 def _is_ruled(part: Part) -> bool:
-    """Tell whether rules of shape found a part and say what it is."""
-    ruled = part.source is not None and part.source.proposer is Proposer.RULES
-    return ruled and part.kind is not PartKind.PART
+    """Tell whether rules of shape found a part, or a row of knobs, and say what it is."""
+    return _is_by(part, Proposer.RULES, Proposer.SIDES) and part.kind is not PartKind.PART
+
+
+def _is_by(part: Part, *proposers: Proposer) -> bool:
+    return part.source is not None and part.source.proposer in proposers
 
 
 def _said(part: DetectedPart, least: float) -> str:

@@ -79,6 +79,14 @@ def test_a_ball_before_a_slab_is_as_far_away_as_it_is_where_fcl_points_elsewhere
     assert first.stand(second).depth == pytest.approx(0.5 - ball[:, 2].min(), rel=1e-6)
 
 
+def test_hulls_that_share_one_corner_have_no_gap():
+    corners, _ = box(np.ones(3))
+    diagonal = np.full(3, 3.0**-0.5)
+    found = widest_gap(convex_hull(corners - 0.5), convex_hull(corners + 0.5), diagonal)
+    assert found.depth == pytest.approx(0.0, abs=1e-12)
+    np.testing.assert_array_equal(found.direction, diagonal)
+
+
 @settings(max_examples=30, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_widest_gap_is_the_distance(seed):
