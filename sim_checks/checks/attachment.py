@@ -11,7 +11,7 @@ from ..config import LintConfig
 from ..description import Description, FloatArray, IntArray, JointLine
 from ..geometry.collision import Skin
 from ..geometry.kinematics import build_tree, sweep_range
-from ..geometry.path import joint_path
+from ..geometry.path import joint_axis
 from ..geometry.placing import box_gap, joined, placed
 from .result import CheckResult, about, error, in_mm
 
@@ -119,6 +119,6 @@ class _Surfaces:
 
     def _along(self, joint: JointLine, length: float, vertices: FloatArray) -> Iterator[FloatArray]:
         """Yield points that a joint moves, given at lower, at poses along its range."""
-        path = joint_path(joint, self._poses[joint.child], length)
+        path = joint_axis(joint, self._poses[joint.child]).path(length)
         for pose in path.poses(np.linspace(0.0, length, POSES)):
             yield placed(vertices, pose)

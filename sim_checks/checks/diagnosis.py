@@ -13,7 +13,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..geometry.path import Path
+from ..geometry.path import JointAxis
 from .cause import MOST_OF_THE_RANGE, Way, shown_cause
 from .joint_sweep import JointCourse, clear_until
 from .pairs import RestingSolids
@@ -119,7 +119,7 @@ class Diagnosis:
         tried = (replace(course, motion=item).run() for item in self._other_motions(course))
         return min((sweep.excess for sweep in tried), default=None)
 
-    def _other_motions(self, course: JointCourse) -> tuple[Path, ...]:
+    def _other_motions(self, course: JointCourse) -> tuple[JointAxis, ...]:
         """Yield the joint turned around; and a hinge at either edge, the far one both ways.
 
         None for a joint that others follow: turned around, it would take them to where they never
@@ -127,8 +127,8 @@ class Diagnosis:
         """
         if self.rest.solids.tree.followers(course.joint):
             return ()
-        own = course.path()
-        if own.turning and own.length >= WHOLE_TURN:
+        own = course.line()
+        if own.turning and course.length >= WHOLE_TURN:
             return ()
         around = replace(own, axis=-own.axis)
         solids = self.rest.solids
@@ -146,7 +146,7 @@ class Diagnosis:
         nearer = own.origin + near * widest
         farther = own.origin + far * widest
         hung = [(own, nearer), (own, farther), (around, farther)]
-        return (around, *(replace(path, origin=edge) for path, edge in hung))
+        return (around, *(replace(line, origin=edge) for line, edge in hung))
 
     def _met_open(self, contact: AnyContact) -> AnyContact:
         """Tell only causes that the surfaces show: two open joints may meet by design."""

@@ -14,14 +14,14 @@ import numpy as np
 from ..config import PenetrationConfig
 from ..description import FloatArray
 from ..geometry.depth import contact_region
-from ..geometry.path import Path
+from ..geometry.path import JointAxis
 from ..geometry.solids import SolidPair, Solids
 
 
 def knuckles(
     solids: Solids,
     overlaps: Sequence[SolidPair],
-    path: Path,
+    line: JointAxis,
     moving: int,
     config: PenetrationConfig,
 ) -> frozenset[tuple[int, int]]:
@@ -33,20 +33,20 @@ def knuckles(
     for pair in overlaps:
         one, other = (solids.items[index].collider.hull for index in (pair.first, pair.second))
         region = contact_region(one, other)
-        if len(region) and within(region, path, config.hinge_radius_m):
+        if len(region) and within(region, line, config.hinge_radius_m):
             inside[pair.first, pair.second] = region
     if not inside:
         return frozenset()
     turning = [item.collider.hull.vertices for item in solids.items if item.part == moving]
-    length = float(np.ptp(np.vstack(turning) @ path.axis))
-    heights = [region @ path.axis for region in inside.values()]
+    length = float(np.ptp(np.vstack(turning) @ line.axis))
+    heights = [region @ line.axis for region in inside.values()]
     taken = _covered([(float(each.min()), float(each.max())) for each in heights])
     return frozenset(inside) if taken <= config.hinge_share * length else frozenset()
 
 
-def within(region: FloatArray, path: Path, radius: float) -> bool:
-    """Return whether every point lies within ``radius`` [m] of the axis."""
-    return bool(np.linalg.norm(path.orbit(region).radial, axis=1).max() <= radius)
+def within(region: FloatArray, line: JointAxis, radius: float) -> bool:
+    """Return whether every point lies within ``radius`` [m] of the line."""
+    return bool(np.linalg.norm(line.arms(region), axis=1).max() <= radius)
 
 
 def _covered(spans: list[tuple[float, float]]) -> float:

@@ -10,10 +10,9 @@ from operator import itemgetter
 import numpy as np
 
 from ..description import FloatArray, JointLine
-from ..geometry.coupled_path import AnyPath, CoupledPath
 from ..geometry.depth import contact_region
 from ..geometry.looks import LookBudget
-from ..geometry.path import Path, joint_path
+from ..geometry.path import JointAxis, Path, joint_axis
 from ..geometry.solids import SolidGroup
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
 from .hinge import within
@@ -69,7 +68,7 @@ class JointCourse:
     rest: RestingSolids
     values: Mapping[str, float]
     only: frozenset[PartPair] | None = None
-    motion: Path | None = None
+    motion: JointAxis | None = None
     located: bool = True
     looks: LookBudget | None = None
     decides: bool = False
@@ -91,13 +90,13 @@ class JointCourse:
         ordered = tuple(found[key] for key in sorted(found))
         return JointSweep(self.joint, start, end, ordered, looks)
 
-    def path(self) -> Path:
-        """Return the motion of the joint by itself; the solids are placed where it starts."""
-        own = joint_path(self.joint, self._placed()[self.joint.child], self._length)
-        return own if self.motion is None else replace(self.motion, length=self._length)
+    def line(self) -> JointAxis:
+        """Return the line of the joint's own motion; the solids are placed where it starts."""
+        return joint_axis(self.joint, self._placed()[self.joint.child])
 
     @property
-    def _length(self) -> float:
+    def length(self) -> float:
+        """Return how far it goes [rad] or [m]."""
         return self.rest.upper[self.joint.name] - self.rest.lower[self.joint.name]
 
     def _placed(self) -> Mapping[str, FloatArray]:
@@ -118,9 +117,9 @@ class JointCourse:
         solids = self.rest.solids
         poses = self._placed()
         if self.motion is not None:
-            path: AnyPath = self.path()
+            path = self.motion.path(self.length)
         else:
-            path = solids.seen(moving, standing, poses, self._length)
+            path = solids.seen(moving, standing, poses, self.length)
         colliders = [solids.items[index].collider for index in moving.solids]
         corners = [np.zeros((0, 3)), *(collider.hull.vertices for collider in colliders)]
         reach = path.travel(np.vstack(corners))
@@ -128,7 +127,7 @@ class JointCourse:
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
         still = [solids.items[index].collider for index in standing.solids]
         sweep = Sweep(path, colliders, still, steps, self.looks or solids.looks)
-        frame = solids.way(standing, poses, self._length) if standing.ways else None
+        frame = solids.way(standing, poses, self.length) if standing.ways else None
         return _Encounter(self, sweep, moving.solids, standing.solids, frame)
 
 
@@ -147,7 +146,7 @@ class _Encounter:
     sweep: Sweep
     moving: Sequence[int]
     standing: Sequence[int]
-    frame: AnyPath | None
+    frame: Path | None
 
     def pairs(self) -> Iterator[PairSweep]:
         """Yield the worst places, one or more for each pair of parts and kind."""
@@ -207,9 +206,8 @@ class _Encounter:
         """Return a knuckle stays within its radius and never gains more than it had."""
         items = self.course.rest.solids.items
         config = self.course.rest.config
-        path = self.sweep.path
         # What a hinge joins, it alone moves against one another.
-        line = path.steps[0][0] if isinstance(path, CoupledPath) else path
+        line, _ = self.sweep.path.steps[0]
         region = contact_region(items[first].collider.hull, items[second].collider.hull)
         near = len(region) == 0 or within(region, line, config.hinge_radius_m)
         return near and worst.excess <= max(config.excess_m, worst.candidate.rest)

@@ -15,7 +15,6 @@ from itertools import product
 import numpy as np
 
 from ..description import BoolArray, FloatArray, JointLine
-from ..geometry.coupled_path import swept_boxes
 from ..geometry.looks import LookBudget, TooManyLooks
 from ..geometry.placing import box_around
 from ..geometry.solids import Solids
@@ -167,7 +166,7 @@ def _swept(rest: RestingSolids, joints: list[JointLine]) -> Mapping[str, FloatAr
             if group.solids:
                 hulls = [solids.items[index].collider.hull for index in group.solids]
                 points = np.vstack([hull.vertices for hull in hulls])
-                found.append(swept_boxes(solids.seen(group, stands, poses, length), points))
+                found.append(solids.seen(group, stands, poses, length).swept_boxes(points))
         if found:
             boxes[joint.name] = np.vstack(found)
     return boxes

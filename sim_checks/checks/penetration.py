@@ -16,7 +16,7 @@ from ..config import PenetrationConfig, WorkConfig
 from ..description import Description, FloatArray
 from ..geometry.kinematics import build_tree
 from ..geometry.looks import LookBudget, TooManyLooks
-from ..geometry.path import joint_path
+from ..geometry.path import joint_axis
 from ..geometry.solids import SolidPair, Solids
 from .diagnosis import Diagnosis
 from .extent import beyond
@@ -105,8 +105,8 @@ def _knuckles(rest: RestingSolids, poses: Mapping[str, FloatArray]) -> frozenset
             continue
         first, second = sorted((part_of[joint.parent], part_of[joint.child]))
         overlaps = overlapping.get((first, second), [])
-        path = joint_path(joint, poses[joint.child], 0.0)
-        found |= knuckles(rest.solids, overlaps, path, part_of[joint.child], rest.config)
+        line = joint_axis(joint, poses[joint.child])
+        found |= knuckles(rest.solids, overlaps, line, part_of[joint.child], rest.config)
     return frozenset(found)
 
 

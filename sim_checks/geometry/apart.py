@@ -7,9 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..description import Description, FloatArray
-from .coupled_path import swept_boxes
 from .kinematics import find_tree
-from .path import joint_path
+from .path import joint_axis
 from .placing import box_around, placed, shape_corners
 
 #: What two joints of a group move stays further apart than this [m]; engines keep margins of up to
@@ -39,8 +38,8 @@ def joints_apart(description: Description) -> tuple[tuple[str, ...], ...]:
             continue
         points = np.vstack([corners[name] for name in sorted(links)])
         lower, upper = tree.ranges[joint.name]
-        path = joint_path(joint, poses[joint.child], upper - lower)
-        box = box_around([swept_boxes(path, points)]) if len(points) else NOWHERE
+        path = joint_axis(joint, poses[joint.child]).path(upper - lower)
+        box = box_around([path.swept_boxes(points)]) if len(points) else NOWHERE
         group = next((each for each in groups if _are_apart(box, each)), None)
         if group is None:
             groups.append({joint.name: box})

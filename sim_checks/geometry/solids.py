@@ -9,13 +9,12 @@ import numpy as np
 
 from ..description import Description, FloatArray, JointLine
 from .collision import Collider
-from .coupled_path import AnyPath, CoupledPath
 from .coupling import leaders
 from .depth import HullOverlap
 from .hull import FlatHull, convex_hull
 from .kinematics import Poser, Tree
 from .looks import LookBudget
-from .path import joint_path
+from .path import Path, joint_axis
 from .placing import diagonal
 
 
@@ -160,7 +159,7 @@ class Solids:
         standing: SolidGroup,
         poses: Mapping[str, FloatArray],
         length: float,
-    ) -> AnyPath:
+    ) -> Path:
         """Return how one group moves as seen from another, from the posed values on.
 
         Links said to be fixed keep their place at the start; :meth:`way` says where they go.
@@ -170,24 +169,11 @@ class Solids:
         while names[0][: shared + 1] == names[1][: shared + 1] and shared < len(names[0]):
             shared += 1
         back = [(joint, -rate) for joint, rate in reversed(standing.ways[shared:])]
-        steps = [*back, *moving.ways[shared:]]
-        if len(steps) == 1 and steps[0][1] == 1.0:
-            joint = steps[0][0]
-            return joint_path(joint, poses[joint.child], length)
-        return self._coupled(steps, poses, length)
+        return _path([*back, *moving.ways[shared:]], poses, length)
 
-    def way(self, group: SolidGroup, poses: Mapping[str, FloatArray], length: float) -> CoupledPath:
+    def way(self, group: SolidGroup, poses: Mapping[str, FloatArray], length: float) -> Path:
         """Return how a group moves in the world, from the posed values on."""
-        return self._coupled(group.ways, poses, length)
-
-    def _coupled(
-        self,
-        steps: Sequence[tuple[JointLine, float]],
-        poses: Mapping[str, FloatArray],
-        length: float,
-    ) -> CoupledPath:
-        paths = ((joint_path(j, poses[j.child], abs(rate) * length), rate) for j, rate in steps)
-        return CoupledPath(tuple(paths), length)
+        return _path(group.ways, poses, length)
 
     def between(self, first: int, second: int) -> frozenset[str]:
         """Return the names of the free joints that move two parts against one another."""
@@ -206,6 +192,12 @@ class Solids:
     def _rate(self, joint: JointLine, other: JointLine) -> float:
         start, end = (self.tree.value_of(other.name, {joint.name: value}) for value in (0.0, 1.0))
         return end - start
+
+
+def _path(
+    ways: Sequence[tuple[JointLine, float]], poses: Mapping[str, FloatArray], length: float
+) -> Path:
+    return Path(tuple((joint_axis(j, poses[j.child]), rate) for j, rate in ways), length)
 
 
 def _steps(tree: Tree, part_of: Mapping[str, int]) -> tuple[tuple[int, int, JointLine], ...]:

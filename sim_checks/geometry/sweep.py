@@ -17,10 +17,9 @@ import numpy as np
 
 from ..description import BoolArray, FloatArray
 from .collision import Collider
-from .coupled_path import AnyPath, CoupledOrbit
 from .depth import HullOverlap
 from .looks import LookBudget
-from .path import Orbit
+from .path import CoupledOrbit, Orbit, Path
 from .placing import box_around, box_corners
 
 #: Intervals of the path in which what is far from everything is told.
@@ -118,7 +117,7 @@ class Sweep:
 
     def __init__(
         self,
-        path: AnyPath,
+        path: Path,
         moving: Sequence[Collider],
         standing: Sequence[Collider],
         steps: int,

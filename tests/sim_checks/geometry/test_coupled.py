@@ -14,9 +14,8 @@ from asset_factory.sim_checks.checks.pairs import RestingSolids
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.description import Mimic
-from asset_factory.sim_checks.geometry.coupled_path import CoupledPath
 from asset_factory.sim_checks.geometry.kinematics import build_tree
-from asset_factory.sim_checks.geometry.path import Path
+from asset_factory.sim_checks.geometry.path import JointAxis, Path
 from asset_factory.sim_checks.geometry.solids import Solids
 
 CONFIG = PenetrationConfig()
@@ -164,10 +163,9 @@ def test_no_point_gets_beyond_the_bounds_between_two_places(seed):
         axis = generator.normal(size=3)
         turning = bool(generator.integers(2))
         unit = axis / np.linalg.norm(axis)
-        path = Path(turning, generator.normal(size=3), unit, 1.0)
-        return path, generator.uniform(-2, 2)
+        return JointAxis(turning, generator.normal(size=3), unit), generator.uniform(-2, 2)
 
-    path = CoupledPath(tuple(line() for _ in range(generator.integers(1, 5))), 1.5)
+    path = Path(tuple(line() for _ in range(generator.integers(1, 5))), 1.5)
     points = box_hull((0.3, 0.0, 0.0), (0.5, 0.2, 0.1)).vertices
     places = np.linspace(0.0, path.length, 5)
     direction = generator.normal(size=3)
@@ -188,10 +186,10 @@ def test_no_point_gets_beyond_the_bounds_between_two_places(seed):
 
 def test_the_inverse_undoes_the_motion():
     steps = (
-        (Path(True, np.ones(3), np.array(Z), 1.0), 0.7),
-        (Path(False, np.zeros(3), np.array(Z), 1.0), -2.0),
+        (JointAxis(True, np.ones(3), np.array(Z)), 0.7),
+        (JointAxis(False, np.zeros(3), np.array(Z)), -2.0),
     )
-    path = CoupledPath(steps, 1.0)
+    path = Path(steps, 1.0)
     assert path.pose(0.6) @ path.inverse().pose(0.6) == pytest.approx(np.eye(4), abs=1e-12)
     assert path.unturned(path.pose(0.6)[:3, 0], 0.6) == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
 
