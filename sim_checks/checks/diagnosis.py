@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from typing import TypeVar
 
 import numpy as np
@@ -31,11 +31,14 @@ class Diagnosis:
 
     Attributes:
         rest: the solids, and contacts at rest, with which every joint's are compared.
-        visible: what the parts show.
     """
 
     rest: RestingSolids
-    visible: Visible
+
+    @cached_property
+    def visible(self) -> Visible:
+        """Return what the parts show."""
+        return Visible(self.rest)
 
     def explained(self, study: PenetrationStudy) -> PenetrationStudy:
         """Return the same study, with visible surfaces and a cause for all that is too deep."""
@@ -133,10 +136,9 @@ class Diagnosis:
         around = replace(own, axis=-own.axis)
         solids = self.rest.solids
         links = solids.tree.below(course.joint)
-        moving = [item.collider.hull.vertices for item in solids.items if item.link in links]
-        if not own.turning or not moving:
+        points = solids.points(i for i, item in enumerate(solids.items) if item.link in links)
+        if not own.turning or not len(points):
             return (around,)
-        points = np.vstack(moving)
         across = points - points.mean(axis=0)
         across -= np.outer(across @ own.axis, own.axis)
         widest = np.linalg.svd(across, full_matrices=False)[2][0]

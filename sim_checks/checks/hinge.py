@@ -15,30 +15,30 @@ from ..config import PenetrationConfig
 from ..description import FloatArray
 from ..geometry.depth import contact_region
 from ..geometry.path import JointAxis
-from ..geometry.solids import SolidPair, Solids
+from ..geometry.solids import HullPair, Solids
 
 
 def knuckles(
     solids: Solids,
-    overlaps: Sequence[SolidPair],
+    overlaps: Sequence[HullPair],
     line: JointAxis,
     moving: int,
     config: PenetrationConfig,
-) -> frozenset[tuple[int, int]]:
-    """Return the pairs of solids (first, second) whose overlap at rest is this hinge's knuckle.
+) -> frozenset[HullPair]:
+    """Return the pairs of solids whose overlap at rest is this hinge's knuckle.
 
     Solids are placed at rest; those that overlap are all of the two parts that the hinge joins.
     """
-    inside: dict[tuple[int, int], FloatArray] = {}
+    inside: dict[HullPair, FloatArray] = {}
     for pair in overlaps:
-        one, other = (solids.items[index].collider.hull for index in (pair.first, pair.second))
+        one, other = (solids.items[index].collider.hull for index in pair)
         region = contact_region(one, other)
         if len(region) and within(region, line, config.hinge_radius_m):
-            inside[pair.first, pair.second] = region
+            inside[pair] = region
     if not inside:
         return frozenset()
-    turning = [item.collider.hull.vertices for item in solids.items if item.part == moving]
-    length = float(np.ptp(np.vstack(turning) @ line.axis))
+    turning = solids.points(np.flatnonzero(solids.parts == moving).tolist())
+    length = float(np.ptp(turning @ line.axis))
     heights = [region @ line.axis for region in inside.values()]
     taken = _covered([(float(each.min()), float(each.max())) for each in heights])
     return frozenset(inside) if taken <= config.hinge_share * length else frozenset()

@@ -40,11 +40,10 @@ def clear_until(course: JointCourse, failing: PairSweep) -> float:
     fails = failing.at
     for _ in range(CLEAR_HALVINGS):
         middle = (clear + fails) / 2.0
-        rest = replace(course.rest, upper={**course.rest.upper, name: middle})
-        pairs = replace(course, rest=rest).run().pairs
+        pairs = replace(course, until=middle).run().pairs
         alike = (pair for pair in pairs if pair.kind is kind)
         worst = max((pair.excess for pair in alike), default=0.0)
-        clear, fails = (middle, fails) if worst <= rest.config.excess_m else (clear, middle)
+        clear, fails = (middle, fails) if worst <= course.rest.config.excess_m else (clear, middle)
     return clear
 
 
@@ -54,7 +53,7 @@ class JointCourse:
 
     Attributes:
         joint: which moves; it follows no other.
-        rest: the solids, their contacts at rest, and the range.
+        rest: the solids, and their contacts at rest.
         values: where the other joints stand [rad] or [m]; of those that follow none.
         only: the pairs of parts to look at; ``None`` for all.
         motion: another motion than the joint's own, from the same start; only for one that has no
@@ -62,6 +61,7 @@ class JointCourse:
         located: say where in space the pairs meet, too.
         looks: that are counted; ``None`` for those of the file.
         decides: tell only whether pairs penetrate too deeply, not how deep.
+        until: where it ends [rad] or [m]; ``None`` for upper.
     """
 
     joint: JointLine
@@ -72,11 +72,11 @@ class JointCourse:
     located: bool = True
     looks: LookBudget | None = None
     decides: bool = False
+    until: float | None = None
 
     def run(self) -> JointSweep:
         """Return the worst of every pair of parts along the way."""
         start = self.rest.lower[self.joint.name]
-        end = self.rest.upper[self.joint.name]
         found: dict[tuple[PartPair, PairKind], PairSweep] = {}
         looks = 0
         # Without followers there are two groups only: what moves and what stands.
@@ -88,7 +88,7 @@ class JointCourse:
                     found[key] = pair
             looks += encounter.sweep.looks
         ordered = tuple(found[key] for key in sorted(found))
-        return JointSweep(self.joint, start, end, ordered, looks)
+        return JointSweep(self.joint, start, start + self.length, ordered, looks)
 
     def line(self) -> JointAxis:
         """Return the line of the joint's own motion; the solids are placed where it starts."""
@@ -97,7 +97,9 @@ class JointCourse:
     @property
     def length(self) -> float:
         """Return how far it goes [rad] or [m]."""
-        return self.rest.upper[self.joint.name] - self.rest.lower[self.joint.name]
+        name = self.joint.name
+        end = self.rest.upper[name] if self.until is None else self.until
+        return end - self.rest.lower[name]
 
     def _placed(self) -> Mapping[str, FloatArray]:
         name = self.joint.name
@@ -120,13 +122,12 @@ class JointCourse:
             path = self.motion.path(self.length)
         else:
             path = solids.seen(moving, standing, poses, self.length)
-        colliders = [solids.items[index].collider for index in moving.solids]
-        corners = [np.zeros((0, 3)), *(collider.hull.vertices for collider in colliders)]
-        reach = path.travel(np.vstack(corners))
+        reach = path.travel(solids.points(moving.solids))
         step = self.rest.config.step_fraction * self.rest.diagonal
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
-        still = [solids.items[index].collider for index in standing.solids]
-        sweep = Sweep(path, colliders, still, steps, self.looks or solids.looks)
+        groups = (moving, standing)
+        mover, still = ([solids.items[i].collider for i in group.solids] for group in groups)
+        sweep = Sweep(path, mover, still, steps, self.looks or solids.looks)
         frame = solids.way(standing, poses, self.length) if standing.ways else None
         return _Encounter(self, sweep, moving.solids, standing.solids, frame)
 
@@ -190,12 +191,11 @@ class _Encounter:
         first = self.moving[worst.candidate.moving]
         second = self.standing[worst.candidate.standing]
         sweep.place(worst.candidate.moving, worst.at)
-        if kind is PairKind.HINGE and not self._still_knuckle(first, second, worst):
-            kind = PairKind.PLAIN
         at = course.rest.lower[course.joint.name] + float(worst.at)
         pose = {**course.values, course.joint.name: at}
-        where = (first, second, worst.depth, kind, pose)
-        contact = course.rest.contact(*where, located=course.located)
+        contact = course.rest.contact(first, second, worst.depth, pose, located=course.located)
+        if kind is PairKind.HINGE and not self._still_knuckle(first, second, worst):
+            contact = replace(contact, kind=PairKind.PLAIN)
         if contact.point is not None and self.frame is not None:
             frame = self.frame.pose(worst.at)
             point = frame[:3, :3] @ contact.point + frame[:3, 3]

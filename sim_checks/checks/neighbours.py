@@ -16,7 +16,7 @@ import numpy as np
 
 from ..description import BoolArray, FloatArray, JointLine
 from ..geometry.looks import LookBudget, TooManyLooks
-from ..geometry.placing import box_around
+from ..geometry.placing import box_around, boxes_near
 from ..geometry.solids import Solids
 from .joint_sweep import JointCourse, clear_until
 from .pairs import RestingSolids
@@ -89,7 +89,7 @@ class _Together:
             obstructed = len(failing) == GRID
             at = failing[0] if obstructed else self._deepest(joint, other, parts, tried)
             if at is not None and tried[at].excess > 0.0:
-                yield BothOpen(joint, other, at, tried[at], obstructed)
+                yield BothOpen(joint, other, tried[at], obstructed)
 
     def _deepest(
         self, joint: JointLine, other: JointLine, parts: PartPair, tried: dict[float, PairSweep]
@@ -134,13 +134,11 @@ def _near(rest: RestingSolids) -> Iterator[tuple[JointLine, JointLine]]:
     for index, joint in enumerate(joints):
         if joint.name in swept:
             around[index] = box_around([swept[joint.name]])
-    for index, first in enumerate(joints):
-        # What is around all of it is compared first: most pairs of joints are far apart.
-        low, high = around[index]
-        close = ((around[:, 0] < high) & (low < around[:, 1])).all(axis=1) & independent[:, index]
-        for second in (joints[i] for i in np.flatnonzero(close) if i > index):
-            if _meet(swept[first.name], swept[second.name]):
-                yield first, second
+    # What is around all of it is compared first: most pairs of joints are far apart.
+    for pair in np.argwhere(np.triu(independent & boxes_near(around, around))).tolist():
+        first, second = (joints[index] for index in pair)
+        if boxes_near(swept[first.name], swept[second.name]).any():
+            yield first, second
 
 
 def _independent(solids: Solids, joints: list[JointLine]) -> BoolArray:
@@ -161,21 +159,11 @@ def _swept(rest: RestingSolids, joints: list[JointLine]) -> Mapping[str, FloatAr
     for joint in joints:
         length = rest.upper[joint.name] - rest.lower[joint.name]
         stands, *groups = solids.groups(joint)
-        found = []
-        for group in groups:
-            if group.solids:
-                hulls = [solids.items[index].collider.hull for index in group.solids]
-                points = np.vstack([hull.vertices for hull in hulls])
-                found.append(solids.seen(group, stands, poses, length).swept_boxes(points))
+        paths = ((g, solids.seen(g, stands, poses, length)) for g in groups if g.solids)
+        found = [path.swept_boxes(solids.points(group.solids)) for group, path in paths]
         if found:
             boxes[joint.name] = np.vstack(found)
     return boxes
-
-
-def _meet(swept: FloatArray, boxes: FloatArray) -> bool:
-    low = swept[:, None, 0]
-    high = swept[:, None, 1]
-    return bool(((low < boxes[None, :, 1]) & (boxes[None, :, 0] < high)).all(axis=2).any())
 
 
 def _parts(solids: Solids, joint: JointLine) -> frozenset[int]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 
 from ..config import PenetrationConfig
 from ..geometry.depth import HullOverlap, contact_region
-from ..geometry.solids import SolidPair, Solids
+from ..geometry.solids import HullPair, Solids
 from .penetration_study import Contact, PairKind, PartPair
 
 
@@ -18,31 +17,31 @@ class RestingSolids:
 
     Attributes:
         solids: posed by whoever asks.
-        excluded: pairs of links that the file forbids to collide.
         config: limits, and steps of the search along a joint.
-        lower, upper: the ends of the range of every joint that follows no other [rad] or [m].
-        standings: pairs of solids that are near each other at rest.
+        standings: how solids stand that are near each other at rest, see :meth:`Solids.standings`.
         diagonal: of the object there [m].
         knuckles: pairs of solids (lower index first) that are some hinge's knuckle.
     """
 
     solids: Solids
-    excluded: frozenset[frozenset[str]]
     config: PenetrationConfig
-    lower: Mapping[str, float]
-    upper: Mapping[str, float]
-    standings: tuple[SolidPair, ...]
+    standings: Mapping[HullPair, HullOverlap]
     diagonal: float
-    knuckles: frozenset[PartPair] = frozenset()
+    knuckles: frozenset[HullPair] = frozenset()
 
-    @cached_property
-    def _overlaps(self) -> Mapping[PartPair, HullOverlap]:
-        """How the solids of ``standings`` stand, by their indices."""
-        return {(pair.first, pair.second): pair.overlap for pair in self.standings}
+    @property
+    def lower(self) -> Mapping[str, float]:
+        """Return where every joint that follows no other is at rest [rad] or [m]."""
+        return self.solids.tree.closed
+
+    @property
+    def upper(self) -> Mapping[str, float]:
+        """Return the other ends of their ranges [rad] or [m]."""
+        return self.solids.tree.opened
 
     def overlap(self, first: int, second: int) -> HullOverlap | None:
         """Return how two solids stand at rest, the lower index first; ``None`` if not near."""
-        return self._overlaps.get((min(first, second), max(first, second)))
+        return self.standings.get((min(first, second), max(first, second)))
 
     def depth(self, first: int, second: int) -> float:
         """Return how deep two solids penetrate each other at rest [m]; 0 where they do not."""
@@ -52,7 +51,7 @@ class RestingSolids:
     def kind(self, first: int, second: int) -> PairKind:
         """Return how an overlap of the pair counts."""
         links = frozenset((self.solids.items[first].link, self.solids.items[second].link))
-        if links in self.excluded:
+        if links in self.solids.description.excluded:
             return PairKind.EXCLUDED
         pair = min(first, second), max(first, second)
         return PairKind.HINGE if pair in self.knuckles else PairKind.PLAIN
@@ -68,7 +67,6 @@ class RestingSolids:
         first: int,
         second: int,
         depth: float,
-        kind: PairKind,
         pose: Mapping[str, float],
         *,
         located: bool = True,
@@ -86,17 +84,17 @@ class RestingSolids:
             point = tuple(float(x) for x in region.mean(axis=0)) if len(region) else None
         which = (self.parts(first, second), (first, second))
         names = ((a.link, b.link), (a.shape, b.shape))
+        kind = self.kind(first, second)
         return Contact(*which, *names, depth, self.depth(first, second), point, kind, pose)
 
     def worst(
-        self, standings: Iterable[SolidPair], pose: Mapping[str, float]
+        self, standings: Mapping[HullPair, HullOverlap], pose: Mapping[str, float]
     ) -> tuple[Contact, ...]:
         """Return the deepest contact of every pair of parts and kind, in the order of parts."""
-        deepest: dict[tuple[PartPair, PairKind], SolidPair] = {}
-        for pair in standings:
-            key = self.parts(pair.first, pair.second), self.kind(pair.first, pair.second)
-            if key not in deepest or pair.overlap.depth > deepest[key].overlap.depth:
+        deepest: dict[tuple[PartPair, PairKind], HullPair] = {}
+        for pair, overlap in standings.items():
+            key = self.parts(*pair), self.kind(*pair)
+            if key not in deepest or overlap.depth > standings[deepest[key]].depth:
                 deepest[key] = pair
-        found = ((deepest[key], key[1]) for key in sorted(deepest))
-        told = ((each.first, each.second, each.overlap.depth, kind) for each, kind in found)
-        return tuple(self.contact(*each, pose) for each in told)
+        found = (deepest[key] for key in sorted(deepest))
+        return tuple(self.contact(*pair, standings[pair].depth, pose) for pair in found)

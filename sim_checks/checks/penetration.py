@@ -17,7 +17,7 @@ from ..description import Description, FloatArray
 from ..geometry.kinematics import build_tree
 from ..geometry.looks import LookBudget, TooManyLooks
 from ..geometry.path import joint_axis
-from ..geometry.solids import SolidPair, Solids
+from ..geometry.solids import HullPair, Solids
 from .diagnosis import Diagnosis
 from .extent import beyond
 from .hinge import knuckles
@@ -27,7 +27,6 @@ from .pairs import RestingSolids
 from .penetration_report import report, told_parts
 from .penetration_study import Contact, PairKind, PartPair, PenetrationStudy
 from .result import CheckResult
-from .visible import Visible
 
 #: Depth that counts as touching [m].
 TOUCH = 1e-6
@@ -69,9 +68,8 @@ def _measured(
     tree = build_tree(description)
     solids = Solids(description, tree, looks)
     poses = solids.place(tree.closed)
-    standings = tuple(solids.standings(config.clearance_m))
-    known = (solids, description.excluded, config, tree.closed, tree.opened)
-    rest = RestingSolids(*known, standings, solids.diagonal())
+    standings = solids.standings(config.clearance_m)
+    rest = RestingSolids(solids, config, standings, solids.diagonal())
     rest = replace(rest, knuckles=_knuckles(rest, poses))
     # Contacts are located as the solids are placed, which sweeps change.
     at_rest = rest.worst(standings, rest.lower)
@@ -79,27 +77,24 @@ def _measured(
     asked = [joint for joint in tree.free if joint.name in tree.ranges]
     sweeps = judge_joints(asked, rest)
     study = PenetrationStudy(
-        diagonal=rest.diagonal,
-        parts=tree.parts,
-        hulls=len(solids.items),
         rest=at_rest,
         zero=at_zero,
         sweeps=sweeps,
         neighbours=open_neighbours(rest, told_parts(sweeps, config)),
         combinations=_combinations(rest),
     )
-    return report(Diagnosis(rest, Visible(description, rest)).explained(study), config)
+    return report(Diagnosis(rest).explained(study), rest)
 
 
-def _knuckles(rest: RestingSolids, poses: Mapping[str, FloatArray]) -> frozenset[PartPair]:
+def _knuckles(rest: RestingSolids, poses: Mapping[str, FloatArray]) -> frozenset[HullPair]:
     """Return every pair of solids that is some hinge's knuckle at rest."""
     tree = rest.solids.tree
     part_of = tree.part_of()
-    overlapping: dict[PartPair, list[SolidPair]] = {}
-    for pair in rest.standings:
-        if pair.overlap.depth > TOUCH:
-            overlapping.setdefault(rest.parts(pair.first, pair.second), []).append(pair)
-    found: set[PartPair] = set()
+    overlapping: dict[PartPair, list[HullPair]] = {}
+    for pair, overlap in rest.standings.items():
+        if overlap.depth > TOUCH:
+            overlapping.setdefault(rest.parts(*pair), []).append(pair)
+    found: set[HullPair] = set()
     for joint in tree.moving:
         if joint.kind == "prismatic" or not (joint.name in rest.lower or joint.name in tree.mimics):
             continue
@@ -124,14 +119,12 @@ def _combinations(rest: RestingSolids) -> tuple[Contact, ...]:
     worst: dict[PartPair, Contact] = {}
     for values in combination_values(rest.solids.tree.ranges, rest.config.combinations):
         rest.solids.place(values)
-        for pair in rest.solids.standings(0.0):
-            solids = (pair.first, pair.second)
-            if rest.kind(*solids) is not PairKind.PLAIN:
+        for pair, overlap in rest.solids.standings(0.0).items():
+            if rest.kind(*pair) is not PairKind.PLAIN:
                 continue
-            key = rest.parts(*solids)
-            depth = pair.overlap.depth
-            if key not in worst or depth - rest.depth(*solids) > worst[key].excess:
-                worst[key] = rest.contact(*solids, depth, PairKind.PLAIN, values)
+            key = rest.parts(*pair)
+            if key not in worst or overlap.depth - rest.depth(*pair) > worst[key].excess:
+                worst[key] = rest.contact(*pair, overlap.depth, values)
     return tuple(worst[key] for key in sorted(worst))
 
 

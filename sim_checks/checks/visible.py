@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..description import Description, FloatArray, Link
+from ..description import FloatArray, Link
 from ..geometry.depth import contact_region
 from ..geometry.gaps import visible_gap
 from ..geometry.loose import Sides, strayed
@@ -26,19 +26,17 @@ class Visible:
     """What the parts show.
 
     Attributes:
-        description: as read.
         rest: the hulls, posed anew by every question; at rest a stray piece is held against both
             parts.
     """
 
-    description: Description
     rest: RestingSolids
 
     @cached_property
     def surfaces(self) -> tuple[VisibleSurface | None, ...]:
         """Return each part's visible surface in its first link's frame; ``None`` without one."""
         tree = self.rest.solids.tree
-        links = {link.name: link for link in self.description.links}
+        links = {link.name: link for link in self.rest.solids.description.links}
         at_zero = tree.link_poses({})
         return tuple(_surface([links[name] for name in part], at_zero) for part in tree.parts)
 

@@ -55,13 +55,13 @@ class Tree:
         ranges = ((joint.name, coupled_range(self, joint)) for joint in self.free)
         return {name: limits for name, limits in ranges if limits is not None}
 
-    @property
-    def closed(self) -> dict[str, float]:
+    @cached_property
+    def closed(self) -> Mapping[str, float]:
         """Return every joint of :attr:`ranges` at lower [rad] or [m]."""
         return {name: lower for name, (lower, _) in self.ranges.items()}
 
-    @property
-    def opened(self) -> dict[str, float]:
+    @cached_property
+    def opened(self) -> Mapping[str, float]:
         """Return every joint of :attr:`ranges` at upper [rad] or [m]."""
         return {name: upper for name, (_, upper) in self.ranges.items()}
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +15,10 @@ from .hull import FlatHull, convex_hull
 from .kinematics import Poser, Tree
 from .looks import LookBudget
 from .path import Path, joint_axis
-from .placing import diagonal
+from .placing import boxes_near, diagonal
+
+#: Indices of two solids.
+HullPair = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -51,19 +54,11 @@ class SolidGroup:
     ways: tuple[tuple[JointLine, float], ...]
 
 
-@dataclass(frozen=True)
-class SolidPair:
-    """How two solids stand in some pose; ``overlap`` points from the first to the second."""
-
-    first: int
-    second: int
-    overlap: HullOverlap
-
-
 class Solids:
     """All hulls of a description, without shapes of no volume: they are a finding of their own.
 
     Attributes:
+        description: whose they are.
         tree: the joints.
         looks: exact looks at two hulls, that those who ask count, too.
     """
@@ -71,6 +66,7 @@ class Solids:
     def __init__(
         self, description: Description, tree: Tree, looks: LookBudget | None = None
     ) -> None:
+        self.description = description
         self.tree = tree
         self.looks = looks or LookBudget()
         part_of = tree.part_of()
@@ -103,24 +99,29 @@ class Solids:
         """Return the diagonal of the box around everything as placed [m]."""
         return diagonal([self.bounds()]) if self.items else 0.0
 
-    def standings(self, floor: float) -> Iterator[SolidPair]:
-        """Yield pairs of solids of different parts closer than ``floor`` [m], in a fixed order.
+    def points(self, indices: Iterable[int]) -> FloatArray:
+        """Return the corners of some solids as placed [m], shape [corner_count, 3]."""
+        corners = (self.items[index].collider.hull.vertices for index in indices)
+        return np.vstack([np.zeros((0, 3)), *corners])
+
+    def standings(self, floor: float) -> dict[HullPair, HullOverlap]:
+        """Return how solids of different parts stand that are closer than ``floor`` [m].
+
+        They come by their indices, ascending and in order; each overlap points from the first to
+        the second.
 
         Raises:
             TooManyLooks: the file has taken more than it may.
         """
         boxes = self.bounds()
-        if len(boxes) == 0:
-            return
-        close = np.triu(self.parts[:, None] != self.parts[None, :], 1)
-        for low, high in zip(boxes[:, 0].T, boxes[:, 1].T, strict=True):
-            reaches = low[:, None] - high[None, :] < floor
-            close &= reaches & reaches.T
-        for first, second in np.argwhere(close).tolist():
+        strangers = np.triu(self.parts[:, None] != self.parts[None, :], 1)
+        found = {}
+        for first, second in np.argwhere(strangers & boxes_near(boxes, boxes, floor)).tolist():
             self.looks.take()
             overlap = self.items[first].collider.stand(self.items[second].collider)
             if overlap.depth > -floor:
-                yield SolidPair(first, second, overlap)
+                found[first, second] = overlap
+        return found
 
     def groups(self, joint: JointLine) -> tuple[SolidGroup, ...]:
         """Return the solids grouped by how they move with ``joint`` and its followers.

@@ -20,7 +20,7 @@ from .collision import Collider
 from .depth import HullOverlap
 from .looks import LookBudget
 from .path import CoupledOrbit, Orbit, Path
-from .placing import box_around, box_corners
+from .placing import box_around, box_corners, boxes_near
 
 #: Intervals of the path in which what is far from everything is told.
 COARSE_STEPS = 8
@@ -138,11 +138,10 @@ class Sweep:
     def near(self, floor: float) -> BoolArray:
         """Tell which moving hulls may come within ``floor`` [m] of standing ones."""
         still = np.array([collider.bounds for collider in self.standing]).reshape(-1, 2, 3)
-        close = _within(self._reached(), still, floor + ROUNDING)
+        close = boxes_near(self._reached(), still, floor + ROUNDING)
         for index in np.flatnonzero(close.any(axis=1)).tolist():
-            boxes = self._swept(index)
-            around = box_around([boxes])
-            close[index] = _within(around[None], still, floor)[0]
+            around = box_around([self._swept(index)])
+            close[index] = boxes_near(around[None], still, floor)[0]
         return close
 
     def _reached(self) -> FloatArray:
@@ -285,12 +284,3 @@ class Sweep:
         if index not in self._standing_orbits:
             self._standing_orbits[index] = self._backwards.orbit(self.standing[index].hull.vertices)
         return self._standing_orbits[index]
-
-
-def _within(boxes: FloatArray, others: FloatArray, floor: float) -> BoolArray:
-    """Tell which boxes, [box_count, 2, 3], come within ``floor`` [m] of others."""
-    close = np.ones((len(boxes), len(others)), dtype=bool)
-    for axis in range(3):
-        close &= boxes[:, None, 0, axis] - others[None, :, 1, axis] < floor
-        close &= others[None, :, 0, axis] - boxes[:, None, 1, axis] < floor
-    return close
