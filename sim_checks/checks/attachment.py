@@ -10,7 +10,7 @@ import numpy as np
 from ..config import LintConfig
 from ..description import Description, FloatArray, IntArray, JointLine
 from ..geometry.collision import Skin
-from ..geometry.kinematics import build_tree, sweep_range
+from ..geometry.kinematics import Tree, find_tree, sweep_range
 from ..geometry.path import joint_axis
 from ..geometry.placing import box_gap, joined, placed
 from .result import CheckResult, about, error, in_mm
@@ -24,9 +24,13 @@ def check_attachment(description: Description, config: LintConfig) -> CheckResul
 
     Near is a finger's width, and a tenth of the part's size: racks ride on rails that no mesh has.
     """
-    surfaces = _Surfaces(description)
+    tree = find_tree(description)
+    if tree is None:
+        # There is no pose to look at, which the lint says.
+        return CheckResult()
+    surfaces = _Surfaces(description, tree)
     findings = []
-    for joint in surfaces.tree.moving:
+    for joint in tree.moving:
         gaps, size = surfaces.gaps(joint, config.finger_m, every=joint.kind != "prismatic")
         away = config.finger_m + config.near_share * size
         never = bool(gaps.min() > away)
@@ -45,8 +49,8 @@ def check_attachment(description: Description, config: LintConfig) -> CheckResul
 class _Surfaces:
     """The triangles of links, with every joint at lower, in the root's frame."""
 
-    def __init__(self, description: Description) -> None:
-        self.tree = build_tree(description)
+    def __init__(self, description: Description, tree: Tree) -> None:
+        self.tree = tree
         self._poses = self.tree.link_poses(self.tree.closed)
         self._links = {link.name: link for link in description.links}
         self._part_of = self.tree.part_of()
