@@ -16,7 +16,7 @@ from ..geometry.placing import rigid
 from ..read.mjcf_model import CompiledMechanism, begin_compiling, read_mechanism
 from ..read.read import format_of
 from ..read.srdf import exempt_pairs
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
 from .twin import twin_of
 
 WORLD = 0
@@ -26,7 +26,7 @@ FLOORS = ("plane", "hfield")
 SCALAR = ("hinge", "slide")
 
 
-class MujocoSimulator:
+class MujocoSimulator(Simulator):
     """MuJoCo on the file as it is: MJCF directly, URDF by its importer, nothing fused or cut."""
 
     name = "mujoco"
@@ -167,7 +167,7 @@ class MujocoWorld:
             self._mujoco.mj_contactForce(self._model, self._data, i, wrench)
             a, b = sorted(int(body) for body in self._model.geom_bodyid[self._data.contact.geom[i]])
             pair = (self.model.links[a].name, self.model.links[b].name)
-            found.add(pair, Touch(float(wrench[0]), -float(self._data.contact.dist[i])))
+            found.add(pair, float(wrench[0]), -float(self._data.contact.dist[i]))
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:

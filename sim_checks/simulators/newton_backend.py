@@ -11,14 +11,14 @@ from ..config import MotionConfig
 from ..read.read import format_of
 from .chatter import captured_lines
 from .mujoco_backend import MujocoWorld
-from .simulator import LoadedJoint, LoadedLink, PairRules
+from .simulator import LoadedJoint, LoadedLink, PairRules, Simulator
 from .twin import twin_of
 
 #: Newton speaks of a body as ``model/link``; its solver calls the same ``model_link``.
 SEPARATOR = "/"
 
 
-class NewtonSimulator:
+class NewtonSimulator(Simulator):
     """Newton's model of the file, stepped by its MuJoCo solver on the processor.
 
     Newton converts its model for MuJoCo once, and steps the same conversion by MuJoCo-Warp or by

@@ -18,7 +18,7 @@ from ..geometry.statics import GRAVITY
 from ..read.srdf import exempt_pairs
 from ..read.urdf import read_mimics
 from .pybullet_dynamics import BulletClient, Dynamics
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
 from .twin import twin_of
 
 BASE = -1
@@ -31,7 +31,7 @@ GEAR_ERP = 0.2
 GEAR_FORCE = 1e6
 
 
-class PybulletSimulator:
+class PybulletSimulator(Simulator):
     """PyBullet without a window."""
 
     name = "pybullet"
@@ -173,8 +173,7 @@ class PybulletWorld:
         found = Touches()
         for point in self._bullet.getContactPoints(self._body, self._body):
             a, b = sorted((int(point[3]), int(point[4])))
-            touch = Touch(float(point[9]), -float(point[8]))
-            found.add((self._names[a], self._names[b]), touch)
+            found.add((self._names[a], self._names[b]), float(point[9]), -float(point[8]))
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:
