@@ -121,6 +121,11 @@ def moving_mass(world: World) -> float:
     return _mass(world, frozenset[str]().union(*world.carried))
 
 
+def finite(world: World) -> bool:
+    """Return whether all is still a number: where joints are, and how they move."""
+    return bool(np.isfinite(world.positions()).all() and np.isfinite(world.velocities()).all())
+
+
 def share(moved: float, size: float) -> float:
     """Return a share of the range; 0 for a joint without one."""
     return float(moved / size) if size > 0.0 else 0.0
