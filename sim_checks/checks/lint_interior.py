@@ -88,7 +88,7 @@ def interior_findings(
     except FlatHull:
         return [], numbers
     near = ndimage.binary_dilation(surface, np.ones((3, 3, 3), dtype=bool))
-    cavity = _outside(surface) & _rasterised(whole, grid) & ~near
+    cavity = _reached(~surface) & _rasterised(whole, grid) & ~near
     if cavity.sum() * grid.volume < config.cavity_share * whole.volume:
         return [], numbers
     filled = np.zeros(grid.shape, dtype=bool)
@@ -98,7 +98,9 @@ def interior_findings(
     least = config.pocket_share * whole.volume / grid.volume
     pocket = cavity & _walled(surface, down)
     if pocket.sum() >= least:
-        pocket &= _reached(surface, grid, config.hand_m)
+        # Where the middle of a hand can be.
+        radius = config.hand_m / 2.0 / grid.size - ROUNDING
+        pocket &= _reached(ndimage.distance_transform_edt(~surface) >= radius)
         numbers["pocket_kept"] = _kept(pocket, filled) if pocket.sum() >= least else None
     return list(_findings(link, numbers, config)), numbers
 
@@ -217,11 +219,12 @@ def _directions() -> FloatArray:
     return np.vstack([even, np.eye(3), -np.eye(3)])
 
 
-def _outside(surface: BoolArray) -> BoolArray:
-    """Return free voxels that the outside reaches."""
-    labels, _ = ndimage.label(~surface)
-    reached: BoolArray = labels == labels[0, 0, 0]
-    return reached
+def _reached(room: BoolArray) -> BoolArray:
+    """Return the voxels of some room that are reached from outside without leaving it."""
+    labels, _ = ndimage.label(room)
+    border = np.ones(room.shape, dtype=bool)
+    border[1:-1, 1:-1, 1:-1] = False
+    return room & np.isin(labels, np.unique(labels[border & room]))
 
 
 def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
@@ -237,19 +240,6 @@ def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
         if axis == lowest:
             floor = ahead if down[axis] > 0.0 else behind
     return floor & (met >= WALLED)
-
-
-def _reached(surface: BoolArray, grid: _Grid, hand: float) -> BoolArray:
-    """Return the voxels that the centre of a ball of diameter ``hand`` [m] reaches from outside.
-
-    It may not cross a surface.
-    """
-    room = ndimage.distance_transform_edt(~surface) >= hand / 2.0 / grid.size - ROUNDING
-    labels, _ = ndimage.label(room)
-    border = np.ones(grid.shape, dtype=bool)
-    border[1:-1, 1:-1, 1:-1] = False
-    reached: BoolArray = np.isin(labels, np.unique(labels[border & room]))
-    return reached & room
 
 
 def _kept(space: BoolArray, filled: BoolArray) -> float:
