@@ -11,7 +11,6 @@ import numpy as np
 
 from ..description import FloatArray, JointLine
 from ..geometry.depth import contact_region
-from ..geometry.looks import LookBudget
 from ..geometry.path import JointAxis, Path, joint_axis
 from ..geometry.solids import SolidGroup
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
@@ -59,7 +58,6 @@ class JointCourse:
         motion: another motion than the joint's own, from the same start; only for one that has no
             followers.
         located: say where in space the pairs meet, too.
-        looks: that are counted; ``None`` for those of the file.
         decides: tell only whether pairs penetrate too deeply, not how deep.
         until: where it ends [rad] or [m]; ``None`` for upper.
     """
@@ -70,7 +68,6 @@ class JointCourse:
     only: frozenset[PartPair] | None = None
     motion: JointAxis | None = None
     located: bool = True
-    looks: LookBudget | None = None
     decides: bool = False
     until: float | None = None
 
@@ -127,7 +124,7 @@ class JointCourse:
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
         groups = (moving, standing)
         mover, still = ([solids.items[i].collider for i in group.solids] for group in groups)
-        sweep = Sweep(path, mover, still, steps, self.looks or solids.looks)
+        sweep = Sweep(path, mover, still, steps, solids.looks)
         frame = solids.way(standing, poses, self.length) if standing.ways else None
         return _Encounter(self, sweep, moving.solids, standing.solids, frame)
 

@@ -15,7 +15,7 @@ from itertools import product
 import numpy as np
 
 from ..description import BoolArray, FloatArray, JointLine
-from ..geometry.looks import LookBudget, TooManyLooks
+from ..geometry.collision import LookBudget, TooManyLooks
 from ..geometry.placing import box_around, boxes_near
 from ..geometry.solids import Solids
 from .joint_sweep import JointCourse, clear_until
@@ -37,7 +37,7 @@ def open_neighbours(rest: RestingSolids, told: frozenset[PartPair]) -> Neighbour
     the other does; what follows a joint moves with it. Pairs of parts that meet while all joints
     but one are closed (``told``) are no news here.
     """
-    looks = LookBudget(rest.config.pair_looks)
+    rest = replace(rest, solids=rest.solids.counting(LookBudget(rest.config.pair_looks)))
     met: list[BothOpen] = []
     unswept = []
     asked = 0
@@ -46,7 +46,7 @@ def open_neighbours(rest: RestingSolids, told: frozenset[PartPair]) -> Neighbour
         only = frozenset((min(pair), max(pair)) for pair in moved)
         asked += 1
         try:
-            met += _Together(rest, looks).met(first, second, only - told)
+            met += _Together(rest).met(first, second, only - told)
         except TooManyLooks:
             unswept.append((first.name, second.name))
     return Neighbours(tuple(met), asked, tuple(unswept))
@@ -57,7 +57,6 @@ class _Together:
     """What two joints are swept by; see :func:`open_neighbours`."""
 
     rest: RestingSolids
-    looks: LookBudget
 
     def met(
         self, first: JointLine, second: JointLine, only: frozenset[PartPair]
@@ -113,7 +112,7 @@ class _Together:
         self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
     ) -> Mapping[PartPair, PairSweep]:
         """Return the worst of the pairs of parts that count, by pair, with a joint at one value."""
-        self.looks.take(SWEEP_LOOKS)
+        self.rest.solids.looks.take(SWEEP_LOOKS)
         found = self._course(joint, other, at, only).run().pairs
         return {pair.parts: pair for pair in found if pair.kind is PairKind.PLAIN}
 
@@ -121,7 +120,7 @@ class _Together:
         self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
     ) -> JointCourse:
         values = {**self.rest.lower, other.name: at}
-        return JointCourse(joint, self.rest, values, only, looks=self.looks)
+        return JointCourse(joint, self.rest, values, only)
 
 
 def _near(rest: RestingSolids) -> Iterator[tuple[JointLine, JointLine]]:

@@ -14,8 +14,8 @@ from dataclasses import replace
 
 from ..config import PenetrationConfig, WorkConfig
 from ..description import Description, FloatArray
+from ..geometry.collision import LookBudget, TooManyLooks
 from ..geometry.kinematics import find_tree
-from ..geometry.looks import LookBudget, TooManyLooks
 from ..geometry.path import joint_axis
 from ..geometry.solids import HullPair, Solids
 from .diagnosis import Diagnosis

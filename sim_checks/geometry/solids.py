@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..description import Description, FloatArray, JointLine
-from .collision import Collider
+from .collision import Collider, LookBudget
 from .coupling import leaders
 from .depth import HullOverlap
 from .hull import FlatHull, convex_hull
 from .kinematics import Poser, Tree
-from .looks import LookBudget
 from .path import Path, joint_axis
 from .placing import boxes_near, diagonal
 
@@ -90,6 +90,12 @@ class Solids:
         for item in self.items:
             item.collider.place(poses[item.link])
         return poses
+
+    def counting(self, looks: LookBudget) -> Solids:
+        """Return the same solids, of which other looks are counted."""
+        same = copy(self)
+        same.looks = looks
+        return same
 
     def bounds(self) -> FloatArray:
         """Return the boxes around the solids as placed [m], shape [solid_count, 2, 3]."""

@@ -16,9 +16,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..description import BoolArray, FloatArray
-from .collision import Collider
+from .collision import Collider, LookBudget
 from .depth import HullOverlap
-from .looks import LookBudget
 from .path import CoupledOrbit, Orbit, Path
 from .placing import box_around, box_corners, boxes_near
 
