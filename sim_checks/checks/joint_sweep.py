@@ -14,8 +14,7 @@ from ..geometry.depth import contact_region
 from ..geometry.path import JointAxis, Path, joint_axis
 from ..geometry.solids import SolidGroup
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
-from .hinge import within
-from .pairs import RestingSolids
+from .pairs import RestingSolids, within
 from .penetration_study import JointSweep, PairKind, PairSweep, PartPair
 
 #: Fewest and most intervals that a joint's range is cut into before refinement.

@@ -1,14 +1,27 @@
-"""Pairs of solids: how they stand at rest, which are exempt, and where they meet."""
+"""Pairs of solids: how they stand at rest, which are exempt, and where they meet.
+
+Exempt is what overlaps in a hinge's own knuckle, but no fault that lies near it. A knuckle is
+short: two leaves share an axle somewhere along the hinge. A panel that overlaps its frame along the
+whole hinge side is none, however near the axis that lies; nor is one whose edge turns into the
+frame, because there nothing overlaps at rest.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from ..config import PenetrationConfig
+from ..description import FloatArray
 from ..geometry.depth import HullOverlap, contact_region
+from ..geometry.path import JointAxis, joint_axis
 from ..geometry.solids import HullPair, Solids
 from .penetration_study import Contact, PairKind, PartPair
+
+#: Depth that counts as touching [m].
+TOUCH = 1e-6
 
 
 @dataclass(frozen=True)
@@ -98,3 +111,74 @@ class RestingSolids:
                 deepest[key] = pair
         found = (deepest[key] for key in sorted(deepest))
         return tuple(self.contact(*pair, standings[pair].depth, pose) for pair in found)
+
+
+def at_rest(solids: Solids, config: PenetrationConfig) -> RestingSolids:
+    """Place solids at rest, and return how they stand there.
+
+    Raises:
+        TooManyLooks: the file has taken more than it may.
+    """
+    poses = solids.place(solids.tree.closed)
+    rest = RestingSolids(solids, config, solids.standings(config.clearance_m), solids.diagonal())
+    return replace(rest, knuckles=_knuckles(rest, poses))
+
+
+def _knuckles(rest: RestingSolids, poses: Mapping[str, FloatArray]) -> frozenset[HullPair]:
+    """Return every pair of solids that is some hinge's knuckle at rest."""
+    tree = rest.solids.tree
+    part_of = tree.part_of()
+    overlapping: dict[PartPair, list[HullPair]] = {}
+    for pair, overlap in rest.standings.items():
+        if overlap.depth > TOUCH:
+            overlapping.setdefault(rest.parts(*pair), []).append(pair)
+    found: set[HullPair] = set()
+    for joint in tree.moving:
+        if joint.kind == "prismatic" or not (joint.name in rest.lower or joint.name in tree.mimics):
+            continue
+        first, second = sorted((part_of[joint.parent], part_of[joint.child]))
+        overlaps = overlapping.get((first, second), [])
+        line = joint_axis(joint, poses[joint.child])
+        found |= _knuckles_of(rest.solids, overlaps, line, part_of[joint.child], rest.config)
+    return frozenset(found)
+
+
+def _knuckles_of(
+    solids: Solids,
+    overlaps: Sequence[HullPair],
+    line: JointAxis,
+    moving: int,
+    config: PenetrationConfig,
+) -> frozenset[HullPair]:
+    """Return the pairs of solids whose overlap at rest is this hinge's knuckle.
+
+    Solids are placed at rest; those that overlap are all of the two parts that the hinge joins.
+    """
+    inside: dict[HullPair, FloatArray] = {}
+    for pair in overlaps:
+        one, other = (solids.items[index].collider.hull for index in pair)
+        region = contact_region(one, other)
+        if len(region) and within(region, line, config.hinge_radius_m):
+            inside[pair] = region
+    if not inside:
+        return frozenset()
+    turning = solids.points(np.flatnonzero(solids.parts == moving).tolist())
+    length = float(np.ptp(turning @ line.axis))
+    heights = [region @ line.axis for region in inside.values()]
+    taken = _covered([(float(each.min()), float(each.max())) for each in heights])
+    return frozenset(inside) if taken <= config.hinge_share * length else frozenset()
+
+
+def within(region: FloatArray, line: JointAxis, radius: float) -> bool:
+    """Return whether every point lies within ``radius`` [m] of the line."""
+    return bool(np.linalg.norm(line.arms(region), axis=1).max() <= radius)
+
+
+def _covered(spans: list[tuple[float, float]]) -> float:
+    """Return the length of the union of intervals."""
+    total = 0.0
+    reached = -np.inf
+    for low, high in sorted(spans):
+        total += max(0.0, high - max(low, reached))
+        reached = max(reached, high)
+    return total

@@ -10,26 +10,21 @@ wherever a joint goes, its followers are where it takes them.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from ..config import PenetrationConfig, WorkConfig
-from ..description import Description, FloatArray
+from ..description import Description
 from ..geometry.collision import LookBudget, TooManyLooks
 from ..geometry.kinematics import find_tree
-from ..geometry.path import joint_axis
-from ..geometry.solids import HullPair, Solids
+from ..geometry.solids import Solids
 from .diagnosis import Diagnosis
 from .extent import beyond
-from .hinge import knuckles
 from .neighbours import open_neighbours
 from .opening import judge_joints
-from .pairs import RestingSolids
+from .pairs import RestingSolids, at_rest
 from .penetration_report import report, told_parts
 from .penetration_study import Contact, PairKind, PartPair, PenetrationStudy
 from .result import CheckResult
 
-#: Depth that counts as touching [m].
-TOUCH = 1e-6
 #: Bases of the Halton sequence, one for each joint.
 PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53)
 
@@ -65,42 +60,20 @@ def check_penetration(
 
 def _measured(solids: Solids, config: PenetrationConfig) -> CheckResult:
     tree = solids.tree
-    poses = solids.place(tree.closed)
-    standings = solids.standings(config.clearance_m)
-    rest = RestingSolids(solids, config, standings, solids.diagonal())
-    rest = replace(rest, knuckles=_knuckles(rest, poses))
+    rest = at_rest(solids, config)
     # Contacts are located as the solids are placed, which sweeps change.
-    at_rest = rest.worst(standings, rest.lower)
+    met = rest.worst(rest.standings, rest.lower)
     at_zero = _at_zero(rest)
     asked = [joint for joint in tree.free if joint.name in tree.ranges]
     sweeps = judge_joints(asked, rest)
     study = PenetrationStudy(
-        rest=at_rest,
+        rest=met,
         zero=at_zero,
         sweeps=sweeps,
         neighbours=open_neighbours(rest, told_parts(sweeps, config)),
         combinations=_combinations(rest),
     )
     return report(Diagnosis(rest).explained(study), rest)
-
-
-def _knuckles(rest: RestingSolids, poses: Mapping[str, FloatArray]) -> frozenset[HullPair]:
-    """Return every pair of solids that is some hinge's knuckle at rest."""
-    tree = rest.solids.tree
-    part_of = tree.part_of()
-    overlapping: dict[PartPair, list[HullPair]] = {}
-    for pair, overlap in rest.standings.items():
-        if overlap.depth > TOUCH:
-            overlapping.setdefault(rest.parts(*pair), []).append(pair)
-    found: set[HullPair] = set()
-    for joint in tree.moving:
-        if joint.kind == "prismatic" or not (joint.name in rest.lower or joint.name in tree.mimics):
-            continue
-        first, second = sorted((part_of[joint.parent], part_of[joint.child]))
-        overlaps = overlapping.get((first, second), [])
-        line = joint_axis(joint, poses[joint.child])
-        found |= knuckles(rest.solids, overlaps, line, part_of[joint.child], rest.config)
-    return frozenset(found)
 
 
 def _at_zero(rest: RestingSolids) -> tuple[Contact, ...] | None:
