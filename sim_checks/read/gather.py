@@ -18,6 +18,7 @@ from .document import find_file, is_file, parse_document
 from .meshes import MAX_MESH_BYTES
 from .references import (
     DOCUMENTS,
+    SRDF,
     ModelWalk,
     MujocoModel,
     found,
@@ -27,7 +28,6 @@ from .references import (
 )
 from .regular import read_regular
 from .roots import ReadOptions, Roots
-from .srdf import SUFFIX as SRDF
 from .xacro import expand_xacro, is_xacro
 
 #: Of all files of one description together [bytes], and how many.

@@ -32,6 +32,8 @@ MOST_DOCUMENTS = 256
 DOCUMENTS = ("include", "model")
 
 
+#: How the file beside a URDF ends that says which of its links may pass through each other.
+SRDF = ".srdf"
 #: Returns the root element of a document.
 Parser = Callable[[Path], ET.Element]
 #: Tells whether a path, every link in it followed, may be opened.
@@ -221,7 +223,7 @@ def refuse_outside_urdf(path: Path, document: ET.Element) -> None:
     folder = path.parent.resolve()
     for element in urdf_references(document):
         locate(element.get("filename", ""), folder)
-    beside = path.with_suffix(".srdf")
+    beside = path.with_suffix(SRDF)
     if beside.exists() and not inside(beside, folder):
         raise outside_error(beside.name, (beside,))
 

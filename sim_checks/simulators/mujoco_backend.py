@@ -15,7 +15,7 @@ from ..description import FloatArray
 from ..geometry.placing import rigid
 from ..read.mjcf_model import CompiledMechanism, begin_compiling, read_mechanism
 from ..read.read import format_of
-from ..read.srdf import exempt_pairs
+from ..read.urdf import exempt_pairs
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
 from .twin import twin_of
 

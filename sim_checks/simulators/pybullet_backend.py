@@ -15,8 +15,7 @@ from ..description import FloatArray, Mimic
 from ..geometry.coupling import sound_chains
 from ..geometry.placing import rigid
 from ..geometry.statics import GRAVITY
-from ..read.srdf import exempt_pairs
-from ..read.urdf import read_mimics
+from ..read.urdf import exempt_pairs, read_mimics
 from .pybullet_dynamics import BulletClient, Dynamics
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
 from .twin import twin_of

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from ..description import DescriptionError
 from ..read.document import find_file, parse_document
+from ..read.references import SRDF
 
 #: What MuJoCo must be told so that it neither fuses links nor forgets folders.
 MUJOCO_COMPILER = {"fusestatic": "false", "strippath": "false", "discardvisual": "true"}
@@ -41,9 +42,9 @@ def twin_of(urdf: Path, *, for_mujoco: bool = False) -> Iterator[str]:
     with tempfile.TemporaryDirectory(prefix="twin-") as folder:
         target = Path(folder) / "twin.urdf"
         ET.ElementTree(root).write(target, encoding="unicode")
-        srdf = urdf.with_suffix(".srdf")
+        srdf = urdf.with_suffix(SRDF)
         if srdf.is_file():
-            shutil.copyfile(srdf, target.with_suffix(".srdf"))
+            shutil.copyfile(srdf, target.with_suffix(SRDF))
         yield str(target)
 
 
