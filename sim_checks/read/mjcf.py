@@ -20,7 +20,8 @@ from ..description import (
 )
 from ..geometry.kinematics import rotation_about
 from ..geometry.placing import placed, rigid
-from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel, compile_model
+from .mjcf_compiler import compile_model
+from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel
 from .multiplied import refuse_multiplied
 from .primitives import box, capsule, cylinder, ellipsoid
 from .references import named_files

@@ -1,25 +1,15 @@
-"""MuJoCo's own compiler, read back as plain arrays.
-
-MJCF has defaults, classes, includes, frames and half a dozen ways to write a rotation; the only
-faithful reader is the compiler itself. It is native code on somebody else's file: call it where it
-can die.
-"""
+"""What MuJoCo's own compiler makes of a file, as plain arrays."""
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..description import DescriptionError, FloatArray, IntArray, LinkInertia, Mimic
+from ..description import FloatArray, IntArray, LinkInertia, Mimic
 from ..geometry.placing import rigid
-from .mjcf_lenient import compile_leniently
-from .multiplied import MOST
-from .native import COMPILER_BYTES, memory_bounded
 
 if TYPE_CHECKING:
     from mujoco import MjModel
@@ -229,34 +219,8 @@ class CompiledModel(CompiledMechanism):
     meant: tuple[str, ...] = ()
 
 
-def compile_model(path: Path, *, lenient: bool = False) -> CompiledModel:
-    """Compile the MJCF file at ``path``; call it in a killable child.
-
-    Args:
-        path: a file whose references were checked by :func:`.references.named_files`.
-        lenient: keep names and looks that the file drops, and accept bodies that are too light.
-
-    Raises:
-        DescriptionError: ``too_large``, or ``unreadable`` with MuJoCo's own words.
-    """
-    import mujoco  # the engine's own compiler is the only true reader of its format
-
-    main = str(path.parent.resolve() / path.name)
-    begin_compiling()
-    try:
-        with memory_bounded(COMPILER_BYTES):
-            meant: tuple[str, ...] = ()
-            if lenient:
-                model, meant = compile_leniently(main)
-            else:
-                model = mujoco.MjModel.from_xml_path(main)
-    except MemoryError as error:
-        raise DescriptionError("too_large", f"{path.name}: {error}") from error
-    except (ValueError, RuntimeError, mujoco.FatalError) as error:
-        words = " ".join(str(error).replace(str(path.parent.resolve()), "").split())
-        message = f"{path.name}: MuJoCo cannot compile it: {words}"
-        raise DescriptionError("unreadable", message) from error
-    _refuse_many(path.name, model)
+def read_model(model: MjModel, meant: tuple[str, ...] = ()) -> CompiledModel:
+    """Return all of a compiled model, with the joints that were given a range."""
     return CompiledModel(
         **vars(read_mechanism(model)),
         meshes=tuple(_mesh(model, i) for i in range(model.nmesh)),
@@ -275,23 +239,6 @@ def read_mechanism(model: MjModel) -> CompiledMechanism:
         equalities=tuple(_equality(model, i) for i in range(model.neq)),
         excluded=tuple(divmod(int(pair), 1 << 16) for pair in model.exclude_signature),
     )
-
-
-def begin_compiling() -> None:
-    """Have MuJoCo say its warnings on standard error, and forget earlier files' meshes."""
-    import mujoco
-
-    # Its own way is a log file in whatever folder the program was started from.
-    mujoco.set_mju_user_warning(lambda words: os.write(2, f"MuJoCo: {words}\n".encode()))
-    # It remembers meshes by their file's name and the second they were written in.
-    mujoco.mj_clearCache(mujoco.mj_getCache())
-
-
-def _refuse_many(name: str, model: MjModel) -> None:
-    for what, count in (("bodies", model.nbody), ("geoms", model.ngeom)):
-        if count > MOST[what]:
-            message = f"{name}: {count} {what} once compiled, at most {MOST[what]} are read"
-            raise DescriptionError("too_large", message)
 
 
 def _body(model: MjModel, index: int) -> CompiledBody:

@@ -13,7 +13,8 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray
 from ..geometry.placing import rigid
-from ..read.mjcf_model import CompiledMechanism, begin_compiling, read_mechanism
+from ..read.mjcf_compiler import begin_compiling
+from ..read.mjcf_model import CompiledMechanism, read_mechanism
 from ..read.read import format_of
 from ..read.urdf import exempt_pairs
 from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
