@@ -68,7 +68,7 @@ class MujocoSimulator(Simulator):
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         if config.parents_touch:
             model.opt.disableflags |= int(flags.mjDSBL_FILTERPARENT)
-        return MujocoWorld(mujoco, model, parents_touch=config.parents_touch)
+        return MujocoWorld(mujoco, model, read_mechanism(model), config.parents_touch)
 
 
 def _exempt(spec: Any, pairs: Iterable[frozenset[str]]) -> None:
@@ -88,9 +88,11 @@ def _fix_base(spec: Any, mujoco: Any) -> None:
 
 
 class MujocoWorld:
-    """A compiled model and its state."""
+    """A compiled model, by the names that are read of it, and its state."""
 
-    def __init__(self, mujoco: Any, model: Any, *, parents_touch: bool) -> None:
+    def __init__(
+        self, mujoco: Any, model: Any, held: CompiledMechanism, parents_touch: bool
+    ) -> None:
         self._mujoco = mujoco
         self._model = model
         self._data = mujoco.MjData(model)
@@ -98,7 +100,6 @@ class MujocoWorld:
         self._forces = int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING)
         # What the file itself turns off stays off.
         self._own = int(model.opt.disableflags) & self._forces
-        held = read_mechanism(model)
         pushed = [i for i, joint in enumerate(held.joints) if joint.kind in SCALAR]
         self._positions = model.jnt_qposadr[pushed]
         self._dofs = model.jnt_dofadr[pushed]
