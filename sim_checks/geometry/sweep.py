@@ -12,14 +12,15 @@ from __future__ import annotations
 import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 import numpy as np
 
 from ..description import BoolArray, FloatArray
 from .collision import Collider, LookBudget
 from .depth import HullOverlap
-from .path import CoupledOrbit, Orbit, Path
-from .placing import box_around, box_corners, boxes_near
+from .path import Path
+from .placing import box_around, box_corners, boxes_near, placed
 
 #: Intervals of the path in which what is far from everything is told.
 COARSE_STEPS = 8
@@ -125,14 +126,16 @@ class Sweep:
         self.path = path
         self.moving = moving
         self.standing = standing
-        self._backwards = path.inverse()
         self.places = np.linspace(0.0, path.length, steps + 1)
         self.looks = 0
         self._budget = budget or LookBudget()
-        self._start_poses = [collider.pose for collider in moving]
-        self._boxes: dict[int, FloatArray] = {}
-        self._moving_orbits: dict[int, Orbit | CoupledOrbit] = {}
-        self._standing_orbits: dict[int, Orbit | CoupledOrbit] = {}
+        starts = [collider.pose for collider in moving]
+        backwards = path.inverse()
+        self._start_poses = starts
+        # Of every hull that comes near another, and of that alone.
+        self._orbit = cache(lambda i: path.orbit(placed(moving[i].local.vertices, starts[i])))
+        self._swept = cache(lambda i: self._orbit(i).swept_bounds(self.places))
+        self._still_orbit = cache(lambda i: backwards.orbit(standing[i].hull.vertices))
 
     def near(self, floor: float) -> BoolArray:
         """Tell which moving hulls may come within ``floor`` [m] of standing ones."""
@@ -266,20 +269,3 @@ class Sweep:
             lowest = (self.standing[stander].hull.vertices @ direction).min()
             reach = mover.highest(direction, starts, ends) - lowest
         track.bounds[rows] = np.minimum(track.bounds[rows], reach - track.candidate.rest)
-
-    def _swept(self, index: int) -> FloatArray:
-        if index not in self._boxes:
-            self._boxes[index] = self._orbit(index).swept_bounds(self.places)
-        return self._boxes[index]
-
-    def _orbit(self, index: int) -> Orbit | CoupledOrbit:
-        if index not in self._moving_orbits:
-            pose = self._start_poses[index]
-            start = self.moving[index].local.vertices @ pose[:3, :3].T + pose[:3, 3]
-            self._moving_orbits[index] = self.path.orbit(start)
-        return self._moving_orbits[index]
-
-    def _still_orbit(self, index: int) -> Orbit | CoupledOrbit:
-        if index not in self._standing_orbits:
-            self._standing_orbits[index] = self._backwards.orbit(self.standing[index].hull.vertices)
-        return self._standing_orbits[index]
