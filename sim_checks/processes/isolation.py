@@ -236,8 +236,7 @@ class WarmChild:
         """Return the outcome of a child that gave no answer."""
         crashed = failure is Failure.CRASHED
         unborn = crashed and not process.has_started
-        exit_code, output = process.end(GOODBYE_S if crashed else 0.0)
-        place = process.place
+        exit_code, output, place = process.end(GOODBYE_S if crashed else 0.0)
         killed = crashed and exit_code in (-signal.SIGKILL, ORPHANED)
         detail = UNBORN if unborn and not killed else _failure_sentence(failure, exit_code, limits)
         return Outcome(
@@ -287,7 +286,6 @@ class _Process:
             theirs.close()
         self.pid = self._process.pid or 0
         self.answered = 0
-        self.place = ""
 
     def ask(self, question: bytes | memoryview, wall_s: float) -> Answer | Failure:
         """Return its answer, or how there is none."""
@@ -317,14 +315,14 @@ class _Process:
         """Return the end of the output during the last question."""
         return _tail(self._log)
 
-    def end(self, patience_s: float = 0.0) -> tuple[int | None, str]:
+    def end(self, patience_s: float = 0.0) -> tuple[int | None, str, str]:
         """Kill it and all that it started; leave nothing behind.
 
         Args:
             patience_s: for a child that is dying anyway, whose own exit code is wanted [s].
 
         Returns:
-            Its exit code, and the end of its output.
+            Its exit code, the end of its output, and where it was in its work.
         """
         self._connection.close()
         if patience_s:
@@ -335,10 +333,9 @@ class _Process:
         self._process.join()
         exit_code = self._process.exitcode
         self._process.close()
-        output = _tail(self._log)
-        self.place = place_in(self.folder)
+        told = _tail(self._log), place_in(self.folder)
         shutil.rmtree(self.folder, ignore_errors=True)
-        return exit_code, output
+        return exit_code, *told
 
 
 def _receive(connection: Connection, wall_s: float) -> Answer | Failure:
