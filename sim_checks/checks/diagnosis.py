@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from typing import TypeVar
 
 import numpy as np
@@ -45,20 +45,16 @@ class Diagnosis:
 
     def explained(self, study: PenetrationStudy) -> PenetrationStudy:
         """Return the same study, with visible surfaces and a cause for all that is too deep."""
+        at_rest = partial(self._judged, allowed=self.rest.config.rest_m, at_rest=True)
         met = (replace(item, pair=self._met_open(item.pair)) for item in study.neighbours.met)
         return replace(
             study,
-            rest=tuple(map(self._at_rest, study.rest)),
-            zero=None if study.zero is None else tuple(map(self._at_rest, study.zero)),
+            rest=tuple(map(at_rest, study.rest)),
+            zero=None if study.zero is None else tuple(map(at_rest, study.zero)),
             sweeps=tuple(map(self._along, study.sweeps)),
             neighbours=replace(study.neighbours, met=tuple(met)),
             combinations=tuple(map(self._met_open, study.combinations)),
         )
-
-    def _at_rest(self, contact: Contact) -> Contact:
-        if contact.depth <= self.rest.config.rest_m:
-            return contact
-        return self._judged(contact, self.rest.config.rest_m, at_rest=True)
 
     def _judged(
         self,
@@ -67,6 +63,8 @@ class Diagnosis:
         at_rest: bool = False,
         way: Callable[[], Way] | None = None,
     ) -> AnyContact:
+        if contact.depth <= allowed:
+            return contact
         visual = self._gap(contact)
         meets = visual is not None and visual < -allowed
         leaked = meets and self._strayed(contact, allowed)
@@ -155,8 +153,6 @@ class Diagnosis:
 
     def _met_open(self, contact: AnyContact) -> AnyContact:
         """Tell only causes that the surfaces show: two open joints may meet by design."""
-        if contact.excess <= self.rest.config.excess_m:
-            return contact
         return self._judged(contact, self.rest.config.excess_m + contact.at_rest)
 
     @cached_property
