@@ -46,81 +46,77 @@ def open_neighbours(rest: RestingSolids, told: frozenset[PartPair]) -> Neighbour
         only = frozenset((min(pair), max(pair)) for pair in moved)
         asked += 1
         try:
-            met += _Together(rest).met(first, second, only - told)
+            met += _met(rest, first, second, only - told)
         except TooManyLooks:
             unswept.append((first.name, second.name))
     return Neighbours(tuple(met), asked, tuple(unswept))
 
 
+def _met(
+    rest: RestingSolids, first: JointLine, second: JointLine, only: frozenset[PartPair]
+) -> Iterator[BothOpen]:
+    """Yield the worst of every pair of parts that meet, whichever of two joints moves.
+
+    Raises:
+        TooManyLooks: the file has taken more than it may.
+    """
+    ways = (_Passing(rest, first, second), _Passing(rest, second, first))
+    found = [item for way in ways for item in way.met(only)]
+    for parts in sorted({item.pair.parts for item in found}):
+        alike = (item for item in found if item.pair.parts == parts)
+        worst = max(alike, key=lambda item: (item.obstructed, item.pair.excess))
+        if worst.pair.excess > rest.config.excess_m:
+            way = _Passing(rest, worst.joint, worst.other)
+            course = way.course(worst.other_at, frozenset({parts}))
+            worst = replace(worst, free_until=clear_until(course, worst.pair))
+        yield worst
+
+
 @dataclass(frozen=True)
-class _Together:
-    """What two joints are swept by; see :func:`open_neighbours`."""
+class _Passing:
+    """One joint that makes its way past another, which stands open."""
 
     rest: RestingSolids
+    joint: JointLine
+    other: JointLine
 
-    def met(
-        self, first: JointLine, second: JointLine, only: frozenset[PartPair]
-    ) -> Iterator[BothOpen]:
-        """Yield the worst of every pair of parts that meet, whichever of the joints moves.
-
-        Raises:
-            TooManyLooks: the file has taken more than it may.
-        """
-        found = (*self._moving(first, second, only), *self._moving(second, first, only))
-        for parts in sorted({item.pair.parts for item in found}):
-            alike = (item for item in found if item.pair.parts == parts)
-            worst = max(alike, key=lambda item: (item.obstructed, item.pair.excess))
-            if worst.pair.excess > self.rest.config.excess_m:
-                course = self._course(worst.joint, worst.other, worst.other_at, frozenset({parts}))
-                worst = replace(worst, free_until=clear_until(course, worst.pair))
-            yield worst
-
-    def _moving(
-        self, joint: JointLine, other: JointLine, only: frozenset[PartPair]
-    ) -> Iterator[BothOpen]:
-        """Yield the worst of every pair of parts as one joint makes its way past another."""
-        limits = self.rest.lower[other.name], self.rest.upper[other.name]
+    def met(self, only: frozenset[PartPair]) -> Iterator[BothOpen]:
+        """Yield the worst of every pair of parts that meet."""
+        limits = self.rest.lower[self.other.name], self.rest.upper[self.other.name]
         grid = np.interp(np.linspace(self.rest.config.little_open, 1.0, GRID), (0.0, 1.0), limits)
-        swept = {at: self._swept(joint, other, at, only) for at in grid.tolist()}
+        swept = {at: self._swept(at, only) for at in grid.tolist()}
         for parts in sorted(only):
             tried = {at: found[parts] for at, found in swept.items() if parts in found}
             failing = [at for at, pair in tried.items() if pair.excess > self.rest.config.excess_m]
             obstructed = len(failing) == GRID
-            at = failing[0] if obstructed else self._deepest(joint, other, parts, tried)
+            at = failing[0] if obstructed else self._deepest(parts, tried)
             if at is not None and tried[at].excess > 0.0:
-                yield BothOpen(joint, other, tried[at], obstructed)
+                yield BothOpen(self.joint, self.other, tried[at], obstructed)
 
-    def _deepest(
-        self, joint: JointLine, other: JointLine, parts: PartPair, tried: dict[float, PairSweep]
-    ) -> float | None:
-        """Add finer values of a joint around the deepest of those tried; return the deepest."""
+    def _deepest(self, parts: PartPair, tried: dict[float, PairSweep]) -> float | None:
+        """Add finer values of the other around the deepest of those tried; return the deepest."""
         if not tried:
             return None
-        low = self.rest.lower[other.name]
-        high = self.rest.upper[other.name]
-        only = frozenset({parts})
+        low = self.rest.lower[self.other.name]
+        high = self.rest.upper[self.other.name]
         step = (1.0 - self.rest.config.little_open) / (GRID - 1) * (high - low)
         for _ in range(REFINED):
             step /= 2.0
             middle = max(tried, key=lambda at: tried[at].excess)
             for at in (middle - step, middle + step):
-                found = self._swept(joint, other, at, only) if low < at < high else {}
+                found = self._swept(at, frozenset({parts})) if low < at < high else {}
                 tried.update((at, pair) for pair in found.values())
         return max(tried, key=lambda at: tried[at].excess)
 
-    def _swept(
-        self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
-    ) -> Mapping[PartPair, PairSweep]:
-        """Return the worst of the pairs of parts that count, by pair, with a joint at one value."""
+    def _swept(self, at: float, only: frozenset[PartPair]) -> Mapping[PartPair, PairSweep]:
+        """Return the worst of the pairs of parts that count, with the other at one value."""
         self.rest.solids.looks.take(SWEEP_LOOKS)
-        found = self._course(joint, other, at, only).run().pairs
+        found = self.course(at, only).run().pairs
         return {pair.parts: pair for pair in found if pair.kind is PairKind.PLAIN}
 
-    def _course(
-        self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
-    ) -> JointCourse:
-        values = {**self.rest.lower, other.name: at}
-        return JointCourse(joint, self.rest, values, only)
+    def course(self, at: float, only: frozenset[PartPair]) -> JointCourse:
+        """Return the joint's course with the other at one value [rad] or [m]."""
+        return JointCourse(self.joint, self.rest, {**self.rest.lower, self.other.name: at}, only)
 
 
 def _near(rest: RestingSolids) -> Iterator[tuple[JointLine, JointLine]]:
