@@ -76,14 +76,11 @@ def inertia_findings(link: Link, config: LintConfig) -> Findings:
 def _plausible(
     link: Link, inertia: LinkInertia, moments: FloatArray, config: LintConfig
 ) -> Findings:
-    shapes = link.collisions or link.visuals
-    if not shapes:
+    if not (link.collisions or link.visuals):
         return
-    across = diagonal(shape.vertices for shape in shapes)
     box = box_around(shape.vertices for shape in (*link.collisions, *link.visuals))
     yield from _center(link, inertia.center, box, config)
-    gyration = math.sqrt(float(moments[2]) / inertia.mass)
-    yield from _gyration(link, inertia, gyration, box, across, config)
+    yield from _gyration(link, inertia, moments, box, config)
     yield from _density(link, inertia.mass, config)
 
 
@@ -126,18 +123,15 @@ def _density(link: Link, mass: float, config: LintConfig) -> Findings:
 
 
 def _gyration(
-    link: Link,
-    inertia: LinkInertia,
-    gyration: float,
-    box: FloatArray,
-    across: float,
-    config: LintConfig,
+    link: Link, inertia: LinkInertia, moments: FloatArray, box: FloatArray, config: LintConfig
 ) -> Findings:
     """Check an inertia against the extents that it must fit in.
 
-    Its largest radius of gyration [m] is held against the diagonal of the collision shapes
-    (``across`` [m]), and the spread of its mass along each axis against the box around all.
+    Its largest radius of gyration is held against the diagonal of the collision shapes, and the
+    spread of its mass along each axis against the box around all.
     """
+    gyration = math.sqrt(float(moments[2]) / inertia.mass)
+    across = diagonal(shape.vertices for shape in link.collisions or link.visuals)
     second = np.trace(inertia.tensor) / 2.0 - np.diag(inertia.tensor)
     spread = np.sqrt(np.maximum(second, 0.0) / inertia.mass)
     extent = np.ptp(box, axis=0)

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine
-from ..geometry.kinematics import MOVING_KINDS, Tree, unit_axis
+from ..geometry.kinematics import MOVING_KINDS, Tree
+from ..geometry.path import JointAxis, joint_axis
 from ..geometry.placing import box_gap, diagonal, placed, shape_corners
 from .result import Findings, about, error, graded, measured, rounded, significant, warning
 
@@ -94,20 +95,11 @@ def _place_findings(
         away = f"{gap:.3g} m away from the rest of the object, further than the size of either"
         message = f"{part} is {away}; want at most {most:.3g} m"
         yield error("part_remote", message, **about(joint), **rounded(gap, "m", most))
-    elif joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
-        groups = (np.vstack(moved), np.vstack(rest))
-        yield from _axis_findings(joint, poses[joint.child], groups, size, config)
-
-
-def _axis_findings(
-    joint: JointLine,
-    frame: FloatArray,
-    groups: tuple[FloatArray, FloatArray],
-    size: float,
-    config: LintConfig,
-) -> Findings:
-    axis = frame[:3, :3] @ unit_axis(joint)
-    distance = min(_beside(frame[:3, 3], axis, group) for group in groups)
+        return
+    if joint.kind == "prismatic" or not float(np.linalg.norm(joint.axis)) > 0.0:
+        return
+    line = joint_axis(joint, poses[joint.child])
+    distance = min(_beside(line, np.vstack(group)) for group in (moved, rest))
     if distance > config.axis_soft * size:
         hard = distance > config.axis_hard * size
         message = (
@@ -118,11 +110,11 @@ def _axis_findings(
         yield graded(hard, "axis_remote", message, **about(joint), **rounded(distance, "m", limit))
 
 
-def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
+def _beside(line: JointAxis, corners: FloatArray) -> float:
     """Return how far a line passes beside the convex hull of points [m]; 0 if it goes through."""
-    first = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+    first = np.cross(line.axis, np.eye(3)[int(np.argmin(np.abs(line.axis)))])
     first /= np.linalg.norm(first)
-    flat = (corners - point) @ np.column_stack([first, np.cross(axis, first)])
+    flat = (corners - line.origin) @ np.column_stack([first, np.cross(line.axis, first)])
     around = np.column_stack([np.cos(AROUND), np.sin(AROUND)])
     # Some direction sees every point at least so far ahead.
     return max(0.0, float((flat @ around.T).min(axis=0).max()))

@@ -139,16 +139,12 @@ def _knuckles(rest: RestingSolids, poses: Mapping[str, FloatArray]) -> frozenset
         first, second = sorted((part_of[joint.parent], part_of[joint.child]))
         overlaps = overlapping.get((first, second), [])
         line = joint_axis(joint, poses[joint.child])
-        found |= _knuckles_of(rest.solids, overlaps, line, part_of[joint.child], rest.config)
+        found |= _knuckles_of(rest, overlaps, line, part_of[joint.child])
     return frozenset(found)
 
 
 def _knuckles_of(
-    solids: Solids,
-    overlaps: Sequence[HullPair],
-    line: JointAxis,
-    moving: int,
-    config: PenetrationConfig,
+    rest: RestingSolids, overlaps: Sequence[HullPair], line: JointAxis, moving: int
 ) -> frozenset[HullPair]:
     """Return the pairs of solids whose overlap at rest is this hinge's knuckle.
 
@@ -156,17 +152,17 @@ def _knuckles_of(
     """
     inside: dict[HullPair, FloatArray] = {}
     for pair in overlaps:
-        one, other = (solids.items[index].collider.hull for index in pair)
+        one, other = (rest.solids.items[index].collider.hull for index in pair)
         region = contact_region(one, other)
-        if len(region) and within(region, line, config.hinge_radius_m):
+        if len(region) and within(region, line, rest.config.hinge_radius_m):
             inside[pair] = region
     if not inside:
         return frozenset()
-    turning = solids.points(np.flatnonzero(solids.parts == moving).tolist())
+    turning = rest.solids.points(np.flatnonzero(rest.solids.parts == moving).tolist())
     length = float(np.ptp(turning @ line.axis))
     heights = [region @ line.axis for region in inside.values()]
     taken = _covered([(float(each.min()), float(each.max())) for each in heights])
-    return frozenset(inside) if taken <= config.hinge_share * length else frozenset()
+    return frozenset(inside) if taken <= rest.config.hinge_share * length else frozenset()
 
 
 def within(region: FloatArray, line: JointAxis, radius: float) -> bool:
