@@ -108,10 +108,9 @@ class PybulletWorld:
         touch = config.parents_touch
         rules = PairRules(touch, static_parent=touch, excluded=self._let_pass(exempt))
         self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
-        beyond = [[k for k in self._names if self._is_beyond(k, i)] for i in self._ids]
-        self.carried = tuple(frozenset(self._names[k] for k in group) for group in beyond)
-        slides = [info[2] == bullet.JOINT_PRISMATIC for info in moving]
-        self._dynamics = Dynamics(bullet, body, self._ids, slides, beyond)
+        beyond = {i: [k for k in self._names if self._is_beyond(k, i)] for i in self._ids}
+        self.carried = tuple(frozenset(self._names[k] for k in beyond[i]) for i in self._ids)
+        self._dynamics = Dynamics(bullet, body, beyond)
         self._falls = True
         self._state: FloatArray | None = None
         for i, joint in zip(self._ids, self.joints, strict=True):
