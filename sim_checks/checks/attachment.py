@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from operator import attrgetter
 
 import numpy as np
@@ -74,15 +74,19 @@ class _Surfaces:
         size = 0.0
         if part is None or limits is None:
             return np.zeros(POSES), size
+        length = limits[1] - limits[0]
+        path = joint_axis(joint, self._poses[joint.child]).path(length)
+        poses = path.poses(np.linspace(0.0, length, POSES))
         for visible in (False, True):
             moved = self._triangles(sorted(self.tree.below(joint)), visible=visible)
             still = self._ready(part, visible=visible)
             if moved is None or still is None:
                 continue
             size = max(size, float(np.linalg.norm(np.ptp(moved[0], axis=0))))
-            for index, vertices in enumerate(self._along(joint, limits[1] - limits[0], moved[0])):
+            for index, pose in enumerate(poses):
                 if gaps[index] <= enough:
                     continue
+                vertices = placed(moved[0], pose)
                 gap = box_gap(vertices, still[0])
                 if gap <= enough or every:
                     gap = Skin(vertices, moved[1]).distance(still[1])
@@ -120,9 +124,3 @@ class _Surfaces:
         shapes = attrgetter("visuals" if visible else "collisions")
         links = ((self._links[name], self._poses[name]) for name in names)
         return joined((shape, pose) for link, pose in links for shape in shapes(link))
-
-    def _along(self, joint: JointLine, length: float, vertices: FloatArray) -> Iterator[FloatArray]:
-        """Yield points that a joint moves, given at lower, at poses along its range."""
-        path = joint_axis(joint, self._poses[joint.child]).path(length)
-        for pose in path.poses(np.linspace(0.0, length, POSES)):
-            yield placed(vertices, pose)

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy import ndimage
 
 from ..config import LintConfig
@@ -153,37 +152,27 @@ def _surface(shapes: Sequence[DescribedShape], grid: _Grid) -> BoolArray:
     first = (middle + 2) % 3
     rows = np.arange(len(corners))
     a, b, c = (corners[rows, (first + k) % 3] for k in range(3))
-    spaced = (np.ceil(np.linalg.norm(end - a, axis=1) / SPACING) for end in (b, c))
+    across = b - a
+    down = c - a
+    spaced = (np.ceil(np.linalg.norm(side, axis=1) / SPACING) for side in (across, down))
     steps = [np.maximum(1, each.astype(np.int64)) for each in spaced]
-    across = steps[0] + 1
-    ends = np.cumsum(across * (steps[1] + 1))
+    counts = (steps[0] + 1) * (steps[1] + 1)
+    ends = np.cumsum(counts)
     start = 0
     while start < len(corners):
         taken = int(ends[start - 1]) if start else 0
         stop = max(start + 1, int(np.searchsorted(ends, taken + CHUNK, side="right")))
-        some = slice(start, stop)
-        inside = _points(a[some], b[some], c[some], steps[0][some], steps[1][some])
+        # Rows of points from side ac to b.
+        which = np.repeat(np.arange(start, stop), counts[start:stop])
+        place = np.arange(taken, taken + len(which)) - (ends - counts)[which]
+        row, column = np.divmod(place, steps[1][which] + 1)
+        u = row / steps[0][which]
+        v = column / steps[1][which] * (1.0 - u)
+        inside = a[which] + u[:, None] * across[which] + v[:, None] * down[which]
         cells = np.clip(np.rint(inside).astype(np.int64), 0, np.array(grid.shape) - 1)
         marked[cells[:, 0], cells[:, 1], cells[:, 2]] = True
         start = stop
     return marked
-
-
-def _points(
-    a: FloatArray,
-    b: FloatArray,
-    c: FloatArray,
-    along: npt.NDArray[np.int64],
-    down: npt.NDArray[np.int64],
-) -> FloatArray:
-    """Return points of triangles in ``along + 1`` rows from side ac to b, [point_count, 3]."""
-    counts = (along + 1) * (down + 1)
-    which = np.repeat(np.arange(len(a)), counts)
-    place = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
-    u = (place // (down[which] + 1)) / along[which]
-    v = (place % (down[which] + 1)) / down[which] * (1.0 - u)
-    points: FloatArray = a[which] + u[:, None] * (b - a)[which] + v[:, None] * (c - a)[which]
-    return points
 
 
 def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
