@@ -156,7 +156,9 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Coll
     facet, slot, other = (rows[sharp] for rows in (facet, slot, other))
     edges = renumber[hull.simplices[facet[:, None], (slot[:, None] + [1, 2]) % 3]]
     sides = np.stack([equations[facet, :3], equations[other, :3]], axis=1)
-    normals = _merged(equations[:, :3])
+    rounded = np.round(equations[:, :3] / SAME_NORMAL)
+    faces_at = np.unique(rounded, axis=0, return_index=True)[1]
+    normals = equations[np.sort(faces_at), :3]
     offsets = farthest_along(vertices, normals) + normals @ center
     faces = (triangles, normals, offsets, edges, sides)
     return CollisionHull(vertices + center, *faces, float(hull.volume), corners_before)
@@ -167,11 +169,6 @@ def farthest_along(points: FloatArray, directions: FloatArray) -> FloatArray:
     rows = max(1, BLOCK // len(points))
     blocks = [directions[start : start + rows] for start in range(0, len(directions), rows)]
     return np.concatenate([(points @ block.T).max(axis=0) for block in blocks])
-
-
-def _merged(normals: FloatArray) -> FloatArray:
-    _, first = np.unique(np.round(normals / SAME_NORMAL), axis=0, return_index=True)
-    return normals[np.sort(first)]
 
 
 def distance_outside(points: FloatArray, hulls: Sequence[CollisionHull]) -> FloatArray:

@@ -47,7 +47,10 @@ def compile_model(path: Path, *, lenient: bool = False) -> CompiledModel:
         words = " ".join(str(error).replace(str(path.parent.resolve()), "").split())
         message = f"{path.name}: MuJoCo cannot compile it: {words}"
         raise DescriptionError("unreadable", message) from error
-    _refuse_many(path.name, model)
+    for what, count in (("bodies", model.nbody), ("geoms", model.ngeom)):
+        if count > MOST[what]:
+            message = f"{path.name}: {count} {what} once compiled, at most {MOST[what]} are read"
+            raise DescriptionError("too_large", message)
     return read_model(model, meant)
 
 
@@ -59,13 +62,6 @@ def begin_compiling() -> None:
     mujoco.set_mju_user_warning(lambda words: os.write(2, f"MuJoCo: {words}\n".encode()))
     # It remembers meshes by their file's name and the second they were written in.
     mujoco.mj_clearCache(mujoco.mj_getCache())
-
-
-def _refuse_many(name: str, model: MjModel) -> None:
-    for what, count in (("bodies", model.nbody), ("geoms", model.ngeom)):
-        if count > MOST[what]:
-            message = f"{name}: {count} {what} once compiled, at most {MOST[what]} are read"
-            raise DescriptionError("too_large", message)
 
 
 def _compile_leniently(path: str) -> tuple[MjModel, tuple[str, ...]]:

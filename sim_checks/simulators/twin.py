@@ -38,7 +38,12 @@ def twin_of(urdf: Path, *, for_mujoco: bool = False) -> Iterator[str]:
     for mesh in root.iter("mesh"):
         mesh.set("filename", str(resolve(mesh.get("filename", ""), urdf.parent)))
     if for_mujoco:
-        _set_compiler(root)
+        mujoco = root.find("mujoco")
+        mujoco = ET.SubElement(root, "mujoco") if mujoco is None else mujoco
+        compiler = mujoco.find("compiler")
+        compiler = ET.SubElement(mujoco, "compiler") if compiler is None else compiler
+        compiler.attrib.pop("meshdir", None)
+        compiler.attrib.update(MUJOCO_COMPILER)
     with tempfile.TemporaryDirectory(prefix="twin-") as folder:
         target = Path(folder) / "twin.urdf"
         ET.ElementTree(root).write(target, encoding="unicode")
@@ -54,14 +59,3 @@ def resolve(reference: str, folder: Path) -> Path:
         return find_file(reference, folder)
     except DescriptionError:
         return (folder / reference).absolute()
-
-
-def _set_compiler(root: ET.Element) -> None:
-    mujoco = root.find("mujoco")
-    if mujoco is None:
-        mujoco = ET.SubElement(root, "mujoco")
-    compiler = mujoco.find("compiler")
-    if compiler is None:
-        compiler = ET.SubElement(mujoco, "compiler")
-    compiler.attrib.pop("meshdir", None)
-    compiler.attrib.update(MUJOCO_COMPILER)
