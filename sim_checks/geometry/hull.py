@@ -196,12 +196,6 @@ def _distances(points: FloatArray, hull: CollisionHull) -> FloatArray:
     The nearest point of a hull lies within a face or on an edge. Within a face it is the foot on
     the farthest face plane, as no plane is farther off than the hull.
     """
-    rows = max(1, BLOCK // len(hull.edges))
-    blocks = [points[start : start + rows] for start in range(0, len(points), rows)]
-    return np.concatenate([np.zeros(0), *(_block_distances(block, hull) for block in blocks)])
-
-
-def _block_distances(points: FloatArray, hull: CollisionHull) -> FloatArray:
     beyond = _beyond(points, hull)
     farthest = beyond.argmax(axis=1)
     distances: FloatArray = beyond.max(axis=1)
