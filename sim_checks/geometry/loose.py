@@ -39,10 +39,10 @@ def strayed(met: Sides, meeting: SurfaceMeeting, at_rest: Sides, allowed: float)
     def side_strayed(side: int) -> bool:
         own = met[side].surface
         small = _small(own, np.unique(own.pieces[found[side].rows[pairs[:, side]]]))
-        rows = np.flatnonzero(np.isin(own.pieces, small))
-        remains = own.without(rows) if len(rows) else None
-        if remains is None:
+        stray = np.isin(own.pieces, small)
+        if stray.all() or not stray.any():
             return False
+        remains = VisibleSurface(own.vertices, own.faces[~stray])
         left = PosedSurface(remains, met[side].pose)
         one, other = (left, met[1]) if side == 0 else (met[0], left)
         if visible_gap(one, other, meeting) < -allowed:
