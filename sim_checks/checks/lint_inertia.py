@@ -8,7 +8,7 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, sensible
-from ..geometry.hull import FlatHull, convex_hull
+from ..geometry.hull import find_hull
 from ..geometry.kinematics import Tree
 from ..geometry.placing import box_around, diagonal
 from ..geometry.surfaces import VisibleSurface
@@ -154,13 +154,8 @@ def _gyration(
 
 def _volume(link: Link) -> float:
     """Return the volume of the collision hulls together [m3]; overlaps count twice."""
-    total = 0.0
-    for shape in link.collisions:
-        try:
-            total += convex_hull(shape.vertices).volume
-        except FlatHull:
-            continue
-    return total
+    hulls = (find_hull(shape.vertices) for shape in link.collisions)
+    return sum(hull.volume for hull in hulls if hull is not None)
 
 
 def _visible_volume(link: Link, sheet: float) -> float:

@@ -12,7 +12,7 @@ from scipy import ndimage
 
 from ..config import LintConfig
 from ..description import BoolArray, DescribedShape, FloatArray, Link
-from ..geometry.hull import CollisionHull, FlatHull, convex_hull
+from ..geometry.hull import CollisionHull, find_hull
 from ..report import Finding
 from .result import Findings, graded
 
@@ -82,9 +82,8 @@ def interior_findings(
         return [], numbers
     grid = _grid(link.visuals, config)
     surface = _surface(link.visuals, grid)
-    try:
-        whole = _outline(link.visuals, grid)
-    except FlatHull:
+    whole = _outline(link.visuals, grid)
+    if whole is None:
         return [], numbers
     near = ndimage.binary_dilation(surface, np.ones((3, 3, 3), dtype=bool))
     cavity = _reached(~surface) & _rasterised(whole, grid) & ~near
@@ -175,13 +174,11 @@ def _surface(shapes: Sequence[DescribedShape], grid: _Grid) -> BoolArray:
     return marked
 
 
-def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
+def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull | None:
     """Return the convex hull of the shapes' corners [m]; of many, the farthest out by direction.
 
-    These are taken where there are more than :data:`CORNERS`, in many directions.
-
-    Raises:
-        FlatHull: where they span no volume.
+    These are taken where there are more than :data:`CORNERS`, in many directions; ``None`` where
+    all span no volume.
     """
     points = np.vstack([shape.corners for shape in shapes])
     # One format welds corners that another repeats.
@@ -195,7 +192,7 @@ def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
         ends = np.concatenate([starts[1:], [len(order)]]) - 1
         points = points[order[np.concatenate([starts, ends])]]
         points = points[np.unique(np.argmax(points @ _directions().T, axis=0))]
-    return convex_hull(points)
+    return find_hull(points)
 
 
 def _directions() -> FloatArray:

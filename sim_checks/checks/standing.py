@@ -18,7 +18,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ..config import StandingConfig
 from ..description import DescribedShape, Description, FloatArray, JointLine, Link
-from ..geometry.hull import FlatHull, convex_hull
+from ..geometry.hull import find_hull
 from ..geometry.kinematics import Poser, Tree, find_tree, unit_axis
 from ..geometry.statics import GRAVITY
 from ..report import Finding
@@ -276,10 +276,8 @@ def _corners(shapes: tuple[DescribedShape, ...]) -> FloatArray:
     if not shapes:
         return np.zeros((0, 3))
     points: FloatArray = np.vstack([shape.corners for shape in shapes])
-    try:
-        return convex_hull(points).vertices
-    except FlatHull:
-        return points
+    hull = find_hull(points)
+    return points if hull is None else hull.vertices
 
 
 def _edges(points: FloatArray, thinnest: float) -> FloatArray | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -90,6 +91,13 @@ def convex_hull(points: FloatArray) -> CollisionHull:
     if len(points) <= MOST_CORNERS:
         return _convex_hull(points)
     return _large_hull(np.ascontiguousarray(points, dtype=np.float64).tobytes())
+
+
+def find_hull(points: FloatArray) -> CollisionHull | None:
+    """Return what :func:`convex_hull` does; ``None`` where points span no volume."""
+    with suppress(FlatHull):
+        return convex_hull(points)
+    return None
 
 
 @lru_cache(maxsize=4)

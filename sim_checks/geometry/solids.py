@@ -12,7 +12,7 @@ from ..description import Description, FloatArray, JointLine
 from .collision import Collider, LookBudget
 from .coupling import leaders
 from .depth import HullOverlap
-from .hull import FlatHull, convex_hull
+from .hull import find_hull
 from .kinematics import Poser, Tree
 from .path import Path, joint_axis
 from .placing import boxes_near, diagonal
@@ -74,11 +74,9 @@ class Solids:
         for link in description.links:
             part = part_of[link.name]
             for shape in link.collisions:
-                try:
-                    hull = convex_hull(shape.vertices)
-                except FlatHull:
-                    continue
-                self.items.append(LinkSolid(link.name, shape.name, part, Collider(hull)))
+                hull = find_hull(shape.vertices)
+                if hull is not None:
+                    self.items.append(LinkSolid(link.name, shape.name, part, Collider(hull)))
         self._poser = Poser(tree)
         self._steps = _steps(tree, part_of)
         self._groups: dict[str, tuple[SolidGroup, ...]] = {}
