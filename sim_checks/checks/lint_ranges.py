@@ -21,7 +21,9 @@ AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 def range_findings(description: Description, tree: Tree | None, config: LintConfig) -> Findings:
     """Yield errors for impossible ranges and axes, warnings for tiny ranges and drives."""
     poses = {} if tree is None else tree.link_poses(tree.closed)
-    boxes = _boxes(description, poses)
+    shapes = ((link.name, (*link.collisions, *link.visuals)) for link in description.links)
+    corners = {name: shape_corners(own) for name, own in shapes if name in poses}
+    boxes = {name: placed(points, poses[name]) for name, points in corners.items() if len(points)}
     across = diagonal(boxes.values())
     for joint in description.joints:
         if joint.kind not in MOVING_KINDS:
@@ -118,13 +120,3 @@ def _beside(line: JointAxis, corners: FloatArray) -> float:
     around = np.column_stack([np.cos(AROUND), np.sin(AROUND)])
     # Some direction sees every point at least so far ahead.
     return max(0.0, float((flat @ around.T).min(axis=0).max()))
-
-
-def _boxes(description: Description, poses: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-    """Return corners of boxes around the shapes of each posed link [m], shape [corner_count, 3]."""
-    boxes = {}
-    for link in description.links:
-        corners = shape_corners((*link.collisions, *link.visuals))
-        if link.name in poses and len(corners):
-            boxes[link.name] = placed(corners, poses[link.name])
-    return boxes
