@@ -75,18 +75,14 @@ class Diagnosis:
         return replace(contact, visual=visual, cause=cause)
 
     def _along(self, sweep: JointSweep) -> JointSweep:
-        failing = [pair for pair in sweep.pairs if pair.excess > self.rest.config.excess_m]
-        if not failing:
+        if not any(pair.excess > self.rest.config.excess_m for pair in sweep.pairs):
             return self._with_clearance(sweep)
         if sweep.alternative is not None:
             # What others have to make way for is no fault that wants a cause.
             return sweep
         course = JointCourse(sweep.joint, self.rest, self.rest.lower)
         otherwise = cache(lambda: self._least_otherwise(course))
-        pairs = (
-            self._failing(pair, sweep, course, otherwise) if pair in failing else pair
-            for pair in sweep.pairs
-        )
+        pairs = (self._explained(pair, sweep, course, otherwise) for pair in sweep.pairs)
         return replace(sweep, pairs=tuple(pairs))
 
     def _with_clearance(self, sweep: JointSweep) -> JointSweep:
@@ -97,7 +93,7 @@ class Diagnosis:
         pairs = tuple(seen if pair is nearest else pair for pair in sweep.pairs)
         return replace(sweep, pairs=pairs)
 
-    def _failing(
+    def _explained(
         self,
         pair: PairSweep,
         sweep: JointSweep,
@@ -173,16 +169,12 @@ class Diagnosis:
 
     def _strayed(self, contact: Contact, allowed: float) -> bool:
         """Tell whether only small pieces at the other part meet it deeper than ``allowed`` [m]."""
-        at_rest = self._sides(contact, self._resting)
-        sides = self._sides(contact, self.rest.solids.place(contact.pose))
+        solids = self.rest.solids
+        at_rest = self._sides(contact, solids.tree.link_poses(self.rest.lower))
+        sides = self._sides(contact, solids.place(contact.pose))
         if sides is None or at_rest is None:
             return False
         return strayed(sides, self._meeting(contact), at_rest, allowed)
-
-    @cached_property
-    def _resting(self) -> dict[str, FloatArray]:
-        """Link poses at rest."""
-        return self.rest.solids.tree.link_poses(self.rest.lower)
 
     def _meeting(self, contact: Contact) -> SurfaceMeeting:
         """Return where a contact's hulls meet or come nearest; they are placed as it says."""
