@@ -13,6 +13,7 @@ from scipy import ndimage
 from ..config import LintConfig
 from ..description import BoolArray, DescribedShape, FloatArray, Link
 from ..geometry.hull import CollisionHull, find_hull
+from ..geometry.placing import box_around
 from ..report import Finding
 from .result import Findings, graded
 
@@ -130,8 +131,7 @@ def _same(visuals: Sequence[DescribedShape], collisions: Sequence[DescribedShape
 
 
 def _grid(shapes: Sequence[DescribedShape], config: LintConfig) -> _Grid:
-    corners = np.vstack([shape.corners for shape in shapes])
-    bounds = np.array([corners.min(axis=0), corners.max(axis=0)])
+    bounds = box_around(shape.corners for shape in shapes)
     extent = bounds[1] - bounds[0]
     size = max(float(extent.max()) / config.voxels, config.voxel_m)
     counts = np.ceil(extent / size - ROUNDING).astype(int) + 1

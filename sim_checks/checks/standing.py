@@ -19,7 +19,8 @@ from scipy.spatial import ConvexHull, QhullError
 from ..config import StandingConfig
 from ..description import DescribedShape, Description, FloatArray, JointLine, Link
 from ..geometry.hull import find_hull
-from ..geometry.kinematics import Poser, Tree, find_tree, unit_axis
+from ..geometry.kinematics import Poser, Tree, find_tree
+from ..geometry.path import joint_axis
 from ..geometry.statics import GRAVITY
 from ..report import Finding
 from .result import CheckResult, Findings, measured, warning
@@ -136,14 +137,11 @@ class _RestingBody:
         if not clouds:
             return None
         points = np.vstack(clouds)
-        frame = self._posed[joint.child]
-        axis = frame[:3, :3] @ unit_axis(joint)
-        if joint.kind == "prismatic":
-            return _farthest(points, points @ axis), axis
-        arms = np.cross(axis, points - frame[:3, 3])
-        lengths = np.linalg.norm(arms, axis=1)
-        point = _farthest(points, lengths)
-        arm = np.cross(axis, point - frame[:3, 3])
+        line = joint_axis(joint, self._posed[joint.child])
+        if not line.turning:
+            return _farthest(points, points @ line.axis), line.axis
+        point = _farthest(points, np.linalg.norm(line.arms(points), axis=1))
+        arm = np.cross(line.axis, point - line.origin)
         length = float(np.linalg.norm(arm))
         return (point, arm / length) if length > SAME else None
 
