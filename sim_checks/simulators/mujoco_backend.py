@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
@@ -55,7 +54,10 @@ class MujocoSimulator(Simulator):
             try:
                 spec = mujoco.MjSpec.from_file(source)
                 _fix_base(spec, mujoco)
-                _exempt(spec, exempt_pairs(path) if is_urdf else ())
+                # Links that an SRDF exempts, which MuJoCo reads not.
+                for one, other in sorted(map(sorted, exempt_pairs(path) if is_urdf else ())):
+                    if spec.body(one) is not None and spec.body(other) is not None:
+                        spec.add_exclude(bodyname1=one, bodyname2=other)
                 model = spec.compile()
             except (ValueError, RuntimeError) as error:
                 raise ValueError(str(error)) from error
@@ -69,13 +71,6 @@ class MujocoSimulator(Simulator):
         if config.parents_touch:
             model.opt.disableflags |= int(flags.mjDSBL_FILTERPARENT)
         return MujocoWorld(mujoco, model, read_mechanism(model), config.parents_touch)
-
-
-def _exempt(spec: Any, pairs: Iterable[frozenset[str]]) -> None:
-    """Let links of a URDF pass through each other that its SRDF exempts, which MuJoCo reads not."""
-    for one, other in sorted(map(sorted, pairs)):
-        if spec.body(one) is not None and spec.body(other) is not None:
-            spec.add_exclude(bodyname1=one, bodyname2=other)
 
 
 def _fix_base(spec: Any, mujoco: Any) -> None:

@@ -49,7 +49,11 @@ class NewtonSimulator(Simulator):
             _begin()
             builder = newton.ModelBuilder()
             try:
-                _read(builder, path)
+                if format_of(path) == "urdf":
+                    with twin_of(path) as twin:
+                        builder.add_urdf(twin, floating=False)
+                else:
+                    builder.add_mjcf(str(path), floating=False)
                 loaded = builder.finalize(device="cpu")
                 solver = newton.solvers.SolverMuJoCo(loaded, use_mujoco_cpu=True)
             except Exception as error:
@@ -71,14 +75,6 @@ def _begin() -> None:
     warp.config.log_level = warp.LOG_ERROR
     with captured_lines([]):
         warp.init()
-
-
-def _read(builder: Any, path: Path) -> None:
-    if format_of(path) == "urdf":
-        with twin_of(path) as twin:
-            builder.add_urdf(twin, floating=False)
-    else:
-        builder.add_mjcf(str(path), floating=False)
 
 
 class NewtonWorld(MujocoWorld):
