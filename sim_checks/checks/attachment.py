@@ -113,8 +113,7 @@ class _Surfaces:
         """Return a part's corners and its triangles held ready; ``None`` where it has none."""
         if (part, visible) not in self._still:
             found = self._triangles(self.tree.parts[part], visible=visible)
-            ready = None if found is None else (found[0], Skin(*found))
-            self._still[part, visible] = ready
+            self._still[part, visible] = None if found is None else (found[0], Skin(*found))
         return self._still[part, visible]
 
     def _triangles(

@@ -238,6 +238,8 @@ class WarmChild:
         unborn = crashed and not process.has_started
         exit_code, output, place = process.end(GOODBYE_S if crashed else 0.0)
         killed = crashed and exit_code in (-signal.SIGKILL, ORPHANED)
+        left = crashed and exit_code is not None and 0 <= exit_code < ORPHANED
+        faulted = crashed and exit_code is not None and -exit_code in FAULTS
         detail = UNBORN if unborn and not killed else _failure_sentence(failure, exit_code, limits)
         return Outcome(
             value=None,
@@ -246,8 +248,8 @@ class WarmChild:
             output=output,
             seconds=time.monotonic() - started,
             killed=killed,
-            exited=crashed and not killed and exit_code is not None and exit_code >= 0,
-            deaths=(place,) if crashed and _by_itself(exit_code) else (),
+            exited=left,
+            deaths=(place,) if left or faulted else (),
         )
 
     def _is_spent(self, process: _Process) -> bool:
@@ -349,11 +351,6 @@ def _receive(connection: Connection, wall_s: float) -> Answer | Failure:
         detail = f"its answer cannot be read: {type(error).__name__}: {error}"
         return Answer(error=RuntimeError(detail))
     return answer
-
-
-def _by_itself(exit_code: int | None) -> bool:
-    """Return whether a child died of what it did."""
-    return exit_code is not None and (-exit_code in FAULTS or 0 <= exit_code < ORPHANED)
 
 
 def _failure_sentence(failure: Failure, exit_code: int | None, limits: Limits) -> str:
