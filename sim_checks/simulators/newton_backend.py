@@ -45,8 +45,12 @@ class NewtonSimulator(Simulator):
             warnings.simplefilter("ignore")
             import mujoco
             import newton
+            import warp
 
-            _begin()
+            # What Warp says of the machine as it starts is nothing about the file.
+            warp.config.log_level = warp.LOG_ERROR
+            with captured_lines([]):
+                warp.init()
             builder = newton.ModelBuilder()
             try:
                 if format_of(path) == "urdf":
@@ -66,15 +70,6 @@ class NewtonSimulator(Simulator):
             # What is fixed to a link would pass through all that is jointed to that link.
             model.opt.disableflags |= int(flags.mjDSBL_FILTERPARENT)
         return NewtonWorld(mujoco, model, loaded, int(newton.ShapeFlags.COLLIDE_SHAPES))
-
-
-def _begin() -> None:
-    """Start Warp; what it says of the machine then is nothing about the file."""
-    import warp
-
-    warp.config.log_level = warp.LOG_ERROR
-    with captured_lines([]):
-        warp.init()
 
 
 class NewtonWorld(MujocoWorld):
