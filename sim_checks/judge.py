@@ -218,24 +218,14 @@ def examine_here(path: Path, config: CheckConfig, *, native: bool = True) -> Exa
     """
     from .checks.catalog import CHECKS
     from .checks.extent import oversized
-    from .geometry.kinematics import NotATree
     from .read.read import read_here
 
     description = read_here(path)
     too_large = oversized(description, config.work)
     if too_large is not None:
         return Examination(None, (too_large,))
-    results = {}
-    for check in CHECKS:
-        if check.native and not native:
-            continue
-        try:
-            results[check.name] = check.run(description, config)
-        except NotATree:
-            if not check.needs_tree:
-                raise
-            # The lint has said so; without a tree there is no pose to measure in.
-            results[check.name] = CheckResult()
+    asked = (check for check in CHECKS if native or not check.native)
+    results = {check.name: check.run(description, config) for check in asked}
     findings = tuple(finding for result in results.values() for finding in result.findings)
     measurements = {name: dict(result.measurements) for name, result in results.items()}
     return Examination(description, findings, measurements)

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ..config import LoadingConfig
 from ..description import Description, FloatArray, JointLine, sensible
-from ..geometry.kinematics import MOVING_KINDS, find_tree
+from ..geometry.kinematics import find_tree
 from ..report import Finding
 from ..simulators.simulator import JointValues, Observation
 from .result import CheckResult, Concerned, error, significant
@@ -31,12 +31,12 @@ def pose_samples(description: Description) -> tuple[JointValues, ...]:
     """
     tree = find_tree(description)
     if tree is None:
-        moving = [joint for joint in description.joints if joint.kind in MOVING_KINDS]
-        return tuple(_sample(moving, share) for share in POSE_SHARES)
-    return tuple(tree.completed(_sample(list(tree.free), share)) for share in POSE_SHARES)
+        # There is no pose to compare with.
+        return ()
+    return tuple(tree.completed(_sample(tree.free, share)) for share in POSE_SHARES)
 
 
-def _sample(joints: list[JointLine], share: float) -> dict[str, float]:
+def _sample(joints: tuple[JointLine, ...], share: float) -> dict[str, float]:
     mixed = 0.0 < share < 1.0
     shares = ((share + 0.618034 * i) % 1.0 if mixed else share for i in range(len(joints)))
     return {joint.name: _at(joint, at) for joint, at in zip(joints, shares, strict=True)}
@@ -59,7 +59,6 @@ def check_agreement(
     """
     tree = find_tree(description)
     if tree is None:
-        # There is no pose to compare with.
         return CheckResult()
     worst: dict[str, tuple[float, float]] = {}
     for sample in observation.poses:

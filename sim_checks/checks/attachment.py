@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from operator import attrgetter
 
 import numpy as np
@@ -10,8 +10,8 @@ import numpy as np
 from ..config import LintConfig
 from ..description import Description, FloatArray, IntArray, JointLine
 from ..geometry.collision import Skin
-from ..geometry.kinematics import build_tree, sweep_range
-from ..geometry.path import joint_path
+from ..geometry.kinematics import Tree, find_tree, sweep_range
+from ..geometry.path import joint_axis
 from ..geometry.placing import box_gap, joined, placed
 from .result import CheckResult, about, error, in_mm
 
@@ -24,9 +24,13 @@ def check_attachment(description: Description, config: LintConfig) -> CheckResul
 
     Near is a finger's width, and a tenth of the part's size: racks ride on rails that no mesh has.
     """
-    surfaces = _Surfaces(description)
+    tree = find_tree(description)
+    if tree is None:
+        # There is no pose to look at, which the lint says.
+        return CheckResult()
+    surfaces = _Surfaces(description, tree)
     findings = []
-    for joint in surfaces.tree.moving:
+    for joint in tree.moving:
         gaps, size = surfaces.gaps(joint, config.finger_m, every=joint.kind != "prismatic")
         away = config.finger_m + config.near_share * size
         never = bool(gaps.min() > away)
@@ -45,8 +49,8 @@ def check_attachment(description: Description, config: LintConfig) -> CheckResul
 class _Surfaces:
     """The triangles of links, with every joint at lower, in the root's frame."""
 
-    def __init__(self, description: Description) -> None:
-        self.tree = build_tree(description)
+    def __init__(self, description: Description, tree: Tree) -> None:
+        self.tree = tree
         self._poses = self.tree.link_poses(self.tree.closed)
         self._links = {link.name: link for link in description.links}
         self._part_of = self.tree.part_of()
@@ -70,15 +74,19 @@ class _Surfaces:
         size = 0.0
         if part is None or limits is None:
             return np.zeros(POSES), size
+        length = limits[1] - limits[0]
+        path = joint_axis(joint, self._poses[joint.child]).path(length)
+        poses = path.poses(np.linspace(0.0, length, POSES))
         for visible in (False, True):
             moved = self._triangles(sorted(self.tree.below(joint)), visible=visible)
             still = self._ready(part, visible=visible)
             if moved is None or still is None:
                 continue
             size = max(size, float(np.linalg.norm(np.ptp(moved[0], axis=0))))
-            for index, vertices in enumerate(self._along(joint, limits[1] - limits[0], moved[0])):
+            for index, pose in enumerate(poses):
                 if gaps[index] <= enough:
                     continue
+                vertices = placed(moved[0], pose)
                 gap = box_gap(vertices, still[0])
                 if gap <= enough or every:
                     gap = Skin(vertices, moved[1]).distance(still[1])
@@ -105,8 +113,7 @@ class _Surfaces:
         """Return a part's corners and its triangles held ready; ``None`` where it has none."""
         if (part, visible) not in self._still:
             found = self._triangles(self.tree.parts[part], visible=visible)
-            ready = None if found is None else (found[0], Skin(*found))
-            self._still[part, visible] = ready
+            self._still[part, visible] = None if found is None else (found[0], Skin(*found))
         return self._still[part, visible]
 
     def _triangles(
@@ -116,9 +123,3 @@ class _Surfaces:
         shapes = attrgetter("visuals" if visible else "collisions")
         links = ((self._links[name], self._poses[name]) for name in names)
         return joined((shape, pose) for link, pose in links for shape in shapes(link))
-
-    def _along(self, joint: JointLine, length: float, vertices: FloatArray) -> Iterator[FloatArray]:
-        """Yield points that a joint moves, given at lower, at poses along its range."""
-        path = joint_path(joint, self._poses[joint.child], length)
-        for pose in path.poses(np.linspace(0.0, length, POSES)):
-            yield placed(vertices, pose)

@@ -21,13 +21,11 @@ class StaticCheck:
     Attributes:
         name: of its measurements in a report.
         run: asks a description, by the settings that are its own.
-        needs_tree: whether it needs poses, which only links in one tree have.
         native: whether native code runs in it, so that it may take its process down.
     """
 
     name: str
     run: Callable[[Description, CheckConfig], CheckResult]
-    needs_tree: bool = False
     native: bool = True
 
 
@@ -38,7 +36,7 @@ def _penetration(file: Description, config: CheckConfig) -> CheckResult:
 #: Every check, in the order in which they speak.
 CHECKS = (
     StaticCheck("lint", lambda file, config: check_lint(file, config.lint), native=False),
-    StaticCheck("attachment", lambda file, config: check_attachment(file, config.lint), True),
+    StaticCheck("attachment", lambda file, config: check_attachment(file, config.lint)),
     StaticCheck("standing", lambda file, config: check_standing(file, config.standing)),
-    StaticCheck("penetration", _penetration, needs_tree=True),
+    StaticCheck("penetration", _penetration),
 )

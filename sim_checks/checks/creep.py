@@ -47,7 +47,11 @@ def check_creep(
         findings.extend(_findings(held, line, ranges[held.joint], simulator, config.motion, soft))
         row = {"at": held.values[held.joint], "moved": held.moved, "load": load}
         rows.append({"joint": held.joint, **{k: round(v, DECIMALS) + 0.0 for k, v in row.items()}})
-    return CheckResult(tuple(_worst_of_each(findings)), {"hold": rows})
+    # Of each code and joint the largest.
+    kinds = dict.fromkeys((each.code, each.joint) for each in findings)
+    alike = ([each for each in findings if (each.code, each.joint) == kind] for kind in kinds)
+    worst = (max(same, key=lambda each: each.value or 0.0) for same in alike)
+    return CheckResult(tuple(worst), {"hold": rows})
 
 
 def _findings(
@@ -82,13 +86,3 @@ def _remedy(held: HoldMotion, simulator: str, soft: bool) -> str:
     if soft:
         return f"; {simulator}'s joint friction is soft, and this format cannot tell it to be stiff"
     return "; solimpfriction near 1 makes MuJoCo's stiff" if simulator == "mujoco" else ""
-
-
-def _worst_of_each(findings: list[Finding]) -> Findings:
-    """Yield one finding of each code and joint, the largest."""
-    worst: dict[tuple[str, str | None], Finding] = {}
-    for finding in findings:
-        known = worst.setdefault((finding.code, finding.joint), finding)
-        if (finding.value or 0.0) > (known.value or 0.0):
-            worst[finding.code, finding.joint] = finding
-    yield from worst.values()

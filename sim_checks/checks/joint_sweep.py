@@ -10,14 +10,11 @@ from operator import itemgetter
 import numpy as np
 
 from ..description import FloatArray, JointLine
-from ..geometry.coupled_path import AnyPath, CoupledPath
 from ..geometry.depth import contact_region
-from ..geometry.looks import LookBudget
-from ..geometry.path import Path, joint_path
+from ..geometry.path import JointAxis, Path, joint_axis
 from ..geometry.solids import SolidGroup
 from ..geometry.sweep import Candidate, Sweep, Tolerance, Worst
-from .hinge import within
-from .pairs import RestingSolids
+from .pairs import RestingSolids, within
 from .penetration_study import JointSweep, PairKind, PairSweep, PartPair
 
 #: Fewest and most intervals that a joint's range is cut into before refinement.
@@ -41,11 +38,10 @@ def clear_until(course: JointCourse, failing: PairSweep) -> float:
     fails = failing.at
     for _ in range(CLEAR_HALVINGS):
         middle = (clear + fails) / 2.0
-        rest = replace(course.rest, upper={**course.rest.upper, name: middle})
-        pairs = replace(course, rest=rest).run().pairs
+        pairs = replace(course, until=middle).run().pairs
         alike = (pair for pair in pairs if pair.kind is kind)
         worst = max((pair.excess for pair in alike), default=0.0)
-        clear, fails = (middle, fails) if worst <= rest.config.excess_m else (clear, middle)
+        clear, fails = (middle, fails) if worst <= course.rest.config.excess_m else (clear, middle)
     return clear
 
 
@@ -55,29 +51,28 @@ class JointCourse:
 
     Attributes:
         joint: which moves; it follows no other.
-        rest: the solids, their contacts at rest, and the range.
+        rest: the solids, and their contacts at rest.
         values: where the other joints stand [rad] or [m]; of those that follow none.
         only: the pairs of parts to look at; ``None`` for all.
         motion: another motion than the joint's own, from the same start; only for one that has no
             followers.
         located: say where in space the pairs meet, too.
-        looks: that are counted; ``None`` for those of the file.
         decides: tell only whether pairs penetrate too deeply, not how deep.
+        until: where it ends [rad] or [m]; ``None`` for upper.
     """
 
     joint: JointLine
     rest: RestingSolids
     values: Mapping[str, float]
     only: frozenset[PartPair] | None = None
-    motion: Path | None = None
+    motion: JointAxis | None = None
     located: bool = True
-    looks: LookBudget | None = None
     decides: bool = False
+    until: float | None = None
 
     def run(self) -> JointSweep:
         """Return the worst of every pair of parts along the way."""
         start = self.rest.lower[self.joint.name]
-        end = self.rest.upper[self.joint.name]
         found: dict[tuple[PartPair, PairKind], PairSweep] = {}
         looks = 0
         # Without followers there are two groups only: what moves and what stands.
@@ -89,16 +84,18 @@ class JointCourse:
                     found[key] = pair
             looks += encounter.sweep.looks
         ordered = tuple(found[key] for key in sorted(found))
-        return JointSweep(self.joint, start, end, ordered, looks)
+        return JointSweep(self.joint, start, start + self.length, ordered, looks)
 
-    def path(self) -> Path:
-        """Return the motion of the joint by itself; the solids are placed where it starts."""
-        own = joint_path(self.joint, self._placed()[self.joint.child], self._length)
-        return own if self.motion is None else replace(self.motion, length=self._length)
+    def line(self) -> JointAxis:
+        """Return the line of the joint's own motion; the solids are placed where it starts."""
+        return joint_axis(self.joint, self._placed()[self.joint.child])
 
     @property
-    def _length(self) -> float:
-        return self.rest.upper[self.joint.name] - self.rest.lower[self.joint.name]
+    def length(self) -> float:
+        """Return how far it goes [rad] or [m]."""
+        name = self.joint.name
+        end = self.rest.upper[name] if self.until is None else self.until
+        return end - self.rest.lower[name]
 
     def _placed(self) -> Mapping[str, FloatArray]:
         name = self.joint.name
@@ -118,17 +115,16 @@ class JointCourse:
         solids = self.rest.solids
         poses = self._placed()
         if self.motion is not None:
-            path: AnyPath = self.path()
+            path = self.motion.path(self.length)
         else:
-            path = solids.seen(moving, standing, poses, self._length)
-        colliders = [solids.items[index].collider for index in moving.solids]
-        corners = [np.zeros((0, 3)), *(collider.hull.vertices for collider in colliders)]
-        reach = path.travel(np.vstack(corners))
+            path = solids.seen(moving, standing, poses, self.length)
+        reach = path.travel(solids.points(moving.solids))
         step = self.rest.config.step_fraction * self.rest.diagonal
         steps = int(np.clip(np.ceil(reach / step) if step > 0.0 else 1, MIN_STEPS, MAX_STEPS))
-        still = [solids.items[index].collider for index in standing.solids]
-        sweep = Sweep(path, colliders, still, steps, self.looks or solids.looks)
-        frame = solids.way(standing, poses, self._length) if standing.ways else None
+        groups = (moving, standing)
+        mover, still = ([solids.items[i].collider for i in group.solids] for group in groups)
+        sweep = Sweep(path, mover, still, steps, solids.looks)
+        frame = solids.way(standing, poses, self.length) if standing.ways else None
         return _Encounter(self, sweep, moving.solids, standing.solids, frame)
 
 
@@ -147,7 +143,7 @@ class _Encounter:
     sweep: Sweep
     moving: Sequence[int]
     standing: Sequence[int]
-    frame: AnyPath | None
+    frame: Path | None
 
     def pairs(self) -> Iterator[PairSweep]:
         """Yield the worst places, one or more for each pair of parts and kind."""
@@ -191,12 +187,11 @@ class _Encounter:
         first = self.moving[worst.candidate.moving]
         second = self.standing[worst.candidate.standing]
         sweep.place(worst.candidate.moving, worst.at)
-        if kind is PairKind.HINGE and not self._still_knuckle(first, second, worst):
-            kind = PairKind.PLAIN
         at = course.rest.lower[course.joint.name] + float(worst.at)
         pose = {**course.values, course.joint.name: at}
-        where = (first, second, worst.depth, kind, pose)
-        contact = course.rest.contact(*where, located=course.located)
+        contact = course.rest.contact(first, second, worst.depth, pose, located=course.located)
+        if kind is PairKind.HINGE and not self._still_knuckle(first, second, worst):
+            contact = replace(contact, kind=PairKind.PLAIN)
         if contact.point is not None and self.frame is not None:
             frame = self.frame.pose(worst.at)
             point = frame[:3, :3] @ contact.point + frame[:3, 3]
@@ -207,9 +202,8 @@ class _Encounter:
         """Return a knuckle stays within its radius and never gains more than it had."""
         items = self.course.rest.solids.items
         config = self.course.rest.config
-        path = self.sweep.path
         # What a hinge joins, it alone moves against one another.
-        line = path.steps[0][0] if isinstance(path, CoupledPath) else path
+        line, _ = self.sweep.path.steps[0]
         region = contact_region(items[first].collider.hull, items[second].collider.hull)
         near = len(region) == 0 or within(region, line, config.hinge_radius_m)
         return near and worst.excess <= max(config.excess_m, worst.candidate.rest)

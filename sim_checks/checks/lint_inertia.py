@@ -8,7 +8,7 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, sensible
-from ..geometry.hull import FlatHull, convex_hull
+from ..geometry.hull import find_hull
 from ..geometry.kinematics import Tree
 from ..geometry.placing import box_around, diagonal
 from ..geometry.surfaces import VisibleSurface
@@ -76,14 +76,11 @@ def inertia_findings(link: Link, config: LintConfig) -> Findings:
 def _plausible(
     link: Link, inertia: LinkInertia, moments: FloatArray, config: LintConfig
 ) -> Findings:
-    shapes = link.collisions or link.visuals
-    if not shapes:
+    if not (link.collisions or link.visuals):
         return
-    across = diagonal(shape.vertices for shape in shapes)
     box = box_around(shape.vertices for shape in (*link.collisions, *link.visuals))
     yield from _center(link, inertia.center, box, config)
-    gyration = math.sqrt(float(moments[2]) / inertia.mass)
-    yield from _gyration(link, inertia, gyration, box, across, config)
+    yield from _gyration(link, inertia, moments, box, config)
     yield from _density(link, inertia.mass, config)
 
 
@@ -126,18 +123,15 @@ def _density(link: Link, mass: float, config: LintConfig) -> Findings:
 
 
 def _gyration(
-    link: Link,
-    inertia: LinkInertia,
-    gyration: float,
-    box: FloatArray,
-    across: float,
-    config: LintConfig,
+    link: Link, inertia: LinkInertia, moments: FloatArray, box: FloatArray, config: LintConfig
 ) -> Findings:
     """Check an inertia against the extents that it must fit in.
 
-    Its largest radius of gyration [m] is held against the diagonal of the collision shapes
-    (``across`` [m]), and the spread of its mass along each axis against the box around all.
+    Its largest radius of gyration is held against the diagonal of the collision shapes, and the
+    spread of its mass along each axis against the box around all.
     """
+    gyration = math.sqrt(float(moments[2]) / inertia.mass)
+    across = diagonal(shape.vertices for shape in link.collisions or link.visuals)
     second = np.trace(inertia.tensor) / 2.0 - np.diag(inertia.tensor)
     spread = np.sqrt(np.maximum(second, 0.0) / inertia.mass)
     extent = np.ptp(box, axis=0)
@@ -160,13 +154,8 @@ def _gyration(
 
 def _volume(link: Link) -> float:
     """Return the volume of the collision hulls together [m3]; overlaps count twice."""
-    total = 0.0
-    for shape in link.collisions:
-        try:
-            total += convex_hull(shape.vertices).volume
-        except FlatHull:
-            continue
-    return total
+    hulls = (find_hull(shape.vertices) for shape in link.collisions)
+    return sum(hull.volume for hull in hulls if hull is not None)
 
 
 def _visible_volume(link: Link, sheet: float) -> float:

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy import ndimage
 
 from ..config import LintConfig
 from ..description import BoolArray, DescribedShape, FloatArray, Link
-from ..geometry.hull import CollisionHull, FlatHull, convex_hull
+from ..geometry.hull import CollisionHull, find_hull
+from ..geometry.placing import box_around
 from ..report import Finding
 from .result import Findings, graded
 
@@ -83,12 +83,11 @@ def interior_findings(
         return [], numbers
     grid = _grid(link.visuals, config)
     surface = _surface(link.visuals, grid)
-    try:
-        whole = _outline(link.visuals, grid)
-    except FlatHull:
+    whole = _outline(link.visuals, grid)
+    if whole is None:
         return [], numbers
     near = ndimage.binary_dilation(surface, np.ones((3, 3, 3), dtype=bool))
-    cavity = _outside(surface) & _rasterised(whole, grid) & ~near
+    cavity = _reached(~surface) & _rasterised(whole, grid) & ~near
     if cavity.sum() * grid.volume < config.cavity_share * whole.volume:
         return [], numbers
     filled = np.zeros(grid.shape, dtype=bool)
@@ -98,7 +97,9 @@ def interior_findings(
     least = config.pocket_share * whole.volume / grid.volume
     pocket = cavity & _walled(surface, down)
     if pocket.sum() >= least:
-        pocket &= _reached(surface, grid, config.hand_m)
+        # Where the middle of a hand can be.
+        radius = config.hand_m / 2.0 / grid.size - ROUNDING
+        pocket &= _reached(ndimage.distance_transform_edt(~surface) >= radius)
         numbers["pocket_kept"] = _kept(pocket, filled) if pocket.sum() >= least else None
     return list(_findings(link, numbers, config)), numbers
 
@@ -130,8 +131,7 @@ def _same(visuals: Sequence[DescribedShape], collisions: Sequence[DescribedShape
 
 
 def _grid(shapes: Sequence[DescribedShape], config: LintConfig) -> _Grid:
-    corners = np.vstack([shape.corners for shape in shapes])
-    bounds = np.array([corners.min(axis=0), corners.max(axis=0)])
+    bounds = box_around(shape.corners for shape in shapes)
     extent = bounds[1] - bounds[0]
     size = max(float(extent.max()) / config.voxels, config.voxel_m)
     counts = np.ceil(extent / size - ROUNDING).astype(int) + 1
@@ -151,46 +151,34 @@ def _surface(shapes: Sequence[DescribedShape], grid: _Grid) -> BoolArray:
     first = (middle + 2) % 3
     rows = np.arange(len(corners))
     a, b, c = (corners[rows, (first + k) % 3] for k in range(3))
-    spaced = (np.ceil(np.linalg.norm(end - a, axis=1) / SPACING) for end in (b, c))
+    across = b - a
+    down = c - a
+    spaced = (np.ceil(np.linalg.norm(side, axis=1) / SPACING) for side in (across, down))
     steps = [np.maximum(1, each.astype(np.int64)) for each in spaced]
-    across = steps[0] + 1
-    ends = np.cumsum(across * (steps[1] + 1))
+    counts = (steps[0] + 1) * (steps[1] + 1)
+    ends = np.cumsum(counts)
     start = 0
     while start < len(corners):
         taken = int(ends[start - 1]) if start else 0
         stop = max(start + 1, int(np.searchsorted(ends, taken + CHUNK, side="right")))
-        some = slice(start, stop)
-        inside = _points(a[some], b[some], c[some], steps[0][some], steps[1][some])
+        # Rows of points from side ac to b.
+        which = np.repeat(np.arange(start, stop), counts[start:stop])
+        place = np.arange(taken, taken + len(which)) - (ends - counts)[which]
+        row, column = np.divmod(place, steps[1][which] + 1)
+        u = row / steps[0][which]
+        v = column / steps[1][which] * (1.0 - u)
+        inside = a[which] + u[:, None] * across[which] + v[:, None] * down[which]
         cells = np.clip(np.rint(inside).astype(np.int64), 0, np.array(grid.shape) - 1)
         marked[cells[:, 0], cells[:, 1], cells[:, 2]] = True
         start = stop
     return marked
 
 
-def _points(
-    a: FloatArray,
-    b: FloatArray,
-    c: FloatArray,
-    along: npt.NDArray[np.int64],
-    down: npt.NDArray[np.int64],
-) -> FloatArray:
-    """Return points of triangles in ``along + 1`` rows from side ac to b, [point_count, 3]."""
-    counts = (along + 1) * (down + 1)
-    which = np.repeat(np.arange(len(a)), counts)
-    place = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
-    u = (place // (down[which] + 1)) / along[which]
-    v = (place % (down[which] + 1)) / down[which] * (1.0 - u)
-    points: FloatArray = a[which] + u[:, None] * (b - a)[which] + v[:, None] * (c - a)[which]
-    return points
-
-
-def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
+def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull | None:
     """Return the convex hull of the shapes' corners [m]; of many, the farthest out by direction.
 
-    These are taken where there are more than :data:`CORNERS`, in many directions.
-
-    Raises:
-        FlatHull: where they span no volume.
+    These are taken where there are more than :data:`CORNERS`, in many directions; ``None`` where
+    all span no volume.
     """
     points = np.vstack([shape.corners for shape in shapes])
     # One format welds corners that another repeats.
@@ -204,7 +192,7 @@ def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull:
         ends = np.concatenate([starts[1:], [len(order)]]) - 1
         points = points[order[np.concatenate([starts, ends])]]
         points = points[np.unique(np.argmax(points @ _directions().T, axis=0))]
-    return convex_hull(points)
+    return find_hull(points)
 
 
 def _directions() -> FloatArray:
@@ -217,11 +205,12 @@ def _directions() -> FloatArray:
     return np.vstack([even, np.eye(3), -np.eye(3)])
 
 
-def _outside(surface: BoolArray) -> BoolArray:
-    """Return free voxels that the outside reaches."""
-    labels, _ = ndimage.label(~surface)
-    reached: BoolArray = labels == labels[0, 0, 0]
-    return reached
+def _reached(room: BoolArray) -> BoolArray:
+    """Return the voxels of some room that are reached from outside without leaving it."""
+    labels, _ = ndimage.label(room)
+    border = np.ones(room.shape, dtype=bool)
+    border[1:-1, 1:-1, 1:-1] = False
+    return room & np.isin(labels, np.unique(labels[border & room]))
 
 
 def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
@@ -237,19 +226,6 @@ def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:
         if axis == lowest:
             floor = ahead if down[axis] > 0.0 else behind
     return floor & (met >= WALLED)
-
-
-def _reached(surface: BoolArray, grid: _Grid, hand: float) -> BoolArray:
-    """Return the voxels that the centre of a ball of diameter ``hand`` [m] reaches from outside.
-
-    It may not cross a surface.
-    """
-    room = ndimage.distance_transform_edt(~surface) >= hand / 2.0 / grid.size - ROUNDING
-    labels, _ = ndimage.label(room)
-    border = np.ones(grid.shape, dtype=bool)
-    border[1:-1, 1:-1, 1:-1] = False
-    reached: BoolArray = np.isin(labels, np.unique(labels[border & room]))
-    return reached & room
 
 
 def _kept(space: BoolArray, filled: BoolArray) -> float:

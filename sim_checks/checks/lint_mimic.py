@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..description import ABSURD, Description, JointLine, Mimic, sensible
-from ..geometry.coupling import Limits, common_range, whole_chain
+from ..geometry.coupling import Limits, common_range, led_by, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
 from .result import Findings, about, error, graded, rounded
 
@@ -16,7 +16,7 @@ def mimic_findings(description: Description) -> Findings:
     """Yield errors without a leader or a way to go, warnings where a follower stops its leader."""
     moving = {joint.name: joint for joint in description.joints if joint.kind in MOVING_KINDS}
     sound = sound_mimics(description)
-    wholes = {name: whole_chain(name, sound) for name in sound}
+    led = led_by(sound)
     for joint in description.joints:
         mimic = joint.mimic
         if mimic is None:
@@ -27,10 +27,8 @@ def mimic_findings(description: Description) -> Findings:
             message = f"{follows} by {numbers}; want finite numbers up to {ABSURD:g}"
             yield error("mimic_not_finite", message, **about(joint))
         elif joint.name in sound:
-            whole = wholes[joint.name]
-            led = {name: each for name, each in wholes.items() if each.leader == whole.leader}
-            limited = ((each, own_limits(moving[name])) for name, each in led.items())
-            others = [(each, limits) for each, limits in limited if limits is not None]
+            whole = whole_chain(joint.name, sound)
+            others = [(each, own_limits(moving[n])) for n, each in led[whole.leader].items()]
             yield from _limit_findings(joint, moving[whole.leader], whole, others)
         elif joint.kind in MOVING_KINDS:
             message = f"{follows}, {_fault(joint, mimic, moving)}"
@@ -46,7 +44,7 @@ def _fault(joint: JointLine, mimic: Mimic, moving: dict[str, JointLine]) -> str:
 
 
 def _limit_findings(
-    joint: JointLine, leader: JointLine, mimic: Mimic, others: list[tuple[Mimic, Limits]]
+    joint: JointLine, leader: JointLine, mimic: Mimic, others: list[tuple[Mimic, Limits | None]]
 ) -> Findings:
     led = sweep_range(leader)
     own = own_limits(joint)

@@ -9,7 +9,8 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine
-from ..geometry.kinematics import MOVING_KINDS, Tree, unit_axis
+from ..geometry.kinematics import MOVING_KINDS, Tree
+from ..geometry.path import JointAxis, joint_axis
 from ..geometry.placing import box_gap, diagonal, placed, shape_corners
 from .result import Findings, about, error, graded, measured, rounded, significant, warning
 
@@ -20,7 +21,9 @@ AROUND = np.linspace(0.0, 2.0 * np.pi, 720, endpoint=False)
 def range_findings(description: Description, tree: Tree | None, config: LintConfig) -> Findings:
     """Yield errors for impossible ranges and axes, warnings for tiny ranges and drives."""
     poses = {} if tree is None else tree.link_poses(tree.closed)
-    boxes = _boxes(description, poses)
+    shapes = ((link.name, (*link.collisions, *link.visuals)) for link in description.links)
+    corners = {name: shape_corners(own) for name, own in shapes if name in poses}
+    boxes = {name: placed(points, poses[name]) for name, points in corners.items() if len(points)}
     across = diagonal(boxes.values())
     for joint in description.joints:
         if joint.kind not in MOVING_KINDS:
@@ -94,20 +97,11 @@ def _place_findings(
         away = f"{gap:.3g} m away from the rest of the object, further than the size of either"
         message = f"{part} is {away}; want at most {most:.3g} m"
         yield error("part_remote", message, **about(joint), **rounded(gap, "m", most))
-    elif joint.kind != "prismatic" and float(np.linalg.norm(joint.axis)) > 0.0:
-        groups = (np.vstack(moved), np.vstack(rest))
-        yield from _axis_findings(joint, poses[joint.child], groups, size, config)
-
-
-def _axis_findings(
-    joint: JointLine,
-    frame: FloatArray,
-    groups: tuple[FloatArray, FloatArray],
-    size: float,
-    config: LintConfig,
-) -> Findings:
-    axis = frame[:3, :3] @ unit_axis(joint)
-    distance = min(_beside(frame[:3, 3], axis, group) for group in groups)
+        return
+    if joint.kind == "prismatic" or not float(np.linalg.norm(joint.axis)) > 0.0:
+        return
+    line = joint_axis(joint, poses[joint.child])
+    distance = min(_beside(line, np.vstack(group)) for group in (moved, rest))
     if distance > config.axis_soft * size:
         hard = distance > config.axis_hard * size
         message = (
@@ -118,21 +112,11 @@ def _axis_findings(
         yield graded(hard, "axis_remote", message, **about(joint), **rounded(distance, "m", limit))
 
 
-def _beside(point: FloatArray, axis: FloatArray, corners: FloatArray) -> float:
+def _beside(line: JointAxis, corners: FloatArray) -> float:
     """Return how far a line passes beside the convex hull of points [m]; 0 if it goes through."""
-    first = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+    first = np.cross(line.axis, np.eye(3)[int(np.argmin(np.abs(line.axis)))])
     first /= np.linalg.norm(first)
-    flat = (corners - point) @ np.column_stack([first, np.cross(axis, first)])
+    flat = (corners - line.origin) @ np.column_stack([first, np.cross(line.axis, first)])
     around = np.column_stack([np.cos(AROUND), np.sin(AROUND)])
     # Some direction sees every point at least so far ahead.
     return max(0.0, float((flat @ around.T).min(axis=0).max()))
-
-
-def _boxes(description: Description, poses: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-    """Return corners of boxes around the shapes of each posed link [m], shape [corner_count, 3]."""
-    boxes = {}
-    for link in description.links:
-        corners = shape_corners((*link.collisions, *link.visuals))
-        if link.name in poses and len(corners):
-            boxes[link.name] = placed(corners, poses[link.name])
-    return boxes

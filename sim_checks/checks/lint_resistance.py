@@ -8,7 +8,8 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine, Link
-from ..geometry.kinematics import Tree, sweep_range, unit_axis
+from ..geometry.kinematics import Tree, sweep_range
+from ..geometry.path import JointAxis, joint_axis
 from ..geometry.placing import placed
 from .result import Findings, about, graded, measured, significant, warning
 
@@ -31,11 +32,11 @@ def resistance_findings(description: Description, tree: Tree, config: LintConfig
         if limits is None or not points or not min(joint.friction, joint.damping) >= 0.0:
             continue
         moved = [(links[name], poses[name]) for name in sorted(tree.below(joint))]
-        frame = poses[joint.child]
-        reach = _reach(joint, moved, frame)
+        line = joint_axis(joint, poses[joint.child])
+        reach = _reach(line, moved)
         if reach > 0.0:
             yield from _force_findings(joint, limits[1] - limits[0], reach, config)
-        yield from _step_finding(joint, _moved_inertia(joint, moved, frame), config)
+        yield from _step_finding(joint, _moved_inertia(line, moved), config)
 
 
 def _force_findings(joint: JointLine, length: float, reach: float, config: LintConfig) -> Findings:
@@ -71,25 +72,23 @@ def _step_finding(joint: JointLine, inertia: float, config: LintConfig) -> Findi
         yield warning("damping_stiff", message, **about(joint), **told)
 
 
-def _reach(joint: JointLine, moved: Posed, frame: FloatArray) -> float:
+def _reach(line: JointAxis, moved: Posed) -> float:
     """Return the farthest point's distance from the axis [m]; 1 for a slide, which has no lever."""
-    if joint.kind == "prismatic":
+    if not line.turning:
         return 1.0
-    axis = frame[:3, :3] @ unit_axis(joint)
     shapes = ((s, pose) for link, pose in moved for s in (*link.collisions, *link.visuals))
-    arms = (np.cross(axis, placed(shape.vertices, pose) - frame[:3, 3]) for shape, pose in shapes)
+    arms = (line.arms(placed(shape.vertices, pose)) for shape, pose in shapes)
     return max((float(np.linalg.norm(a, axis=1).max(initial=0.0)) for a in arms), default=0.0)
 
 
-def _moved_inertia(joint: JointLine, moved: Posed, frame: FloatArray) -> float:
+def _moved_inertia(line: JointAxis, moved: Posed) -> float:
     """Return the inertia about the axis [kg m2], or along it [kg]; 0 where the file gives none."""
-    axis = frame[:3, :3] @ unit_axis(joint)
     total = 0.0
     for link, pose in moved:
         held = link.inertia
         if held is not None and math.isfinite(held.mass) and np.isfinite(held.tensor).all():
-            along = pose[:3, :3].T @ axis
-            arm = np.cross(axis, pose[:3, :3] @ held.center + pose[:3, 3] - frame[:3, 3])
+            along = pose[:3, :3].T @ line.axis
+            (arm,) = line.arms(placed(held.center[None], pose))
             turning = float(along @ held.tensor @ along + held.mass * (arm @ arm))
-            total += held.mass if joint.kind == "prismatic" else turning
+            total += turning if line.turning else held.mass
     return total

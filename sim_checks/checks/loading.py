@@ -34,13 +34,18 @@ def check_loading(
     description: Description, simulator: str, observation: Observation, config: CheckConfig
 ) -> CheckResult:
     """Compare links, shapes, masses, inertias, joints, limits and link poses with the file."""
-    links = {link.name: link for link in observation.model.links}
+    held = observation.model.links
+    links = {link.name: link for link in held}
     joints = {joint.name: joint for joint in observation.model.joints}
     findings: list[Finding] = []
     for link in description.links:
         if not link.virtual:
             findings += _link_findings(link, links.get(link.name), simulator, config.loading)
-    findings += _added(description, observation.model.links, simulator)
+    written = {link.name for link in description.links}
+    # The ground that some engines count as a body is empty.
+    bodies = (h for h in held if not (h.static and h.shapes == 0 and h.mass == 0.0))
+    if more := tuple(body.name for body in bodies if body.name not in written):
+        findings.append(added("links", more, simulator=simulator, parts=more))
     findings += joint_findings(description, joints, simulator, config.loading)
     findings += _invented(description, links, simulator)
     agreement = check_agreement(description, simulator, observation, config.loading)
@@ -109,15 +114,6 @@ def _inertia_findings(
         message = f"{center} is {1000 * offset:.3g} mm from where the file says"
         told = measured(offset, "m", config.position_m)
         yield graded(grave, "center_mismatch", message, **subject, **told)
-
-
-def _added(description: Description, links: tuple[LoadedLink, ...], simulator: str) -> Findings:
-    written = {link.name for link in description.links}
-    # The ground that some engines count as a body is empty.
-    bodies = (h for h in links if not (h.static and h.shapes == 0 and h.mass == 0.0))
-    names = [held.name for held in bodies if held.name not in written]
-    if names:
-        yield added("links", names, simulator=simulator, parts=tuple(names))
 
 
 def _invented(description: Description, links: dict[str, LoadedLink], simulator: str) -> Findings:

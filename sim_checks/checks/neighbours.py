@@ -15,9 +15,8 @@ from itertools import product
 import numpy as np
 
 from ..description import BoolArray, FloatArray, JointLine
-from ..geometry.coupled_path import swept_boxes
-from ..geometry.looks import LookBudget, TooManyLooks
-from ..geometry.placing import box_around
+from ..geometry.collision import LookBudget, TooManyLooks
+from ..geometry.placing import box_around, boxes_near
 from ..geometry.solids import Solids
 from .joint_sweep import JointCourse, clear_until
 from .pairs import RestingSolids
@@ -38,7 +37,7 @@ def open_neighbours(rest: RestingSolids, told: frozenset[PartPair]) -> Neighbour
     the other does; what follows a joint moves with it. Pairs of parts that meet while all joints
     but one are closed (``told``) are no news here.
     """
-    looks = LookBudget(rest.config.pair_looks)
+    rest = replace(rest, solids=rest.solids.counting(LookBudget(rest.config.pair_looks)))
     met: list[BothOpen] = []
     unswept = []
     asked = 0
@@ -47,82 +46,77 @@ def open_neighbours(rest: RestingSolids, told: frozenset[PartPair]) -> Neighbour
         only = frozenset((min(pair), max(pair)) for pair in moved)
         asked += 1
         try:
-            met += _Together(rest, looks).met(first, second, only - told)
+            met += _met(rest, first, second, only - told)
         except TooManyLooks:
             unswept.append((first.name, second.name))
     return Neighbours(tuple(met), asked, tuple(unswept))
 
 
+def _met(
+    rest: RestingSolids, first: JointLine, second: JointLine, only: frozenset[PartPair]
+) -> Iterator[BothOpen]:
+    """Yield the worst of every pair of parts that meet, whichever of two joints moves.
+
+    Raises:
+        TooManyLooks: the file has taken more than it may.
+    """
+    ways = (_Passing(rest, first, second), _Passing(rest, second, first))
+    found = [item for way in ways for item in way.met(only)]
+    for parts in sorted({item.pair.parts for item in found}):
+        alike = (item for item in found if item.pair.parts == parts)
+        worst = max(alike, key=lambda item: (item.obstructed, item.pair.excess))
+        if worst.pair.excess > rest.config.excess_m:
+            way = _Passing(rest, worst.joint, worst.other)
+            course = way.course(worst.other_at, frozenset({parts}))
+            worst = replace(worst, free_until=clear_until(course, worst.pair))
+        yield worst
+
+
 @dataclass(frozen=True)
-class _Together:
-    """What two joints are swept by; see :func:`open_neighbours`."""
+class _Passing:
+    """One joint that makes its way past another, which stands open."""
 
     rest: RestingSolids
-    looks: LookBudget
+    joint: JointLine
+    other: JointLine
 
-    def met(
-        self, first: JointLine, second: JointLine, only: frozenset[PartPair]
-    ) -> Iterator[BothOpen]:
-        """Yield the worst of every pair of parts that meet, whichever of the joints moves.
-
-        Raises:
-            TooManyLooks: the file has taken more than it may.
-        """
-        found = (*self._moving(first, second, only), *self._moving(second, first, only))
-        for parts in sorted({item.pair.parts for item in found}):
-            alike = (item for item in found if item.pair.parts == parts)
-            worst = max(alike, key=lambda item: (item.obstructed, item.pair.excess))
-            if worst.pair.excess > self.rest.config.excess_m:
-                course = self._course(worst.joint, worst.other, worst.other_at, frozenset({parts}))
-                worst = replace(worst, free_until=clear_until(course, worst.pair))
-            yield worst
-
-    def _moving(
-        self, joint: JointLine, other: JointLine, only: frozenset[PartPair]
-    ) -> Iterator[BothOpen]:
-        """Yield the worst of every pair of parts as one joint makes its way past another."""
-        limits = self.rest.lower[other.name], self.rest.upper[other.name]
+    def met(self, only: frozenset[PartPair]) -> Iterator[BothOpen]:
+        """Yield the worst of every pair of parts that meet."""
+        limits = self.rest.lower[self.other.name], self.rest.upper[self.other.name]
         grid = np.interp(np.linspace(self.rest.config.little_open, 1.0, GRID), (0.0, 1.0), limits)
-        swept = {at: self._swept(joint, other, at, only) for at in grid.tolist()}
+        swept = {at: self._swept(at, only) for at in grid.tolist()}
         for parts in sorted(only):
             tried = {at: found[parts] for at, found in swept.items() if parts in found}
             failing = [at for at, pair in tried.items() if pair.excess > self.rest.config.excess_m]
             obstructed = len(failing) == GRID
-            at = failing[0] if obstructed else self._deepest(joint, other, parts, tried)
+            at = failing[0] if obstructed else self._deepest(parts, tried)
             if at is not None and tried[at].excess > 0.0:
-                yield BothOpen(joint, other, at, tried[at], obstructed)
+                yield BothOpen(self.joint, self.other, tried[at], obstructed)
 
-    def _deepest(
-        self, joint: JointLine, other: JointLine, parts: PartPair, tried: dict[float, PairSweep]
-    ) -> float | None:
-        """Add finer values of a joint around the deepest of those tried; return the deepest."""
+    def _deepest(self, parts: PartPair, tried: dict[float, PairSweep]) -> float | None:
+        """Add finer values of the other around the deepest of those tried; return the deepest."""
         if not tried:
             return None
-        low = self.rest.lower[other.name]
-        high = self.rest.upper[other.name]
-        only = frozenset({parts})
+        low = self.rest.lower[self.other.name]
+        high = self.rest.upper[self.other.name]
         step = (1.0 - self.rest.config.little_open) / (GRID - 1) * (high - low)
         for _ in range(REFINED):
             step /= 2.0
             middle = max(tried, key=lambda at: tried[at].excess)
             for at in (middle - step, middle + step):
-                found = self._swept(joint, other, at, only) if low < at < high else {}
+                found = self._swept(at, frozenset({parts})) if low < at < high else {}
                 tried.update((at, pair) for pair in found.values())
         return max(tried, key=lambda at: tried[at].excess)
 
-    def _swept(
-        self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
-    ) -> Mapping[PartPair, PairSweep]:
-        """Return the worst of the pairs of parts that count, by pair, with a joint at one value."""
-        self.looks.take(SWEEP_LOOKS)
-        found = self._course(joint, other, at, only).run().pairs
+    def _swept(self, at: float, only: frozenset[PartPair]) -> Mapping[PartPair, PairSweep]:
+        """Return the worst of the pairs of parts that count, with the other at one value."""
+        self.rest.solids.looks.take(SWEEP_LOOKS)
+        found = self.course(at, only).run().pairs
         return {pair.parts: pair for pair in found if pair.kind is PairKind.PLAIN}
 
-    def _course(
-        self, joint: JointLine, other: JointLine, at: float, only: frozenset[PartPair]
-    ) -> JointCourse:
-        values = {**self.rest.lower, other.name: at}
-        return JointCourse(joint, self.rest, values, only, looks=self.looks)
+    def course(self, at: float, only: frozenset[PartPair]) -> JointCourse:
+        """Return the joint's course with the other at one value [rad] or [m]."""
+        return JointCourse(self.joint, self.rest, {**self.rest.lower, self.other.name: at}, only)
 
 
 def _near(rest: RestingSolids) -> Iterator[tuple[JointLine, JointLine]]:
@@ -135,13 +129,11 @@ def _near(rest: RestingSolids) -> Iterator[tuple[JointLine, JointLine]]:
     for index, joint in enumerate(joints):
         if joint.name in swept:
             around[index] = box_around([swept[joint.name]])
-    for index, first in enumerate(joints):
-        # What is around all of it is compared first: most pairs of joints are far apart.
-        low, high = around[index]
-        close = ((around[:, 0] < high) & (low < around[:, 1])).all(axis=1) & independent[:, index]
-        for second in (joints[i] for i in np.flatnonzero(close) if i > index):
-            if _meet(swept[first.name], swept[second.name]):
-                yield first, second
+    # What is around all of it is compared first: most pairs of joints are far apart.
+    for pair in np.argwhere(np.triu(independent & boxes_near(around, around))).tolist():
+        first, second = (joints[index] for index in pair)
+        if boxes_near(swept[first.name], swept[second.name]).any():
+            yield first, second
 
 
 def _independent(solids: Solids, joints: list[JointLine]) -> BoolArray:
@@ -162,21 +154,11 @@ def _swept(rest: RestingSolids, joints: list[JointLine]) -> Mapping[str, FloatAr
     for joint in joints:
         length = rest.upper[joint.name] - rest.lower[joint.name]
         stands, *groups = solids.groups(joint)
-        found = []
-        for group in groups:
-            if group.solids:
-                hulls = [solids.items[index].collider.hull for index in group.solids]
-                points = np.vstack([hull.vertices for hull in hulls])
-                found.append(swept_boxes(solids.seen(group, stands, poses, length), points))
+        paths = ((g, solids.seen(g, stands, poses, length)) for g in groups if g.solids)
+        found = [path.swept_boxes(solids.points(group.solids)) for group, path in paths]
         if found:
             boxes[joint.name] = np.vstack(found)
     return boxes
-
-
-def _meet(swept: FloatArray, boxes: FloatArray) -> bool:
-    low = swept[:, None, 0]
-    high = swept[:, None, 1]
-    return bool(((low < boxes[None, :, 1]) & (boxes[None, :, 0] < high)).all(axis=2).any())
 
 
 def _parts(solids: Solids, joint: JointLine) -> frozenset[int]:

@@ -28,8 +28,8 @@ def judge_joints(joints: Sequence[JointLine], rest: RestingSolids) -> tuple[Join
 
     Asked are joints with a range that follow no other, in file order.
     """
-    courses = (JointCourse(joint, rest, rest.lower) for joint in joints)
-    order = _OpeningOrder({course.joint.name: course for course in courses})
+    courses = {joint.name: JointCourse(joint, rest, rest.lower) for joint in joints}
+    order = _OpeningOrder(rest, courses)
     order.settle()
     return tuple(order.judged(joint.name) for joint in joints)
 
@@ -39,19 +39,20 @@ class _OpeningOrder:
     """Which joints must open before which.
 
     Attributes:
+        rest: the solids, and their contacts at rest.
         courses: every joint's way with the others at lower, by name.
         needs: for every joint that opens the others that must be open, itself in the order in which
             they open.
         swept: every way that was looked at, by name and by the joints that were open.
     """
 
+    rest: RestingSolids
     courses: dict[str, JointCourse]
     needs: dict[str, Names] = field(default_factory=dict)
     swept: dict[tuple[str, Names], JointSweep] = field(default_factory=dict)
 
     def settle(self) -> None:
         """Let joints open until no further one does."""
-        self.needs.update({name: CLOSED for name in self.courses if self._clean(name, CLOSED)})
         while True:
             freed = {name: self._freed(name) for name in self.courses if name not in self.needs}
             opened = {name: needs for name, needs in freed.items() if needs is not None}
@@ -77,13 +78,12 @@ class _OpeningOrder:
 
     def _swept(self, name: str, opened: Names) -> JointSweep:
         if (name, opened) not in self.swept:
-            course = self.courses[name]
-            values = {**course.rest.lower, **{other: course.rest.upper[other] for other in opened}}
-            self.swept[name, opened] = replace(course, values=values).run()
+            values = {**self.rest.lower, **{other: self.rest.upper[other] for other in opened}}
+            self.swept[name, opened] = replace(self.courses[name], values=values).run()
         return self.swept[name, opened]
 
     def _clean(self, name: str, opened: Names) -> bool:
-        return self._swept(name, opened).excess <= self.courses[name].rest.config.excess_m
+        return self._swept(name, opened).excess <= self.rest.config.excess_m
 
     def _freed(self, name: str) -> Names | None:
         """Return the joints with which open this one opens; ``None`` if there are none."""
@@ -95,6 +95,7 @@ class _OpeningOrder:
     def _trials(self, name: str) -> Iterator[Names]:
         """Yield sets of joints that may make way, with all that each needs; likely ones first."""
         opened = CLOSED
+        yield opened
         for widened in range(WIDENED):
             failing = self._failing(self._swept(name, opened))
             makers = [self._between([pair]) & frozenset(self.needs) for pair in failing]
@@ -110,13 +111,11 @@ class _OpeningOrder:
         yield frozenset(self.needs)
 
     def _failing(self, sweep: JointSweep) -> list[PairSweep]:
-        allowed = self.courses[sweep.joint.name].rest.config.excess_m
         plain = (pair for pair in sweep.pairs if pair.kind is PairKind.PLAIN)
-        return [pair for pair in plain if pair.excess > allowed]
+        return [pair for pair in plain if pair.excess > self.rest.config.excess_m]
 
     def _between(self, failing: Sequence[PairSweep]) -> Names:
-        solids = next(iter(self.courses.values())).rest.solids
-        return CLOSED.union(*(solids.between(*pair.parts) for pair in failing))
+        return CLOSED.union(*(self.rest.solids.between(*pair.parts) for pair in failing))
 
     def _with_needs(self, names: Names) -> Names:
         return names.union(*(self.needs[name] for name in names))

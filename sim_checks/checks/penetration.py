@@ -10,27 +10,21 @@ wherever a joint goes, its followers are where it takes them.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from ..config import PenetrationConfig, WorkConfig
-from ..description import Description, FloatArray
-from ..geometry.kinematics import build_tree
-from ..geometry.looks import LookBudget, TooManyLooks
-from ..geometry.path import joint_path
-from ..geometry.solids import SolidPair, Solids
+from ..description import Description
+from ..geometry.collision import LookBudget, TooManyLooks
+from ..geometry.kinematics import find_tree
+from ..geometry.solids import Solids
 from .diagnosis import Diagnosis
 from .extent import beyond
-from .hinge import knuckles
 from .neighbours import open_neighbours
 from .opening import judge_joints
-from .pairs import RestingSolids
+from .pairs import RestingSolids, at_rest
 from .penetration_report import report, told_parts
 from .penetration_study import Contact, PairKind, PartPair, PenetrationStudy
 from .result import CheckResult
-from .visible import Visible
 
-#: Depth that counts as touching [m].
-TOUCH = 1e-6
 #: Bases of the Halton sequence, one for each joint.
 PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53)
 
@@ -52,62 +46,34 @@ def check_penetration(
         ``hinge_overlap``, ``excluded_penetration``, ``joint_dependency``, ``joints_collide``,
         ``combination_penetration`` (warnings); ``joints_not_swept`` (note); and every
         number taken. Or ``too_large_to_judge`` alone.
-
-    Raises:
-        NotATree: for a file whose links do not form a tree.
     """
+    tree = find_tree(description)
+    if tree is None:
+        # There is no pose to measure in, which the lint says.
+        return CheckResult()
     try:
-        return _measured(description, config, LookBudget(most_looks))
+        return _measured(Solids(description, tree, LookBudget(most_looks)), config)
     except TooManyLooks:
         words = "exact looks do not tell how deep its parts penetrate each other"
         return CheckResult((beyond(words, most_looks + 1, most_looks),))
 
 
-def _measured(
-    description: Description, config: PenetrationConfig, looks: LookBudget
-) -> CheckResult:
-    tree = build_tree(description)
-    solids = Solids(description, tree, looks)
-    poses = solids.place(tree.closed)
-    standings = tuple(solids.standings(config.clearance_m))
-    known = (solids, description.excluded, config, tree.closed, tree.opened)
-    rest = RestingSolids(*known, standings, solids.diagonal())
-    rest = replace(rest, knuckles=_knuckles(rest, poses))
+def _measured(solids: Solids, config: PenetrationConfig) -> CheckResult:
+    tree = solids.tree
+    rest = at_rest(solids, config)
     # Contacts are located as the solids are placed, which sweeps change.
-    at_rest = rest.worst(standings, rest.lower)
+    met = rest.worst(rest.standings, rest.lower)
     at_zero = _at_zero(rest)
     asked = [joint for joint in tree.free if joint.name in tree.ranges]
     sweeps = judge_joints(asked, rest)
     study = PenetrationStudy(
-        diagonal=rest.diagonal,
-        parts=tree.parts,
-        hulls=len(solids.items),
-        rest=at_rest,
+        rest=met,
         zero=at_zero,
         sweeps=sweeps,
         neighbours=open_neighbours(rest, told_parts(sweeps, config)),
         combinations=_combinations(rest),
     )
-    return report(Diagnosis(rest, Visible(description, rest)).explained(study), config)
-
-
-def _knuckles(rest: RestingSolids, poses: Mapping[str, FloatArray]) -> frozenset[PartPair]:
-    """Return every pair of solids that is some hinge's knuckle at rest."""
-    tree = rest.solids.tree
-    part_of = tree.part_of()
-    overlapping: dict[PartPair, list[SolidPair]] = {}
-    for pair in rest.standings:
-        if pair.overlap.depth > TOUCH:
-            overlapping.setdefault(rest.parts(pair.first, pair.second), []).append(pair)
-    found: set[PartPair] = set()
-    for joint in tree.moving:
-        if joint.kind == "prismatic" or not (joint.name in rest.lower or joint.name in tree.mimics):
-            continue
-        first, second = sorted((part_of[joint.parent], part_of[joint.child]))
-        overlaps = overlapping.get((first, second), [])
-        path = joint_path(joint, poses[joint.child], 0.0)
-        found |= knuckles(rest.solids, overlaps, path, part_of[joint.child], rest.config)
-    return frozenset(found)
+    return report(Diagnosis(rest).explained(study), rest)
 
 
 def _at_zero(rest: RestingSolids) -> tuple[Contact, ...] | None:
@@ -124,14 +90,12 @@ def _combinations(rest: RestingSolids) -> tuple[Contact, ...]:
     worst: dict[PartPair, Contact] = {}
     for values in combination_values(rest.solids.tree.ranges, rest.config.combinations):
         rest.solids.place(values)
-        for pair in rest.solids.standings(0.0):
-            solids = (pair.first, pair.second)
-            if rest.kind(*solids) is not PairKind.PLAIN:
+        for pair, overlap in rest.solids.standings(0.0).items():
+            if rest.kind(*pair) is not PairKind.PLAIN:
                 continue
-            key = rest.parts(*solids)
-            depth = pair.overlap.depth
-            if key not in worst or depth - rest.depth(*solids) > worst[key].excess:
-                worst[key] = rest.contact(*solids, depth, PairKind.PLAIN, values)
+            key = rest.parts(*pair)
+            if key not in worst or overlap.depth - rest.depth(*pair) > worst[key].excess:
+                worst[key] = rest.contact(*pair, overlap.depth, values)
     return tuple(worst[key] for key in sorted(worst))
 
 

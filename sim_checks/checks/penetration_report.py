@@ -17,6 +17,7 @@ from ..measurements import (
 )
 from ..report import Finding
 from .cause import CLAUSES
+from .pairs import RestingSolids
 from .penetration_study import (
     BothOpen,
     Contact,
@@ -37,7 +38,7 @@ EXEMPT = {
 }
 
 
-def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
+def report(study: PenetrationStudy, rest: RestingSolids) -> CheckResult:
     """Return findings in the order rest, joints, neighbours, combinations; and every number.
 
     The measurements are plain JSON data. Wherever two parts were found to meet, ``visual_mm`` says
@@ -48,6 +49,7 @@ def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
     ``waits_for`` those that would have to be and never are. ``neighbours`` holds what joints do
     while another stands open, at ``open_at``.
     """
+    config = rest.config
     findings = [*_rest_findings(study, config)]
     for sweep in study.sweeps:
         findings += _sweep_findings(sweep, config)
@@ -56,7 +58,7 @@ def report(study: PenetrationStudy, config: PenetrationConfig) -> CheckResult:
     findings += _left_out(study.neighbours, config)
     told = told_parts(study.sweeps, config) | {item.pair.parts for item in colliding}
     findings += _combination_findings(study, config, told)
-    return CheckResult(tuple(findings), measured(study).to_dict())
+    return CheckResult(tuple(findings), measured(study, rest).to_dict())
 
 
 def told_parts(sweeps: Sequence[JointSweep], config: PenetrationConfig) -> frozenset[PartPair]:
@@ -231,16 +233,16 @@ def _measured_joint(sweep: JointSweep) -> MeasuredJoint:
     )
 
 
-def measured(study: PenetrationStudy) -> MeasuredPenetration:
+def measured(study: PenetrationStudy, rest: RestingSolids) -> MeasuredPenetration:
     """Return a study's figures as the report states them."""
 
     def contacts(found: Iterable[Contact]) -> tuple[MeasuredContact, ...]:
         return tuple(MeasuredContact(**_contact(each)) for each in found)
 
     return MeasuredPenetration(
-        diagonal_m=round(study.diagonal, 6),
-        hulls=study.hulls,
-        parts=study.parts,
+        diagonal_m=round(rest.diagonal, 6),
+        hulls=len(rest.solids.items),
+        parts=rest.solids.tree.parts,
         rest=contacts(study.rest),
         zero=None if study.zero is None else contacts(study.zero),
         joints=tuple(_measured_joint(sweep) for sweep in study.sweeps),

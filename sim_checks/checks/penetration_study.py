@@ -114,20 +114,23 @@ class BothOpen:
     Attributes:
         joint: the one that moves.
         other: the one that stands open.
-        other_at: its value [rad] or [m].
         pair: where and how deep.
-        obstructed: ``joint`` cannot reach its range once ``other`` is a little open: they meet at
-            ``other_at``, where it is just that, and wherever further open it was tried.
+        obstructed: ``joint`` cannot reach its range once ``other`` is a little open: they meet
+            where it is just that, and wherever further open it was tried.
         free_until: how far ``joint`` goes from lower before they meet [rad] or [m]; ``None`` where
             they do not meet too deeply.
     """
 
     joint: JointLine
     other: JointLine
-    other_at: float
     pair: PairSweep
     obstructed: bool
     free_until: float | None = None
+
+    @property
+    def other_at(self) -> float:
+        """Return where the other stands [rad] or [m]."""
+        return self.pair.pose[self.other.name]
 
 
 @dataclass(frozen=True)
@@ -150,9 +153,6 @@ class PenetrationStudy:
     """Everything measured.
 
     Attributes:
-        diagonal: of the object [m].
-        parts: links that move as one.
-        hulls: how many.
         rest, zero: contacts with every joint at lower, and with every joint at 0; ``None`` if that
             is the same pose, or one that joints do not reach.
         sweeps: each joint over its range.
@@ -160,9 +160,6 @@ class PenetrationStudy:
         combinations: each pair's worst over the joint combinations tried.
     """
 
-    diagonal: float
-    parts: tuple[tuple[str, ...], ...]
-    hulls: int
     rest: tuple[Contact, ...]
     zero: tuple[Contact, ...] | None
     sweeps: tuple[JointSweep, ...]

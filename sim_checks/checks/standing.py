@@ -18,8 +18,9 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ..config import StandingConfig
 from ..description import DescribedShape, Description, FloatArray, JointLine, Link
-from ..geometry.hull import FlatHull, convex_hull
-from ..geometry.kinematics import Poser, Tree, find_tree, unit_axis
+from ..geometry.hull import find_hull
+from ..geometry.kinematics import Poser, Tree, find_tree
+from ..geometry.path import joint_axis
 from ..geometry.statics import GRAVITY
 from ..report import Finding
 from .result import CheckResult, Findings, measured, warning
@@ -136,14 +137,11 @@ class _RestingBody:
         if not clouds:
             return None
         points = np.vstack(clouds)
-        frame = self._posed[joint.child]
-        axis = frame[:3, :3] @ unit_axis(joint)
-        if joint.kind == "prismatic":
-            return _farthest(points, points @ axis), axis
-        arms = np.cross(axis, points - frame[:3, 3])
-        lengths = np.linalg.norm(arms, axis=1)
-        point = _farthest(points, lengths)
-        arm = np.cross(axis, point - frame[:3, 3])
+        line = joint_axis(joint, self._posed[joint.child])
+        if not line.turning:
+            return _farthest(points, points @ line.axis), line.axis
+        point = _farthest(points, np.linalg.norm(line.arms(points), axis=1))
+        arm = np.cross(line.axis, point - line.origin)
         length = float(np.linalg.norm(arm))
         return (point, arm / length) if length > SAME else None
 
@@ -276,10 +274,8 @@ def _corners(shapes: tuple[DescribedShape, ...]) -> FloatArray:
     if not shapes:
         return np.zeros((0, 3))
     points: FloatArray = np.vstack([shape.corners for shape in shapes])
-    try:
-        return convex_hull(points).vertices
-    except FlatHull:
-        return points
+    hull = find_hull(points)
+    return points if hull is None else hull.vertices
 
 
 def _edges(points: FloatArray, thinnest: float) -> FloatArray | None:

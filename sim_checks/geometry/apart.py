@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from ..description import Description, FloatArray
-from .coupled_path import swept_boxes
 from .kinematics import find_tree
-from .path import joint_path
-from .placing import box_around, placed, shape_corners
+from .path import joint_axis
+from .placing import box_around, boxes_near, placed, shape_corners
 
 #: What two joints of a group move stays further apart than this [m]; engines keep margins of up to
 #: 2 mm around shapes.
@@ -39,18 +36,13 @@ def joints_apart(description: Description) -> tuple[tuple[str, ...], ...]:
             continue
         points = np.vstack([corners[name] for name in sorted(links)])
         lower, upper = tree.ranges[joint.name]
-        path = joint_path(joint, poses[joint.child], upper - lower)
-        box = box_around([swept_boxes(path, points)]) if len(points) else NOWHERE
-        group = next((each for each in groups if _are_apart(box, each)), None)
+        path = joint_axis(joint, poses[joint.child]).path(upper - lower)
+        box = box_around([path.swept_boxes(points)]) if len(points) else NOWHERE
+        standing = (np.array(list(each.values())) for each in groups)
+        near = (bool(boxes_near(box[None], boxes, MARGIN_M).any()) for boxes in standing)
+        group = next((each for each, meets in zip(groups, near, strict=True) if not meets), None)
         if group is None:
             groups.append({joint.name: box})
         else:
             group[joint.name] = box
     return tuple(tuple(group) for group in groups if len(group) > 1)
-
-
-def _are_apart(box: FloatArray, group: Mapping[str, FloatArray]) -> bool:
-    """Tell whether a box, shape [2, 3], stays clear of all those of a group."""
-    others = np.array(list(group.values()))
-    clear = (box[0] - others[:, 1] > MARGIN_M) | (others[:, 0] - box[1] > MARGIN_M)
-    return bool(clear.any(axis=1).all())

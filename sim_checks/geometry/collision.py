@@ -7,6 +7,7 @@ process.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,28 @@ TRUSTED_GAP = 1e-7
 #: Its directions are off by up to 1e-4, which long hulls have as a lever: a gap that their corners
 #: confirm to less than this share of it is measured again.
 TRUSTED_SHARE = 1e-5
+
+
+class TooManyLooks(Exception):
+    """More exact looks than one file may take."""
+
+
+class LookBudget:
+    """How many exact looks a file may take, and how many it took."""
+
+    def __init__(self, most: float = math.inf) -> None:
+        self._most = most
+        self._taken = 0
+
+    def take(self, count: int = 1) -> None:
+        """Count looks about to be taken.
+
+        Raises:
+            TooManyLooks: there would be more than may be.
+        """
+        self._taken += count
+        if self._taken > self._most:
+            raise TooManyLooks
 
 
 class Collider:

@@ -56,13 +56,22 @@ def whole_chain(name: str, sound: Mapping[str, Mimic], leader: str | None = None
     return whole
 
 
-def common_range(limits: Limits, followers: Iterable[tuple[Mimic, Limits]]) -> Limits | None:
+def led_by(sound: Mapping[str, Mimic]) -> dict[str, dict[str, Mimic]]:
+    """Return leader -> follower -> their whole chain as one; leaders are free joints."""
+    led: dict[str, dict[str, Mimic]] = {}
+    for name in sound:
+        whole = whole_chain(name, sound)
+        led.setdefault(whole.leader, {})[name] = whole
+    return led
+
+
+def common_range(limits: Limits, followers: Iterable[tuple[Mimic, Limits | None]]) -> Limits | None:
     """Return a leader's limits, cut so that all followers keep theirs; ``None`` if nothing is left.
 
-    Followers are given by how they follow the leader, with their own limits.
+    Followers are given by how they follow the leader, with their own limits, if they have any.
     """
     for mimic, own in followers:
-        if mimic.multiplier != 0.0:
+        if own is not None and mimic.multiplier != 0.0:
             ends = sorted((end - mimic.offset) / mimic.multiplier for end in own)
             limits = max(limits[0], ends[0]), min(limits[1], ends[1])
     return limits if limits[0] < limits[1] else None

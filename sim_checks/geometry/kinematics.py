@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from ..description import Description, FloatArray, JointLine, Mimic, sensible
-from .coupling import common_range, leaders, sound_chains, whole_chain
+from .coupling import Limits, common_range, leaders, led_by, sound_chains
 from .placing import rigid
 
 MOVING_KINDS = ("revolute", "continuous", "prismatic")
@@ -50,18 +50,30 @@ class Tree:
         return self._followers.get(joint.name, ())
 
     @cached_property
-    def ranges(self) -> Mapping[str, tuple[float, float]]:
-        """Return :func:`coupled_range` of every free joint that has one, by name; file order."""
-        ranges = ((joint.name, coupled_range(self, joint)) for joint in self.free)
-        return {name: limits for name, limits in ranges if limits is not None}
+    def ranges(self) -> Mapping[str, Limits]:
+        """Return :func:`sweep_range` of every free joint that has one, by name; file order.
 
-    @property
-    def closed(self) -> dict[str, float]:
+        It is shortened to where followers stay within their own limits, and left out where nothing
+        is left.
+        """
+        own = {joint.name: own_limits(joint) for joint in self.moving}
+        led = led_by(self.mimics)
+        found = {}
+        for joint in self.free:
+            limits = sweep_range(joint)
+            wholes = ((whole, own[name]) for name, whole in led.get(joint.name, {}).items())
+            common = None if limits is None else common_range(limits, wholes)
+            if common is not None:
+                found[joint.name] = common
+        return found
+
+    @cached_property
+    def closed(self) -> Mapping[str, float]:
         """Return every joint of :attr:`ranges` at lower [rad] or [m]."""
         return {name: lower for name, (lower, _) in self.ranges.items()}
 
-    @property
-    def opened(self) -> dict[str, float]:
+    @cached_property
+    def opened(self) -> Mapping[str, float]:
         """Return every joint of :attr:`ranges` at upper [rad] or [m]."""
         return {name: upper for name, (_, upper) in self.ranges.items()}
 
@@ -231,21 +243,7 @@ def rotation_about(axis: FloatArray, angle: float) -> FloatArray:
     return Rotation.from_rotvec(angle * axis).as_matrix()
 
 
-def coupled_range(tree: Tree, joint: JointLine) -> tuple[float, float] | None:
-    """Return :func:`sweep_range`, shortened to where followers stay within their own limits.
-
-    ``None`` where nothing is left.
-    """
-    limits = sweep_range(joint)
-    if limits is None:
-        return None
-    limited = ((other.name, own_limits(other)) for other in tree.followers(joint))
-    followers = ((name, own) for name, own in limited if own is not None)
-    wholes = ((whole_chain(name, tree.mimics, joint.name), own) for name, own in followers)
-    return common_range(limits, wholes)
-
-
-def own_limits(joint: JointLine) -> tuple[float, float] | None:
+def own_limits(joint: JointLine) -> Limits | None:
     """Return a follower's own limits [rad] or [m]; ``None`` where none, or none sensible, exist."""
     if joint.kind == "continuous" or joint.lower is None or joint.upper is None:
         return None
@@ -253,7 +251,7 @@ def own_limits(joint: JointLine) -> tuple[float, float] | None:
     return limits if sensible(limits) and limits[0] < limits[1] else None
 
 
-def sweep_range(joint: JointLine) -> tuple[float, float] | None:
+def sweep_range(joint: JointLine) -> Limits | None:
     """Return the range over which a joint is swept; a hinge without limits makes one turn.
 
     ``None`` where there is nothing to sweep: a slide without limits, or limits that are not finite,

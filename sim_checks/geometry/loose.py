@@ -8,7 +8,7 @@ from ..description import IntArray
 from .collision import Skin
 from .gaps import visible_gap
 from .placing import box_around, placed
-from .surfaces import Patch, PosedSurface, SurfaceMeeting, VisibleSurface, patches
+from .surfaces import PosedSurface, SurfaceMeeting, VisibleSurface, patches
 
 #: A piece with less than this share of its part's area is small.
 SMALL_SHARE = 0.05
@@ -35,31 +35,23 @@ def strayed(met: Sides, meeting: SurfaceMeeting, at_rest: Sides, allowed: float)
         return False
     pairs = here.skin.touching(there.skin, MET_FACES)
     found = (here, there)
-    return any(_side_strayed(found, side, pairs, meeting, at_rest, allowed) for side in (0, 1))
 
+    def side_strayed(side: int) -> bool:
+        own = met[side].surface
+        small = _small(own, np.unique(own.pieces[found[side].rows[pairs[:, side]]]))
+        stray = np.isin(own.pieces, small)
+        if stray.all() or not stray.any():
+            return False
+        remains = VisibleSurface(own.vertices, own.faces[~stray])
+        left = PosedSurface(remains, met[side].pose)
+        one, other = (left, met[1]) if side == 0 else (met[0], left)
+        if visible_gap(one, other, meeting) < -allowed:
+            return False
+        rest = PosedSurface(remains, at_rest[side].pose)
+        pieces = (VisibleSurface(own.vertices, own.faces[own.pieces == piece]) for piece in small)
+        return all(_nearer(piece, at_rest[1 - side], rest, meeting.margin) for piece in pieces)
 
-def _side_strayed(
-    found: tuple[Patch, Patch],
-    side: int,
-    pairs: IntArray,
-    meeting: SurfaceMeeting,
-    at_rest: Sides,
-    allowed: float,
-) -> bool:
-    own = found[side].whole.surface
-    small = _small(own, np.unique(own.pieces[found[side].rows[pairs[:, side]]]))
-    rows = np.flatnonzero(np.isin(own.pieces, small))
-    remains = own.without(rows) if len(rows) else None
-    if remains is None:
-        return False
-    left = PosedSurface(remains, found[side].whole.pose)
-    whole = found[1 - side].whole
-    one, other = (left, whole) if side == 0 else (whole, left)
-    if visible_gap(one, other, meeting) < -allowed:
-        return False
-    rest = PosedSurface(remains, at_rest[side].pose)
-    pieces = (VisibleSurface(own.vertices, own.faces[own.pieces == piece]) for piece in small)
-    return all(_nearer(piece, at_rest[1 - side], rest, meeting.margin) for piece in pieces)
+    return any(side_strayed(side) for side in (0, 1))
 
 
 def _small(surface: VisibleSurface, pieces: IntArray) -> IntArray:

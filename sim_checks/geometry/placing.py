@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..description import DescribedShape, FloatArray, IntArray
+from ..description import BoolArray, DescribedShape, FloatArray, IntArray
 
 #: Which end of a box each of its corners has along each axis, shape [8, 3].
 ENDS = np.indices((2, 2, 2)).reshape(3, 8).T
@@ -41,6 +41,18 @@ def box_gap(first: FloatArray, second: FloatArray) -> float:
     below = first.min(axis=0) - second.max(axis=0)
     apart = np.maximum(below, second.min(axis=0) - first.max(axis=0))
     return float(np.linalg.norm(np.maximum(0.0, apart)))
+
+
+def boxes_near(boxes: FloatArray, others: FloatArray, margin: float = 0.0) -> BoolArray:
+    """Tell which boxes come within ``margin`` [m] of others, shape [box_count, other_count].
+
+    Boxes are given by lowest and highest corner, shape [box_count, 2, 3] and likewise.
+    """
+    near = np.ones((len(boxes), len(others)), dtype=bool)
+    for axis in range(3):
+        near &= boxes[:, None, 0, axis] - others[None, :, 1, axis] < margin
+        near &= others[None, :, 0, axis] - boxes[:, None, 1, axis] < margin
+    return near
 
 
 def diagonal(groups: Iterable[FloatArray]) -> float:

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..description import Description, FloatArray, JointLine
-from .collision import Collider
-from .coupled_path import AnyPath, CoupledPath
+from .collision import Collider, LookBudget
 from .coupling import leaders
 from .depth import HullOverlap
-from .hull import FlatHull, convex_hull
+from .hull import find_hull
 from .kinematics import Poser, Tree
-from .looks import LookBudget
-from .path import joint_path
-from .placing import diagonal
+from .path import Path, joint_axis
+from .placing import boxes_near, diagonal
+
+#: Indices of two solids.
+HullPair = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -52,19 +54,11 @@ class SolidGroup:
     ways: tuple[tuple[JointLine, float], ...]
 
 
-@dataclass(frozen=True)
-class SolidPair:
-    """How two solids stand in some pose; ``overlap`` points from the first to the second."""
-
-    first: int
-    second: int
-    overlap: HullOverlap
-
-
 class Solids:
     """All hulls of a description, without shapes of no volume: they are a finding of their own.
 
     Attributes:
+        description: whose they are.
         tree: the joints.
         looks: exact looks at two hulls, that those who ask count, too.
     """
@@ -72,6 +66,7 @@ class Solids:
     def __init__(
         self, description: Description, tree: Tree, looks: LookBudget | None = None
     ) -> None:
+        self.description = description
         self.tree = tree
         self.looks = looks or LookBudget()
         part_of = tree.part_of()
@@ -79,11 +74,9 @@ class Solids:
         for link in description.links:
             part = part_of[link.name]
             for shape in link.collisions:
-                try:
-                    hull = convex_hull(shape.vertices)
-                except FlatHull:
-                    continue
-                self.items.append(LinkSolid(link.name, shape.name, part, Collider(hull)))
+                hull = find_hull(shape.vertices)
+                if hull is not None:
+                    self.items.append(LinkSolid(link.name, shape.name, part, Collider(hull)))
         self._poser = Poser(tree)
         self._steps = _steps(tree, part_of)
         self._groups: dict[str, tuple[SolidGroup, ...]] = {}
@@ -96,6 +89,12 @@ class Solids:
             item.collider.place(poses[item.link])
         return poses
 
+    def counting(self, looks: LookBudget) -> Solids:
+        """Return the same solids, of which other looks are counted."""
+        same = copy(self)
+        same.looks = looks
+        return same
+
     def bounds(self) -> FloatArray:
         """Return the boxes around the solids as placed [m], shape [solid_count, 2, 3]."""
         return np.array([item.collider.bounds for item in self.items]).reshape(-1, 2, 3)
@@ -104,24 +103,29 @@ class Solids:
         """Return the diagonal of the box around everything as placed [m]."""
         return diagonal([self.bounds()]) if self.items else 0.0
 
-    def standings(self, floor: float) -> Iterator[SolidPair]:
-        """Yield pairs of solids of different parts closer than ``floor`` [m], in a fixed order.
+    def points(self, indices: Iterable[int]) -> FloatArray:
+        """Return the corners of some solids as placed [m], shape [corner_count, 3]."""
+        corners = (self.items[index].collider.hull.vertices for index in indices)
+        return np.vstack([np.zeros((0, 3)), *corners])
+
+    def standings(self, floor: float) -> dict[HullPair, HullOverlap]:
+        """Return how solids of different parts stand that are closer than ``floor`` [m].
+
+        They come by their indices, ascending and in order; each overlap points from the first to
+        the second.
 
         Raises:
             TooManyLooks: the file has taken more than it may.
         """
         boxes = self.bounds()
-        if len(boxes) == 0:
-            return
-        close = np.triu(self.parts[:, None] != self.parts[None, :], 1)
-        for low, high in zip(boxes[:, 0].T, boxes[:, 1].T, strict=True):
-            reaches = low[:, None] - high[None, :] < floor
-            close &= reaches & reaches.T
-        for first, second in np.argwhere(close).tolist():
+        strangers = np.triu(self.parts[:, None] != self.parts[None, :], 1)
+        found = {}
+        for first, second in np.argwhere(strangers & boxes_near(boxes, boxes, floor)).tolist():
             self.looks.take()
             overlap = self.items[first].collider.stand(self.items[second].collider)
             if overlap.depth > -floor:
-                yield SolidPair(first, second, overlap)
+                found[first, second] = overlap
+        return found
 
     def groups(self, joint: JointLine) -> tuple[SolidGroup, ...]:
         """Return the solids grouped by how they move with ``joint`` and its followers.
@@ -160,7 +164,7 @@ class Solids:
         standing: SolidGroup,
         poses: Mapping[str, FloatArray],
         length: float,
-    ) -> AnyPath:
+    ) -> Path:
         """Return how one group moves as seen from another, from the posed values on.
 
         Links said to be fixed keep their place at the start; :meth:`way` says where they go.
@@ -170,24 +174,11 @@ class Solids:
         while names[0][: shared + 1] == names[1][: shared + 1] and shared < len(names[0]):
             shared += 1
         back = [(joint, -rate) for joint, rate in reversed(standing.ways[shared:])]
-        steps = [*back, *moving.ways[shared:]]
-        if len(steps) == 1 and steps[0][1] == 1.0:
-            joint = steps[0][0]
-            return joint_path(joint, poses[joint.child], length)
-        return self._coupled(steps, poses, length)
+        return _path([*back, *moving.ways[shared:]], poses, length)
 
-    def way(self, group: SolidGroup, poses: Mapping[str, FloatArray], length: float) -> CoupledPath:
+    def way(self, group: SolidGroup, poses: Mapping[str, FloatArray], length: float) -> Path:
         """Return how a group moves in the world, from the posed values on."""
-        return self._coupled(group.ways, poses, length)
-
-    def _coupled(
-        self,
-        steps: Sequence[tuple[JointLine, float]],
-        poses: Mapping[str, FloatArray],
-        length: float,
-    ) -> CoupledPath:
-        paths = ((joint_path(j, poses[j.child], abs(rate) * length), rate) for j, rate in steps)
-        return CoupledPath(tuple(paths), length)
+        return _path(group.ways, poses, length)
 
     def between(self, first: int, second: int) -> frozenset[str]:
         """Return the names of the free joints that move two parts against one another."""
@@ -206,6 +197,12 @@ class Solids:
     def _rate(self, joint: JointLine, other: JointLine) -> float:
         start, end = (self.tree.value_of(other.name, {joint.name: value}) for value in (0.0, 1.0))
         return end - start
+
+
+def _path(
+    ways: Sequence[tuple[JointLine, float]], poses: Mapping[str, FloatArray], length: float
+) -> Path:
+    return Path(tuple((joint_axis(j, poses[j.child]), rate) for j, rate in ways), length)
 
 
 def _steps(tree: Tree, part_of: Mapping[str, int]) -> tuple[tuple[int, int, JointLine], ...]:

@@ -101,11 +101,6 @@ class VisibleSurface:
         _, which = np.unique(low * (int(faces.max()) + 1) + edges.max(axis=1), return_inverse=True)
         return not np.bincount(which, weights=sign).any()
 
-    def without(self, rows: IntArray) -> VisibleSurface | None:
-        """Return the surface without some faces; ``None`` if nothing is left."""
-        kept = np.delete(self.faces, rows, axis=0)
-        return VisibleSurface(self.vertices, kept) if len(kept) else None
-
 
 @dataclass(frozen=True)
 class PosedSurface:

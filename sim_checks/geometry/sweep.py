@@ -12,16 +12,15 @@ from __future__ import annotations
 import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 import numpy as np
 
 from ..description import BoolArray, FloatArray
-from .collision import Collider
-from .coupled_path import AnyPath, CoupledOrbit
+from .collision import Collider, LookBudget
 from .depth import HullOverlap
-from .looks import LookBudget
-from .path import Orbit
-from .placing import box_around, box_corners
+from .path import Path
+from .placing import box_around, box_corners, boxes_near, placed
 
 #: Intervals of the path in which what is far from everything is told.
 COARSE_STEPS = 8
@@ -118,7 +117,7 @@ class Sweep:
 
     def __init__(
         self,
-        path: AnyPath,
+        path: Path,
         moving: Sequence[Collider],
         standing: Sequence[Collider],
         steps: int,
@@ -127,23 +126,24 @@ class Sweep:
         self.path = path
         self.moving = moving
         self.standing = standing
-        self._backwards = path.inverse()
         self.places = np.linspace(0.0, path.length, steps + 1)
         self.looks = 0
         self._budget = budget or LookBudget()
-        self._start_poses = [collider.pose for collider in moving]
-        self._boxes: dict[int, FloatArray] = {}
-        self._moving_orbits: dict[int, Orbit | CoupledOrbit] = {}
-        self._standing_orbits: dict[int, Orbit | CoupledOrbit] = {}
+        starts = [collider.pose for collider in moving]
+        backwards = path.inverse()
+        self._start_poses = starts
+        # Of every hull that comes near another, and of that alone.
+        self._orbit = cache(lambda i: path.orbit(placed(moving[i].local.vertices, starts[i])))
+        self._swept = cache(lambda i: self._orbit(i).swept_bounds(self.places))
+        self._still_orbit = cache(lambda i: backwards.orbit(standing[i].hull.vertices))
 
     def near(self, floor: float) -> BoolArray:
         """Tell which moving hulls may come within ``floor`` [m] of standing ones."""
         still = np.array([collider.bounds for collider in self.standing]).reshape(-1, 2, 3)
-        close = _within(self._reached(), still, floor + ROUNDING)
+        close = boxes_near(self._reached(), still, floor + ROUNDING)
         for index in np.flatnonzero(close.any(axis=1)).tolist():
-            boxes = self._swept(index)
-            around = box_around([boxes])
-            close[index] = _within(around[None], still, floor)[0]
+            around = box_around([self._swept(index)])
+            close[index] = boxes_near(around[None], still, floor)[0]
         return close
 
     def _reached(self) -> FloatArray:
@@ -269,29 +269,3 @@ class Sweep:
             lowest = (self.standing[stander].hull.vertices @ direction).min()
             reach = mover.highest(direction, starts, ends) - lowest
         track.bounds[rows] = np.minimum(track.bounds[rows], reach - track.candidate.rest)
-
-    def _swept(self, index: int) -> FloatArray:
-        if index not in self._boxes:
-            self._boxes[index] = self._orbit(index).swept_bounds(self.places)
-        return self._boxes[index]
-
-    def _orbit(self, index: int) -> Orbit | CoupledOrbit:
-        if index not in self._moving_orbits:
-            pose = self._start_poses[index]
-            start = self.moving[index].local.vertices @ pose[:3, :3].T + pose[:3, 3]
-            self._moving_orbits[index] = self.path.orbit(start)
-        return self._moving_orbits[index]
-
-    def _still_orbit(self, index: int) -> Orbit | CoupledOrbit:
-        if index not in self._standing_orbits:
-            self._standing_orbits[index] = self._backwards.orbit(self.standing[index].hull.vertices)
-        return self._standing_orbits[index]
-
-
-def _within(boxes: FloatArray, others: FloatArray, floor: float) -> BoolArray:
-    """Tell which boxes, [box_count, 2, 3], come within ``floor`` [m] of others."""
-    close = np.ones((len(boxes), len(others)), dtype=bool)
-    for axis in range(3):
-        close &= boxes[:, None, 0, axis] - others[None, :, 1, axis] < floor
-        close &= others[None, :, 0, axis] - boxes[:, None, 1, axis] < floor
-    return close

@@ -236,9 +236,10 @@ class WarmChild:
         """Return the outcome of a child that gave no answer."""
         crashed = failure is Failure.CRASHED
         unborn = crashed and not process.has_started
-        exit_code, output = process.end(GOODBYE_S if crashed else 0.0)
-        place = process.place
+        exit_code, output, place = process.end(GOODBYE_S if crashed else 0.0)
         killed = crashed and exit_code in (-signal.SIGKILL, ORPHANED)
+        left = crashed and exit_code is not None and 0 <= exit_code < ORPHANED
+        faulted = crashed and exit_code is not None and -exit_code in FAULTS
         detail = UNBORN if unborn and not killed else _failure_sentence(failure, exit_code, limits)
         return Outcome(
             value=None,
@@ -247,8 +248,8 @@ class WarmChild:
             output=output,
             seconds=time.monotonic() - started,
             killed=killed,
-            exited=crashed and not killed and exit_code is not None and exit_code >= 0,
-            deaths=(place,) if crashed and _by_itself(exit_code) else (),
+            exited=left,
+            deaths=(place,) if left or faulted else (),
         )
 
     def _is_spent(self, process: _Process) -> bool:
@@ -287,7 +288,6 @@ class _Process:
             theirs.close()
         self.pid = self._process.pid or 0
         self.answered = 0
-        self.place = ""
 
     def ask(self, question: bytes | memoryview, wall_s: float) -> Answer | Failure:
         """Return its answer, or how there is none."""
@@ -317,14 +317,14 @@ class _Process:
         """Return the end of the output during the last question."""
         return _tail(self._log)
 
-    def end(self, patience_s: float = 0.0) -> tuple[int | None, str]:
+    def end(self, patience_s: float = 0.0) -> tuple[int | None, str, str]:
         """Kill it and all that it started; leave nothing behind.
 
         Args:
             patience_s: for a child that is dying anyway, whose own exit code is wanted [s].
 
         Returns:
-            Its exit code, and the end of its output.
+            Its exit code, the end of its output, and where it was in its work.
         """
         self._connection.close()
         if patience_s:
@@ -335,10 +335,9 @@ class _Process:
         self._process.join()
         exit_code = self._process.exitcode
         self._process.close()
-        output = _tail(self._log)
-        self.place = place_in(self.folder)
+        told = _tail(self._log), place_in(self.folder)
         shutil.rmtree(self.folder, ignore_errors=True)
-        return exit_code, output
+        return exit_code, *told
 
 
 def _receive(connection: Connection, wall_s: float) -> Answer | Failure:
@@ -352,11 +351,6 @@ def _receive(connection: Connection, wall_s: float) -> Answer | Failure:
         detail = f"its answer cannot be read: {type(error).__name__}: {error}"
         return Answer(error=RuntimeError(detail))
     return answer
-
-
-def _by_itself(exit_code: int | None) -> bool:
-    """Return whether a child died of what it did."""
-    return exit_code is not None and (-exit_code in FAULTS or 0 <= exit_code < ORPHANED)
 
 
 def _failure_sentence(failure: Failure, exit_code: int | None, limits: Limits) -> str:

@@ -18,17 +18,16 @@ from .document import find_file, is_file, parse_document
 from .meshes import MAX_MESH_BYTES
 from .references import (
     DOCUMENTS,
+    SRDF,
     ModelWalk,
     MujocoModel,
     found,
     named_files,
     named_in_mesh,
-    nested,
     urdf_references,
 )
 from .regular import read_regular
 from .roots import ReadOptions, Roots
-from .srdf import SUFFIX as SRDF
 from .xacro import expand_xacro, is_xacro
 
 #: Of all files of one description together [bytes], and how many.
@@ -138,32 +137,21 @@ def _copy_urdf(path: Path, document: ET.Element, copies: Copies, target: Path) -
 def _copy_mjcf(path: Path, document: ET.Element, copies: Copies, target: Path) -> None:
     """Write a model to ``target``, what it includes and attaches, and every file these name."""
     here = path.parent.resolve() / path.name
-    ModelWalk(copies.roots.allows).follow(here, document)
-    walk = ModelWalk(copies.roots.allows)
-    _copy_model(here, document, target, walk, copies)
+    for model in ModelWalk(copies.roots.allows).follow(here, document):
+        main = model.documents[0][0]
+        _copy_model(model, copies, target if main == here else copies.place(main))
 
 
-def _copy_model(
-    path: Path,
-    document: ET.Element,
-    target: Path,
-    walk: ModelWalk,
-    copies: Copies,
-    above: tuple[Path, ...] = (),
-) -> None:
-    model = walk.model(path, document, above)
-    attached = model.attached()
+def _copy_model(model: MujocoModel, copies: Copies, target: Path) -> None:
+    """Write a model's own file to ``target``, and what it includes."""
     written = [(e, key, _copied(e, key, model, at, copies)) for e, key, at in model.naming()]
     for element, key, place in written:
         element.set(key, Path(os.path.relpath(place, target.parent)).as_posix())
-    for at, root in model.documents:
+    for number, (at, root) in enumerate(model.documents):
         for compiler in root.iter("compiler"):
             for key in FOLDERS:
                 compiler.attrib.pop(key, None)
-        copies.write(root, at, target if at == path else copies.place(at.resolve()))
-    for inner in attached:
-        chain = nested(inner, (*above, path))
-        _copy_model(inner, walk.parse(inner), copies.place(inner), walk, copies, chain)
+        copies.write(root, at, copies.place(at.resolve()) if number else target)
 
 
 def _copied(

@@ -17,11 +17,11 @@ from ..description import (
     IntArray,
     JointLine,
     Link,
-    Mimic,
 )
 from ..geometry.kinematics import rotation_about
 from ..geometry.placing import placed, rigid
-from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel, compile_model
+from .mjcf_compiler import compile_model
+from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel
 from .multiplied import refuse_multiplied
 from .primitives import box, capsule, cylinder, ellipsoid
 from .references import named_files
@@ -52,7 +52,6 @@ class _Describer:
     def __init__(self, model: CompiledModel, folder: Path) -> None:
         self._model = model
         self._folder = folder
-        self._names = [body.name or f"body{index}" for index, body in enumerate(model.bodies)]
         self._links: list[Link] = []
         self._lines: list[JointLine] = []
 
@@ -65,55 +64,22 @@ class _Describer:
                 if (shape := self._shape(geom)) is not None:
                     shapes[geom.collides].append(shape)
             both = (tuple(shapes[True]), tuple(shapes[False]))
-            self._links.append(Link(self._names[index], body.inertia, *both))
-        mimics = self._mimics()
+            self._links.append(Link(self._model.names[index], body.inertia, *both))
+        mimics = self._model.mimics()
         joints = tuple(replace(line, mimic=mimics.get(line.name)) for line in self._lines)
-        return Description(path, "mjcf", tuple(self._links), joints, self._excluded())
-
-    def _joint_name(self, index: int) -> str:
-        joint = self._model.joints[index]
-        place = self._model.bodies[joint.body].joints.index(index)
-        return joint.name or f"{self._names[joint.body]}_joint{place}"
-
-    def _mimics(self) -> dict[str, Mimic]:
-        """Return follower -> leader of joint equalities; only constant and linear part.
-
-        An equality that names no second joint locks the first one; there is no leader to tell.
-        """
-        found: dict[str, Mimic] = {}
-        for equality in self._model.equalities:
-            follower, leader = equality.joints
-            if equality.kind != "joint" or not equality.active or leader < 0:
-                continue
-            # The polynomial speaks of how far both joints are from their reference.
-            here, there = (self._model.joints[index].reference for index in equality.joints)
-            offset = here + equality.constant - equality.linear * there
-            mimic = Mimic(self._joint_name(leader), equality.linear, offset)
-            found.setdefault(self._joint_name(follower), mimic)
-        return found
-
-    def _excluded(self) -> frozenset[frozenset[str]]:
-        """Return the pairs of bodies excluded by name, or whose contact bits never meet."""
-        pairs = set(self._model.excluded)
-        types, affinities = np.zeros((2, len(self._names)), dtype=np.int64)
-        for geom in self._model.geoms:
-            types[geom.body] |= geom.contact_type
-            affinities[geom.body] |= geom.contact_affinity
-        meet = (types[:, None] & affinities[None, :]) | (affinities[:, None] & types[None, :])
-        solid = (types | affinities) != 0
-        apart = np.argwhere((meet == 0) & solid[:, None] & solid[None, :])
-        pairs |= {(a, b) for a, b in apart.tolist()}
-        return frozenset(frozenset((self._names[a], self._names[b])) for a, b in pairs if a != b)
+        names = self._model.names
+        excluded = frozenset(frozenset((names[a], names[b])) for a, b in self._model.apart())
+        return Description(path, "mjcf", tuple(self._links), joints, excluded)
 
     def _place(self, body: int) -> None:
         """Append the joints that hold a body, and the virtual links between them."""
-        name = self._names[body]
-        parent = self._names[self._model.bodies[body].parent]
+        name = self._model.names[body]
+        parent = self._model.names[self._model.bodies[body].parent]
         pending = self._model.bodies[body].pose
         joints = self._model.bodies[body].joints
         for index in joints:
             joint = self._model.joints[index]
-            label = self._joint_name(index)
+            label = self._model.joint_name(index)
             if joint.kind in ("free", "ball"):
                 word = "floating" if joint.kind == "free" else "ball"
                 child = self._virtual(name, label)

@@ -1,24 +1,15 @@
-"""MuJoCo's own compiler, read back as plain arrays.
-
-MJCF has defaults, classes, includes, frames and half a dozen ways to write a rotation; the only
-faithful reader is the compiler itself. It is native code on somebody else's file: call it where it
-can die.
-"""
+"""What MuJoCo's own compiler makes of a file, as plain arrays."""
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
-from pathlib import Path
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..description import DescriptionError, FloatArray, IntArray, LinkInertia
+from ..description import FloatArray, IntArray, LinkInertia, Mimic
 from ..geometry.placing import rigid
-from .mjcf_lenient import compile_leniently
-from .multiplied import MOST
-from .native import COMPILER_BYTES, memory_bounded
 
 if TYPE_CHECKING:
     from mujoco import MjModel
@@ -160,82 +151,94 @@ class CompiledEquality:
 
 
 @dataclass(frozen=True)
-class CompiledModel:
-    """A model in MuJoCo's order, the world first.
+class CompiledMechanism:
+    """Bodies and joints of a model in MuJoCo's order, the world first.
 
     Attributes:
-        excluded: pairs of bodies that the file forbids to collide.
-        others: how many things there are that no other field tells, by MuJoCo's name.
-        meant: joints whose range the file states and switches off; a lenient reader takes it.
+        excluded: pairs of bodies that the file forbids to collide by their names.
     """
 
     bodies: tuple[CompiledBody, ...]
     joints: tuple[CompiledJoint, ...]
     geoms: tuple[CompiledGeom, ...]
-    meshes: tuple[CompiledMesh, ...]
-    textures: tuple[CompiledTexture, ...]
     equalities: tuple[CompiledEquality, ...]
     excluded: tuple[tuple[int, int], ...]
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Return what the bodies are called; one without a name goes by its number."""
+        return tuple(body.name or f"body{index}" for index, body in enumerate(self.bodies))
+
+    def joint_name(self, index: int) -> str:
+        """Return what a joint is called; one without a name goes by its body and its place."""
+        joint = self.joints[index]
+        place = self.bodies[joint.body].joints.index(index)
+        return joint.name or f"{self.names[joint.body]}_joint{place}"
+
+    def mimics(self) -> dict[str, Mimic]:
+        """Return follower -> leader of joint equalities; only constant and linear part.
+
+        An equality that names no second joint locks the first one; there is no leader to tell.
+        """
+        found: dict[str, Mimic] = {}
+        for equality in self.equalities:
+            follower, leader = equality.joints
+            if equality.kind != "joint" or not equality.active or leader < 0:
+                continue
+            # The polynomial speaks of how far both joints are from their reference.
+            here, there = (self.joints[index].reference for index in equality.joints)
+            offset = here + equality.constant - equality.linear * there
+            mimic = Mimic(self.joint_name(leader), equality.linear, offset)
+            found.setdefault(self.joint_name(follower), mimic)
+        return found
+
+    def apart(self) -> list[tuple[int, int]]:
+        """Return pairs of bodies, in order, excluded by name, or whose contact bits never meet."""
+        types, affinities = np.zeros((2, len(self.bodies)), dtype=np.int64)
+        for geom in self.geoms:
+            types[geom.body] |= geom.contact_type
+            affinities[geom.body] |= geom.contact_affinity
+        meet = (types[:, None] & affinities[None, :]) | (affinities[:, None] & types[None, :])
+        solid = (types | affinities) != 0
+        strangers = np.argwhere((meet == 0) & solid[:, None] & solid[None, :]).tolist()
+        return sorted({(min(a, b), max(a, b)) for a, b in (*self.excluded, *strangers) if a != b})
+
+
+@dataclass(frozen=True)
+class CompiledModel(CompiledMechanism):
+    """A whole model.
+
+    Attributes:
+        others: how many things there are that no other field tells, by MuJoCo's name.
+        meant: joints whose range the file states and switches off; a lenient reader takes it.
+    """
+
+    meshes: tuple[CompiledMesh, ...]
+    textures: tuple[CompiledTexture, ...]
     others: tuple[tuple[str, int], ...]
     meant: tuple[str, ...] = ()
 
 
-def compile_model(path: Path, *, lenient: bool = False) -> CompiledModel:
-    """Compile the MJCF file at ``path``; call it in a killable child.
-
-    Args:
-        path: a file whose references were checked by :func:`.references.named_files`.
-        lenient: keep names and looks that the file drops, and accept bodies that are too light.
-
-    Raises:
-        DescriptionError: ``too_large``, or ``unreadable`` with MuJoCo's own words.
-    """
-    import mujoco  # the engine's own compiler is the only true reader of its format
-
-    main = str(path.parent.resolve() / path.name)
-    begin_compiling()
-    try:
-        with memory_bounded(COMPILER_BYTES):
-            meant: tuple[str, ...] = ()
-            if lenient:
-                model, meant = compile_leniently(main)
-            else:
-                model = mujoco.MjModel.from_xml_path(main)
-    except MemoryError as error:
-        raise DescriptionError("too_large", f"{path.name}: {error}") from error
-    except (ValueError, RuntimeError, mujoco.FatalError) as error:
-        words = " ".join(str(error).replace(str(path.parent.resolve()), "").split())
-        message = f"{path.name}: MuJoCo cannot compile it: {words}"
-        raise DescriptionError("unreadable", message) from error
-    _refuse_many(path.name, model)
+def read_model(model: MjModel, meant: tuple[str, ...] = ()) -> CompiledModel:
+    """Return all of a compiled model, with the joints that were given a range."""
     return CompiledModel(
-        bodies=tuple(_body(model, i) for i in range(model.nbody)),
-        joints=tuple(_joint(model, i) for i in range(model.njnt)),
-        geoms=tuple(_geom(model, i) for i in range(model.ngeom)),
+        **vars(read_mechanism(model)),
         meshes=tuple(_mesh(model, i) for i in range(model.nmesh)),
         textures=tuple(_texture(model, i) for i in range(model.ntex)),
-        equalities=tuple(_equality(model, i) for i in range(model.neq)),
-        excluded=tuple(divmod(int(pair), 1 << 16) for pair in model.exclude_signature),
         others=(("tendon", model.ntendon), ("flex", model.nflex), ("skin", model.nskin)),
         meant=meant,
     )
 
 
-def begin_compiling() -> None:
-    """Have MuJoCo say its warnings on standard error, and forget earlier files' meshes."""
-    import mujoco
-
-    # Its own way is a log file in whatever folder the program was started from.
-    mujoco.set_mju_user_warning(lambda words: os.write(2, f"MuJoCo: {words}\n".encode()))
-    # It remembers meshes by their file's name and the second they were written in.
-    mujoco.mj_clearCache(mujoco.mj_getCache())
-
-
-def _refuse_many(name: str, model: MjModel) -> None:
-    for what, count in (("bodies", model.nbody), ("geoms", model.ngeom)):
-        if count > MOST[what]:
-            message = f"{name}: {count} {what} once compiled, at most {MOST[what]} are read"
-            raise DescriptionError("too_large", message)
+def read_mechanism(model: MjModel) -> CompiledMechanism:
+    """Return the bodies and joints of a compiled model."""
+    return CompiledMechanism(
+        bodies=tuple(_body(model, i) for i in range(model.nbody)),
+        joints=tuple(_joint(model, i) for i in range(model.njnt)),
+        geoms=tuple(_geom(model, i) for i in range(model.ngeom)),
+        equalities=tuple(_equality(model, i) for i in range(model.neq)),
+        excluded=tuple(divmod(int(pair), 1 << 16) for pair in model.exclude_signature),
+    )
 
 
 def _body(model: MjModel, index: int) -> CompiledBody:

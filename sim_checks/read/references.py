@@ -32,6 +32,8 @@ MOST_DOCUMENTS = 256
 DOCUMENTS = ("include", "model")
 
 
+#: How the file beside a URDF ends that says which of its links may pass through each other.
+SRDF = ".srdf"
 #: Returns the root element of a document.
 Parser = Callable[[Path], ET.Element]
 #: Tells whether a path, every link in it followed, may be opened.
@@ -137,7 +139,7 @@ class ModelWalk:
 
     def __init__(self, allows: Allows, parse: Parser = parse_document) -> None:
         self._allows = allows
-        self.parse = parse
+        self._parse = parse
         self._left = MOST_DOCUMENTS
         self.named: list[NamedFile] = []
 
@@ -146,14 +148,18 @@ class ModelWalk:
         documents = tuple(self._with_included(path, document, path.parent, above))
         return MujocoModel(self._allows, path.parent, documents)
 
-    def follow(self, path: Path, document: ET.Element, above: tuple[Path, ...] = ()) -> None:
-        """Note the files of a model and of those that it attaches."""
+    def follow(
+        self, path: Path, document: ET.Element, above: tuple[Path, ...] = ()
+    ) -> list[MujocoModel]:
+        """Return a model and those that it attaches, whose files are noted."""
         model = self.model(path, document, above)
+        models = [model]
         for element, key, at in model.naming():
             if element.tag != "include":
                 self._note(element, key, model.places(element, key, at))
         for inner in model.attached():
-            self.follow(inner, self.parse(inner), nested(inner, (*above, path)))
+            models += self.follow(inner, self._parse(inner), _nested(inner, (*above, path)))
+        return models
 
     def _with_included(
         self, path: Path, document: ET.Element, base: Path, above: tuple[Path, ...]
@@ -167,8 +173,8 @@ class ModelWalk:
         model = MujocoModel(self._allows, base, ())
         for element in document.iter("include"):
             for inner in self._note(element, "file", model.places(element, "file", path)):
-                chain = nested(inner, (*above, path))
-                yield from self._with_included(inner, self.parse(inner), base, chain)
+                chain = _nested(inner, (*above, path))
+                yield from self._with_included(inner, self._parse(inner), base, chain)
 
     def _note(self, element: ET.Element, key: str, places: Sequence[Path]) -> tuple[Path, ...]:
         """Return the files that an element may mean, of those there; refuse what leads out."""
@@ -192,7 +198,7 @@ def found(places: Sequence[Path]) -> tuple[Path, ...]:
     return tuple(dict.fromkeys(place.resolve() for place in places if is_file(place)))
 
 
-def nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
+def _nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
     """Return the documents that hold an inner one. Raises DescriptionError ``nested_too_deep``."""
     nested_in = f"{inner.name} is nested in"
     if inner in chain:
@@ -217,7 +223,7 @@ def refuse_outside_urdf(path: Path, document: ET.Element) -> None:
     folder = path.parent.resolve()
     for element in urdf_references(document):
         locate(element.get("filename", ""), folder)
-    beside = path.with_suffix(".srdf")
+    beside = path.with_suffix(SRDF)
     if beside.exists() and not inside(beside, folder):
         raise outside_error(beside.name, (beside,))
 

@@ -24,8 +24,7 @@ from ..geometry.placing import placed
 from .document import find_file, parse_document
 from .meshes import read_mesh
 from .primitives import box, capsule, cylinder, ellipsoid
-from .references import refuse_outside_mesh, refuse_outside_urdf
-from .srdf import exempt_pairs
+from .references import SRDF, refuse_outside_mesh, refuse_outside_urdf
 from .urdf_elements import STRICT, TENSOR, number, read_mimic
 
 #: Of all shapes of one file together.
@@ -75,6 +74,22 @@ def read_urdf(path: Path, robot: ET.Element) -> Description:
     names = {link.name for link in links}
     exempt = frozenset(pair for pair in exempt_pairs(path) if pair <= names)
     return Description(path, "urdf", links, joints, exempt)
+
+
+def exempt_pairs(urdf: Path) -> frozenset[frozenset[str]]:
+    """Return the pairs of names that the SRDF beside a URDF, called like it, disables.
+
+    They may pass through each other. The format: http://wiki.ros.org/srdf.
+
+    Raises:
+        DescriptionError: it is no XML.
+    """
+    path = urdf.with_suffix(SRDF)
+    if not path.is_file():
+        return frozenset()
+    items = parse_document(path).iter("disable_collisions")
+    pairs = (frozenset((item.get("link1", ""), item.get("link2", ""))) for item in items)
+    return frozenset(pair for pair in pairs if len(pair) == 2 and "" not in pair)
 
 
 def read_mimics(path: Path) -> dict[str, Mimic | None]:

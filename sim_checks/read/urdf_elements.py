@@ -63,7 +63,10 @@ class UrdfElements:
         limits = self._limits(element.find("limit"), kind, where)
         ends = (self._end(element, "parent", where), self._end(element, "child", where))
         origin = self.origin(element, where)
-        axis = self._axis(element.find("axis"), where)
+        item = element.find("axis")
+        axis = np.array([1.0, 0.0, 0.0])
+        if item is not None:
+            axis = self.vector(item, "xyz", where, "1 0 0" if self.lenient else None)
         line = JointLine(name, kind, *ends, origin, axis, *limits)
         return line if self.lenient else _driven(line, element, where)
 
@@ -80,11 +83,6 @@ class UrdfElements:
         if not link and not self.lenient:
             raise DescriptionError("missing_element", f"{where}: no <{tag} link=...>")
         return link
-
-    def _axis(self, item: ET.Element | None, where: str) -> FloatArray:
-        if item is None:
-            return np.array([1.0, 0.0, 0.0])
-        return self.vector(item, "xyz", where, "1 0 0" if self.lenient else None)
 
     def _limits(
         self, limit: ET.Element | None, kind: str, where: str

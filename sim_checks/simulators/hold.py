@@ -9,7 +9,7 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray
 from .drive import arrived
-from .joints import Groups, Ranges, companions, pressing, ranges, standing_open
+from .joints import Groups, Ranges, companions, finite, pressing, ranges, standing_open
 from .rest import left_alone
 from .simulator import HoldMotion, JointMotion, World
 
@@ -80,13 +80,10 @@ def _left_at(
         return forces
 
     moved = np.zeros(len(start))
-    finite = True
     for position, _ in left_alone(world, config.held_s, config, balance):
-        finite = bool(np.isfinite(position).all())
-        if not finite:
-            break
         moved = np.maximum(moved, np.abs(position - start))
     values = {joint.name: float(value) for joint, value in zip(world.joints, start, strict=True)}
+    is_finite = finite(world)
     for index in held:
-        pressed = pressing(world, index) if finite else None
-        yield HoldMotion(world.joints[index].name, values, float(moved[index]), finite, pressed)
+        pressed = pressing(world, index) if is_finite else None
+        yield HoldMotion(world.joints[index].name, values, float(moved[index]), is_finite, pressed)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..description import FloatArray, Mimic
-from ..geometry.coupling import Limits, common_range, sound_chains, whole_chain
+from ..description import FloatArray
+from ..geometry.coupling import Limits, common_range, led_by, sound_chains
 from ..geometry.statics import GRAVITY
 from .simulator import LoadedJoint, World
 
@@ -53,13 +53,9 @@ def ranges(world: World) -> Ranges:
     limited = [joint for joint in world.joints if joint.lower < joint.upper]
     limits = {joint.name: (joint.lower, joint.upper) for joint in limited}
     sound = sound_chains({joint.name: joint.mimic for joint in world.joints})
-    led: dict[str, dict[str, Mimic]] = {}
-    for name in sound:
-        whole = whole_chain(name, sound)
-        led.setdefault(whole.leader, {})[name] = whole
-    for leader, wholes in led.items():
+    for leader, wholes in led_by(sound).items():
         lower, upper = ends[leader]
-        followers = [(whole, limits[name]) for name, whole in wholes.items() if name in limits]
+        followers = ((whole, limits.get(name)) for name, whole in wholes.items())
         ends[leader] = common_range((lower, upper), followers) or (lower, lower)
         for name, whole in wholes.items():
             lower, upper = (whole.multiplier * end + whole.offset for end in ends[leader])
@@ -123,6 +119,11 @@ def carried_masses(world: World) -> FloatArray:
 def moving_mass(world: World) -> float:
     """Return the mass of all that any joint moves [kg]."""
     return _mass(world, frozenset[str]().union(*world.carried))
+
+
+def finite(world: World) -> bool:
+    """Return whether all is still a number: where joints are, and how they move."""
+    return bool(np.isfinite(world.positions()).all() and np.isfinite(world.velocities()).all())
 
 
 def share(moved: float, size: float) -> float:

@@ -83,17 +83,24 @@ def drive_law(
     frequency = np.full(len(mass), config.hold_frequency)
     damping = np.array([joint.damping or 0.0 for joint in world.joints])
     friction = np.array([joint.friction or 0.0 for joint in world.joints])
-    bound = _bound(world, np.diag(mass), span, damping, config)
+    # What a hand has for each joint alone beyond its friction.
+    inertia = np.diag(mass)
+    slides = np.array([joint.kind == "prismatic" for joint in world.joints])
+    arm = np.sqrt(inertia / np.maximum(carried_masses(world), 1e-12))
+    arm = np.where(slides, 1.0, np.minimum(arm, LONGEST_ARM_M))
+    peaks = 0.5 * span.size * (math.pi / config.ramp_s) ** 2
+    bound = config.hand_force_n * arm + config.inertia_margin * inertia * peaks
+    speeds = 0.5 * math.pi * span.size / config.ramp_s
+    bound += damping * speeds
     coupled = np.ones(mass.shape, dtype=bool)
     for index in indices:
-        peak = 0.5 * span.size[index] * (math.pi / config.ramp_s) ** 2
+        peak = float(peaks[index])
         # The motion of one joint takes forces at those that carry it.
         passed_on = config.inertia_margin * np.abs(mass[:, index]) * peak
         passed_on[index] = 0.0
         bound += passed_on
         for other in _riders(world, index, span):
-            slides = world.joints[other].kind == "prismatic"
-            ride = peak * (RIDING_ARM_M if slides else 1.0)
+            ride = peak * (RIDING_ARM_M if slides[other] else 1.0)
             size = float(span.size[other])
             stiff = math.sqrt(ride / ((BUTTON_SHARE if size < BUTTON_M else RIDING_SHARE) * size))
             frequency[other] = max(frequency[other], min(stiff, RIDING_STEP / world.time_step))
@@ -110,19 +117,6 @@ def drive_law(
     np.fill_diagonal(coupled, val=True)
     lag = FRICTION_LAG * span.size + 1e-6
     return Law(frequency**2, 2.0 * frequency, damping, friction, lag, bound, coupled)
-
-
-def _bound(
-    world: World, inertia: FloatArray, span: Ranges, damping: FloatArray, config: MotionConfig
-) -> FloatArray:
-    """Return what a hand has for each joint alone beyond its friction [N m] or [N]."""
-    peak = 0.5 * span.size * (math.pi / config.ramp_s) ** 2
-    speed = 0.5 * math.pi * span.size / config.ramp_s
-    slides = np.array([joint.kind == "prismatic" for joint in world.joints])
-    arm = np.sqrt(inertia / np.maximum(carried_masses(world), 1e-12))
-    arm = np.where(slides, 1.0, np.minimum(arm, LONGEST_ARM_M))
-    bound: FloatArray = config.hand_force_n * arm + config.inertia_margin * inertia * peak
-    return bound + damping * speed
 
 
 def _riders(world: World, index: int, span: Ranges) -> list[int]:

@@ -3,27 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from contextlib import nullcontext
-from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..config import MotionConfig
-from ..description import FloatArray, Mimic
+from ..description import FloatArray
 from ..geometry.placing import rigid
-from ..read.mjcf_model import begin_compiling
+from ..read.mjcf_compiler import begin_compiling
+from ..read.mjcf_model import CompiledMechanism, read_mechanism
 from ..read.read import format_of
-from ..read.srdf import exempt_pairs
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
+from ..read.urdf import exempt_pairs
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
 from .twin import twin_of
 
 WORLD = 0
+#: Shapes that belong to the scene, not to the link.
+FLOORS = ("plane", "hfield")
+#: Kinds of joints that are pushed, by MuJoCo's words.
+SCALAR = ("hinge", "slide")
 
 
-class MujocoSimulator:
+class MujocoSimulator(Simulator):
     """MuJoCo on the file as it is: MJCF directly, URDF by its importer, nothing fused or cut."""
 
     name = "mujoco"
@@ -51,7 +54,10 @@ class MujocoSimulator:
             try:
                 spec = mujoco.MjSpec.from_file(source)
                 _fix_base(spec, mujoco)
-                _exempt(spec, exempt_pairs(path) if is_urdf else ())
+                # Links that an SRDF exempts, which MuJoCo reads not.
+                for one, other in sorted(map(sorted, exempt_pairs(path) if is_urdf else ())):
+                    if spec.body(one) is not None and spec.body(other) is not None:
+                        spec.add_exclude(bodyname1=one, bodyname2=other)
                 model = spec.compile()
             except (ValueError, RuntimeError) as error:
                 raise ValueError(str(error)) from error
@@ -64,14 +70,7 @@ class MujocoSimulator:
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         if config.parents_touch:
             model.opt.disableflags |= int(flags.mjDSBL_FILTERPARENT)
-        return MujocoWorld(mujoco, model, parents_touch=config.parents_touch)
-
-
-def _exempt(spec: Any, pairs: Iterable[frozenset[str]]) -> None:
-    """Let links of a URDF pass through each other that its SRDF exempts, which MuJoCo reads not."""
-    for one, other in sorted(map(sorted, pairs)):
-        if spec.body(one) is not None and spec.body(other) is not None:
-            spec.add_exclude(bodyname1=one, bodyname2=other)
+        return MujocoWorld(mujoco, model, read_mechanism(model), config.parents_touch)
 
 
 def _fix_base(spec: Any, mujoco: Any) -> None:
@@ -84,9 +83,11 @@ def _fix_base(spec: Any, mujoco: Any) -> None:
 
 
 class MujocoWorld:
-    """A compiled model and its state."""
+    """A compiled model, by the names that are read of it, and its state."""
 
-    def __init__(self, mujoco: Any, model: Any, *, parents_touch: bool) -> None:
+    def __init__(
+        self, mujoco: Any, model: Any, held: CompiledMechanism, parents_touch: bool
+    ) -> None:
         self._mujoco = mujoco
         self._model = model
         self._data = mujoco.MjData(model)
@@ -94,19 +95,18 @@ class MujocoWorld:
         self._forces = int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING)
         # What the file itself turns off stays off.
         self._own = int(model.opt.disableflags) & self._forces
-        scalar = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
-        self._ids = [i for i in range(model.njnt) if int(model.jnt_type[i]) in scalar]
-        self._positions = model.jnt_qposadr[self._ids]
-        self._dofs = model.jnt_dofadr[self._ids]
-        every = tuple(_joint(model, mujoco, i) for i in range(model.njnt))
-        self.joints = tuple(every[i] for i in self._ids)
-        links = tuple(_link(model, mujoco, i) for i in range(model.nbody))
+        pushed = [i for i, joint in enumerate(held.joints) if joint.kind in SCALAR]
+        self._positions = model.jnt_qposadr[pushed]
+        self._dofs = model.jnt_dofadr[pushed]
+        every = _joints(held)
+        self.joints = tuple(every[i] for i in pushed)
+        links = tuple(_link(model, held, i) for i in range(model.nbody))
         # Without the flag MuJoCo keeps a link and a moving parent apart, but not a link and the
         # unmoved base.
-        rules = PairRules(parents_touch, static_parent=True, excluded=_excluded(model, links))
+        rules = PairRules(parents_touch, static_parent=True, excluded=_excluded(held, links))
         self.model = LoadedModel(links, every, (), rules)
         self.time_step = float(model.opt.timestep)
-        self.carried = tuple(_below(model, links, int(model.jnt_bodyid[i])) for i in self._ids)
+        self.carried = tuple(_below(held, held.joints[i].body) for i in pushed)
         self._complaints = np.zeros(int(mujoco.mjtWarning.mjNWARNING), np.int64)
 
     def weigh(self, on: bool) -> None:
@@ -164,7 +164,7 @@ class MujocoWorld:
             self._mujoco.mj_contactForce(self._model, self._data, i, wrench)
             a, b = sorted(int(body) for body in self._model.geom_bodyid[self._data.contact.geom[i]])
             pair = (self.model.links[a].name, self.model.links[b].name)
-            found.add(pair, Touch(float(wrench[0]), -float(self._data.contact.dist[i])))
+            found.add(pair, float(wrench[0]), -float(self._data.contact.dist[i]))
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:
@@ -187,82 +187,45 @@ class MujocoWorld:
         return np.array([warning.number for warning in self._data.warning], np.int64)
 
 
-def _link(model: Any, mujoco: Any, i: int) -> LoadedLink:
-    geoms = np.flatnonzero(model.geom_bodyid == i)
-    solid = (model.geom_contype[geoms] != 0) | (model.geom_conaffinity[geoms] != 0)
-    # Floors belong to the scene, not to the link.
-    floors = (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
-    solid &= ~np.isin(model.geom_type[geoms], floors)
-    static = int(model.body_weldid[i]) == WORLD
+def _link(model: Any, held: CompiledMechanism, i: int) -> LoadedLink:
+    body = held.bodies[i]
+    geoms = ((k, held.geoms[k]) for k in body.geoms)
+    solid = [k for k, geom in geoms if geom.collides and geom.shape not in FLOORS]
+    static = body.weld == WORLD
     moments = triple(sorted(model.body_inertia[i]))
     center = triple(model.body_ipos[i])
-    friction = float(model.geom_friction[geoms[solid], 0].max()) if solid.any() else None
-    name = _body_name(model, mujoco, i)
+    friction = max((float(model.geom_friction[k, 0]) for k in solid), default=None)
     mass = float(model.body_mass[i])
-    return LoadedLink(name, mass, int(solid.sum()), moments, center, static, friction)
+    return LoadedLink(held.names[i], mass, len(solid), moments, center, static, friction)
 
 
-def _below(model: Any, links: tuple[LoadedLink, ...], body: int) -> frozenset[str]:
+def _below(held: CompiledMechanism, body: int) -> frozenset[str]:
     found = {body}
-    for i in range(body + 1, model.nbody):
+    for i, each in enumerate(held.bodies):
         # Children are numbered after their parents.
-        if int(model.body_parentid[i]) in found:
+        if each.parent in found:
             found.add(i)
-    return frozenset(links[i].name for i in found)
+    return frozenset(held.names[i] for i in found)
 
 
-def _excluded(model: Any, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str], ...]:
-    solid = [i for i, link in enumerate(links) if link.shapes]
-    named = {frozenset(divmod(int(pair), 1 << 16)) for pair in model.exclude_signature}
-    # The masks of a body are those of its geoms together: some two of them match exactly if these
-    # do.
-    types = model.body_contype
-    affinities = model.body_conaffinity
-
-    def pass_through(a: int, b: int) -> bool:
-        matched = types[a] & affinities[b] or types[b] & affinities[a]
-        apart = model.body_weldid[a] != model.body_weldid[b]
-        return apart and (frozenset((a, b)) in named or not matched)
-
-    pairs = (pair for pair in combinations(solid, 2) if pass_through(*pair))
-    return tuple((links[a].name, links[b].name) for a, b in pairs)
+def _excluded(
+    held: CompiledMechanism, links: tuple[LoadedLink, ...]
+) -> tuple[tuple[str, str], ...]:
+    solid = ((a, b) for a, b in held.apart() if links[a].shapes and links[b].shapes)
+    moved = ((a, b) for a, b in solid if held.bodies[a].weld != held.bodies[b].weld)
+    return tuple((links[a].name, links[b].name) for a, b in moved)
 
 
-def _mimic(model: Any, mujoco: Any, joint: int) -> Mimic | None:
-    """Return what the joint is forced to follow, by the equality's constant and linear part."""
-    for i in range(model.neq):
-        couples = model.eq_type[i] == mujoco.mjtEq.mjEQ_JOINT and model.eq_active0[i]
-        if couples and int(model.eq_obj1id[i]) == joint:
-            leader = int(model.eq_obj2id[i])
-            if leader < 0:
-                return None
-            constant, linear = (float(number) for number in model.eq_data[i, :2])
-            # The polynomial speaks of how far both joints are from their reference.
-            here, there = (float(model.qpos0[int(model.jnt_qposadr[k])]) for k in (joint, leader))
-            offset = here + constant - linear * there
-            return Mimic(_joint_name(model, mujoco, leader), linear, offset)
-    return None
-
-
-def _body_name(model: Any, mujoco: Any, i: int) -> str:
-    return str(mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, i) or f"body{i}")
-
-
-def _joint_name(model: Any, mujoco: Any, i: int) -> str:
-    body = int(model.jnt_bodyid[i])
-    nameless = f"{_body_name(model, mujoco, body)}_joint{i - int(model.body_jntadr[body])}"
-    return str(mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, i) or nameless)
-
-
-def _joint(model: Any, mujoco: Any, i: int) -> LoadedJoint:
-    word = mujoco.mjtJoint(int(model.jnt_type[i])).name.removeprefix("mjJNT_").lower()
-    limited = bool(model.jnt_limited[i])
-    kind = {"slide": "prismatic", "hinge": "revolute" if limited else "continuous"}.get(word, word)
-    lower, upper = (float(v) for v in model.jnt_range[i]) if limited else (-math.inf, math.inf)
-    dof = int(model.jnt_dofadr[i])
-    damping = float(np.ravel(model.dof_damping[dof])[0])
-    friction = float(model.dof_frictionloss[dof])
-    axis = triple(model.jnt_axis[i]) if word in ("slide", "hinge") else None
-    name = _joint_name(model, mujoco, i)
-    mimic = _mimic(model, mujoco, i)
-    return LoadedJoint(name, kind, lower, upper, damping, friction, axis, mimic)
+def _joints(held: CompiledMechanism) -> tuple[LoadedJoint, ...]:
+    mimics = held.mimics()
+    found = []
+    for i, joint in enumerate(held.joints):
+        turning = "continuous" if joint.lower is None else "revolute"
+        kind = {"slide": "prismatic", "hinge": turning}.get(joint.kind, joint.kind)
+        lower = -math.inf if joint.lower is None else joint.lower
+        upper = math.inf if joint.upper is None else joint.upper
+        axis = triple(joint.axis) if joint.kind in SCALAR else None
+        told = (kind, lower, upper, joint.damping, joint.friction, axis)
+        name = held.joint_name(i)
+        found.append(LoadedJoint(name, *told, mimics.get(name)))
+    return tuple(found)

@@ -8,17 +8,18 @@ from pathlib import Path
 from typing import Any
 
 from ..config import MotionConfig
+from ..read.mjcf_model import CompiledMechanism, read_mechanism
 from ..read.read import format_of
 from .chatter import captured_lines
 from .mujoco_backend import MujocoWorld
-from .simulator import LoadedJoint, LoadedLink, PairRules
+from .simulator import PairRules, Simulator
 from .twin import twin_of
 
 #: Newton speaks of a body as ``model/link``; its solver calls the same ``model_link``.
 SEPARATOR = "/"
 
 
-class NewtonSimulator:
+class NewtonSimulator(Simulator):
     """Newton's model of the file, stepped by its MuJoCo solver on the processor.
 
     Newton converts its model for MuJoCo once, and steps the same conversion by MuJoCo-Warp or by
@@ -44,11 +45,19 @@ class NewtonSimulator:
             warnings.simplefilter("ignore")
             import mujoco
             import newton
+            import warp
 
-            _begin()
+            # What Warp says of the machine as it starts is nothing about the file.
+            warp.config.log_level = warp.LOG_ERROR
+            with captured_lines([]):
+                warp.init()
             builder = newton.ModelBuilder()
             try:
-                _read(builder, path)
+                if format_of(path) == "urdf":
+                    with twin_of(path) as twin:
+                        builder.add_urdf(twin, floating=False)
+                else:
+                    builder.add_mjcf(str(path), floating=False)
                 loaded = builder.finalize(device="cpu")
                 solver = newton.solvers.SolverMuJoCo(loaded, use_mujoco_cpu=True)
             except Exception as error:
@@ -63,78 +72,55 @@ class NewtonSimulator:
         return NewtonWorld(mujoco, model, loaded, int(newton.ShapeFlags.COLLIDE_SHAPES))
 
 
-def _begin() -> None:
-    """Start Warp; what it says of the machine then is nothing about the file."""
-    import warp
-
-    warp.config.log_level = warp.LOG_ERROR
-    with captured_lines([]):
-        warp.init()
-
-
-def _read(builder: Any, path: Path) -> None:
-    if format_of(path) == "urdf":
-        with twin_of(path) as twin:
-            builder.add_urdf(twin, floating=False)
-    else:
-        builder.add_mjcf(str(path), floating=False)
-
-
 class NewtonWorld(MujocoWorld):
     """What Newton's solver made of its model; links and joints by the file's names."""
 
     def __init__(self, mujoco: Any, model: Any, loaded: Any, solid: int) -> None:
-        super().__init__(mujoco, model, parents_touch=False)
-        bodies = {label.replace(SEPARATOR, "_"): i for i, label in enumerate(loaded.body_label)}
-        frictions = _frictions(loaded, solid)
-        names = {name: loaded.body_label[i].rpartition(SEPARATOR)[2] for name, i in bodies.items()}
+        held = _renamed(read_mechanism(model), loaded)
+        super().__init__(mujoco, model, held, parents_touch=False)
+        frictions = _frictions(loaded, solid, held.names[0])
         moved = frozenset[str]().union(*self.carried)
         links = tuple(
             replace(
                 link,
-                name=names.get(link.name, link.name),
-                shapes=len(frictions.get(bodies.get(link.name, -1), ())),
-                friction=max(frictions.get(bodies.get(link.name, -1), ()), default=None),
+                shapes=len(frictions.get(link.name, ())),
+                friction=max(frictions.get(link.name, ()), default=None),
                 # What is fixed to the world is a body of its own here, that moves when told to.
                 static=link.name not in moved,
             )
             for link in self.model.links
         )
-        labels = {label.replace(SEPARATOR, "_"): label for label in loaded.joint_label}
-        short = {name: label.rpartition(SEPARATOR)[2] for name, label in labels.items()}
-        joints = tuple(_named(joint, short) for joint in self.model.joints)
-        by_name = {joint.name: joint for joint in joints}
-        self.joints = tuple(by_name[short.get(each.name, each.name)] for each in self.joints)
-        self.carried = tuple(frozenset(names.get(n, n) for n in below) for below in self.carried)
-        excluded = self.model.pairs.excluded if self.model.pairs is not None else ()
-        apart = tuple((names.get(a, a), names.get(b, b)) for a, b in excluded)
-        excluded = tuple(pair for pair in apart if not _jointed(pair, links, model))
+        apart = self.model.pairs.excluded if self.model.pairs is not None else ()
+        excluded = tuple(pair for pair in apart if not _jointed(pair, held))
         rules = PairRules(moving_parent=False, static_parent=False, excluded=excluded)
-        self.model = replace(self.model, links=links, joints=joints, pairs=rules)
+        self.model = replace(self.model, links=links, pairs=rules)
 
 
-def _frictions(loaded: Any, solid: int) -> dict[int, list[float]]:
-    """Return the friction of each collision shape that Newton gave a body; -1 is the world.
+def _renamed(held: CompiledMechanism, loaded: Any) -> CompiledMechanism:
+    """Return the same by the file's names, which Newton's solver calls by their model's, too."""
+    labels = (*loaded.body_label, *loaded.joint_label)
+    names = {each.replace(SEPARATOR, "_"): each.rpartition(SEPARATOR)[2] for each in labels}
+    bodies = (replace(body, name=names.get(body.name, body.name)) for body in held.bodies)
+    joints = (replace(joint, name=names.get(joint.name, joint.name)) for joint in held.joints)
+    return replace(held, bodies=tuple(bodies), joints=tuple(joints))
+
+
+def _frictions(loaded: Any, solid: int, world: str) -> dict[str, list[float]]:
+    """Return the friction of each collision shape that Newton gave a link, or the ``world``.
 
     Its solver lets a shape that nothing can touch touch nothing, so that it is not counted there.
     """
-    found: dict[int, list[float]] = {}
+    # The last one is what -1 means.
+    names = [*(label.rpartition(SEPARATOR)[2] for label in loaded.body_label), world]
+    found: dict[str, list[float]] = {}
     columns = (loaded.shape_body, loaded.shape_flags, loaded.shape_material_mu)
     for body, flags, friction in zip(*(column.numpy() for column in columns), strict=True):
         if int(flags) & solid:
-            found.setdefault(int(body), []).append(float(friction))
+            found.setdefault(names[int(body)], []).append(float(friction))
     return found
 
 
-def _named(joint: LoadedJoint, short: dict[str, str]) -> LoadedJoint:
-    mimic = joint.mimic
-    if mimic is not None:
-        mimic = replace(mimic, leader=short.get(mimic.leader, mimic.leader))
-    return replace(joint, name=short.get(joint.name, joint.name), mimic=mimic)
-
-
-def _jointed(pair: tuple[str, str], links: tuple[LoadedLink, ...], model: Any) -> bool:
-    numbers = {link.name: i for i, link in enumerate(links)}
-    first, second = (numbers[name] for name in pair)
-    one, other = (int(model.body_parentid[number]) for number in (first, second))
+def _jointed(pair: tuple[str, str], held: CompiledMechanism) -> bool:
+    first, second = (held.names.index(name) for name in pair)
+    one, other = (held.bodies[number].parent for number in (first, second))
     return first in (second, other) or second == one

@@ -15,10 +15,9 @@ from ..description import FloatArray, Mimic
 from ..geometry.coupling import sound_chains
 from ..geometry.placing import rigid
 from ..geometry.statics import GRAVITY
-from ..read.srdf import exempt_pairs
-from ..read.urdf import read_mimics
+from ..read.urdf import exempt_pairs, read_mimics
 from .pybullet_dynamics import BulletClient, Dynamics
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
 from .twin import twin_of
 
 BASE = -1
@@ -31,7 +30,7 @@ GEAR_ERP = 0.2
 GEAR_FORCE = 1e6
 
 
-class PybulletSimulator:
+class PybulletSimulator(Simulator):
     """PyBullet without a window."""
 
     name = "pybullet"
@@ -109,10 +108,9 @@ class PybulletWorld:
         touch = config.parents_touch
         rules = PairRules(touch, static_parent=touch, excluded=self._let_pass(exempt))
         self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
-        beyond = [[k for k in self._names if self._is_beyond(k, i)] for i in self._ids]
-        self.carried = tuple(frozenset(self._names[k] for k in group) for group in beyond)
-        slides = [info[2] == bullet.JOINT_PRISMATIC for info in moving]
-        self._dynamics = Dynamics(bullet, body, self._ids, slides, beyond)
+        beyond = {i: [k for k in self._names if self._is_beyond(k, i)] for i in self._ids}
+        self.carried = tuple(frozenset(self._names[k] for k in beyond[i]) for i in self._ids)
+        self._dynamics = Dynamics(bullet, body, beyond)
         self._falls = True
         self._state: FloatArray | None = None
         for i, joint in zip(self._ids, self.joints, strict=True):
@@ -173,8 +171,7 @@ class PybulletWorld:
         found = Touches()
         for point in self._bullet.getContactPoints(self._body, self._body):
             a, b = sorted((int(point[3]), int(point[4])))
-            touch = Touch(float(point[9]), -float(point[8]))
-            found.add((self._names[a], self._names[b]), touch)
+            found.add((self._names[a], self._names[b]), float(point[9]), -float(point[8]))
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:

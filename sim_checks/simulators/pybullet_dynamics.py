@@ -6,7 +6,7 @@ heavy, turned ones (a fridge's door) differ there, and it answers nothing at all
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from functools import partial
 from inspect import isbuiltin
 from typing import Any
@@ -34,25 +34,20 @@ class BulletClient:
 class Dynamics:
     """Inertias, balancing forces and kinetic energy of one multibody.
 
-    All vectors are in the order of its joints, each given with whether it slides, and with the
-    links beyond it, which it moves.
+    All vectors are in the order of its joints, each given with the links beyond it, which it moves.
     """
 
-    def __init__(
-        self,
-        bullet: BulletClient,
-        body: int,
-        joints: Sequence[int],
-        slides: Sequence[bool],
-        beyond: Sequence[Sequence[int]],
-    ) -> None:
+    def __init__(self, bullet: BulletClient, body: int, beyond: Mapping[int, list[int]]) -> None:
         self._bullet = bullet
         self._body = body
-        self._joints = list(joints)
-        self._slides = np.array(slides, bool)
-        self._beyond = beyond
+        self._joints = list(beyond)
+        lines = [bullet.getJointInfo(body, joint) for joint in beyond]
+        self._slides = [line[2] == bullet.JOINT_PRISMATIC for line in lines]
+        # In the principal frame of the link that each joint moves.
+        self._axes = [np.array(line[13]) for line in lines]
+        self._beyond = list(beyond.values())
         self._refuses = False
-        links = sorted({link for group in beyond for link in group})
+        links = sorted({link for group in self._beyond for link in group})
         infos = {link: bullet.getDynamicsInfo(body, link) for link in links}
         self._mass = {link: float(info[0]) for link, info in infos.items()}
         self._moments = {link: np.array(info[2], np.float64) for link, info in infos.items()}
@@ -130,10 +125,7 @@ class Dynamics:
         states = self._bullet.getLinkStates(self._body, links, computeForwardKinematics=1)
         at = dict(zip(links, states, strict=True))
         turns = {link: self._turn(state) for link, state in at.items()}
-        # Bullet states joint axes in the principal frame of the link that they move.
-        infos = [self._bullet.getJointInfo(self._body, joint) for joint in self._joints]
-        named = zip(self._joints, infos, strict=True)
-        axes = [turns[joint] @ np.array(info[13]) for joint, info in named]
+        axes = [turns[joint] @ axis for joint, axis in zip(self._joints, self._axes, strict=True)]
         points = [np.array(at[joint][4]) for joint in self._joints]
         return axes, points, {link: np.array(state[0]) for link, state in at.items()}, turns
 

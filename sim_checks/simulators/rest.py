@@ -9,7 +9,7 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .joints import carried_masses, height, moving_mass, pressing, ranges, share, uncoupled
+from .joints import carried_masses, finite, height, moving_mass, pressing, ranges, share, uncoupled
 from .simulator import Fall, FallMotion, RestMotion, World
 
 #: A joint without a range stands still below this [rad/s] or [m/s].
@@ -44,14 +44,11 @@ def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
     kinetic = _Kinetic(world, config)
     mass = carried_masses(world)
     pushed_by: dict[int, tuple[str, str] | None] = {}
-    finite = True
     for position, velocity in left_alone(world, config.rest_s, config):
-        finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
-        if not finite:
-            break
         pushed_by = pushed_by or {i: pressing(world, i) for i in free}
         drift = np.maximum(drift, np.abs(position - span.lower))
         kinetic.see(velocity)
+    is_finite = finite(world)
     world.weigh(True)
     energy = kinetic.gained
     return tuple(
@@ -59,7 +56,7 @@ def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
             world.joints[i].name,
             float(drift[i]),
             share(drift[i], span.size[i]),
-            finite,
+            is_finite,
             float(energy[i]),
             height(energy[i], mass[i]),
             pushed_by.get(i),
@@ -82,11 +79,7 @@ def fall(world: World, config: MotionConfig) -> Fall:
     moved = np.zeros(len(world.joints))
     before = most = world.energy()
     slow = _slow(world, config)
-    finite = True
     for position, velocity in left_alone(world, config.rest_s, config):
-        finite = bool(np.isfinite(position).all() and np.isfinite(velocity).all())
-        if not finite:
-            break
         # A soft limit that gives way under the weight opens nothing.
         into = position - span.lower
         moved = np.maximum(moved, np.where(limited, into, np.abs(into)))
@@ -96,7 +89,7 @@ def fall(world: World, config: MotionConfig) -> Fall:
     joints = tuple(FallMotion(*row) for row in rows)
     # What pulls coupled joints to where they belong together gives energy, too.
     gained = most - before if len(free) == len(world.joints) else 0.0
-    return Fall(joints, finite, float(gained), height(gained, moving_mass(world)))
+    return Fall(joints, finite(world), float(gained), height(gained, moving_mass(world)))
 
 
 def let_go(world: World, config: MotionConfig) -> Gain:
@@ -107,15 +100,12 @@ def let_go(world: World, config: MotionConfig) -> Gain:
     world.weigh(False)
     kinetic = _Kinetic(world, config)
     mass = carried_masses(world)
-    finite = True
     for _, velocity in left_alone(world, config.release_s, config):
-        finite = bool(np.isfinite(velocity).all())
-        if not finite:
-            break
         kinetic.see(velocity)
+    is_finite = finite(world)
     world.weigh(True)
     energies = ((float(kinetic.gained[i]), height(kinetic.gained[i], mass[i])) for i in free)
-    return max((Gain(*each, finite) for each in energies), key=lambda gain: gain.height)
+    return max((Gain(*each, is_finite) for each in energies), key=lambda gain: gain.height)
 
 
 class _Kinetic:
@@ -150,6 +140,8 @@ def left_alone(
 ) -> Iterator[tuple[FloatArray, FloatArray]]:
     """Yield the positions and velocities step by step, until time is up or all are at rest.
 
+    It ends as well, and yields no more, where one of them is no number.
+
     Applied are ``forces`` where given, asked before every step, else none.
 
     Forces in these engines depend on where things are and how they move, and nothing is put to
@@ -169,6 +161,8 @@ def left_alone(
         world.step(nothing if forces is None else forces())
         position = world.positions()
         velocity = world.velocities()
+        if not (np.isfinite(position).all() and np.isfinite(velocity).all()):
+            return
         yield position, velocity
         speeds.append(float((np.abs(velocity) / slow).max()))
         if known and len(speeds) >= window and speeds[-1] <= 1.0:

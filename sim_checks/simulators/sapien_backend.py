@@ -15,7 +15,7 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
 from ..geometry.statics import GRAVITY
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touch, Touches, triple
+from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
 from .twin import twin_of
 
 KINDS = {"revolute_unwrapped": "revolute", "revolute": "continuous", "prismatic": "prismatic"}
@@ -26,7 +26,7 @@ WINDING = 4.0 * math.pi
 JUMP = 2.0 * math.pi
 
 
-class SapienSimulator:
+class SapienSimulator(Simulator):
     """SAPIEN on the processor, without a renderer."""
 
     name = "sapien"
@@ -163,7 +163,7 @@ class SapienWorld:
             impulse = sum(np.asarray(point.impulse, np.float64) for point in contact.points)
             depth = max(-float(point.separation) for point in contact.points)
             force = float(np.linalg.norm(impulse)) / self.time_step
-            found.add((a, b), Touch(force, depth))
+            found.add((a, b), force, depth)
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:

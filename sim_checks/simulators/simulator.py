@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -136,16 +137,14 @@ class Touch:
         """Return whether it does anything."""
         return self.force > 0.0 or self.depth > 0.0
 
-    def __add__(self, other: Touch) -> Touch:
-        return Touch(self.force + other.force, max(self.depth, other.depth))
-
 
 class Touches(dict[tuple[str, str], Touch]):
     """How links touch, by pair in the model's order."""
 
-    def add(self, pair: tuple[str, str], touch: Touch) -> None:
-        """Note one more contact of a pair of links."""
-        self[pair] = self[pair] + touch if pair in self else touch
+    def add(self, pair: tuple[str, str], force: float, depth: float) -> None:
+        """Note one more contact of a pair of links: its force [N] and its depth [m]."""
+        before = self.get(pair, Touch(0.0, -math.inf))
+        self[pair] = Touch(before.force + force, max(before.depth, depth))
 
 
 @dataclass(frozen=True)
@@ -365,27 +364,21 @@ class World(Protocol):
 
 
 class Simulator(Protocol):
-    """One physics engine; :meth:`open` runs in a killable child process and imports it there."""
+    """One physics engine; :meth:`open` runs in a killable child process and imports it there.
 
-    @property
-    def name(self) -> str:
-        """Return how it is chosen, e.g. ``sapien``; also the extra that installs it."""
+    Attributes:
+        name: how it is chosen, e.g. ``sapien``; also the extra that installs it.
+        distribution: the installed package that provides it.
+        formats: the description formats it loads: ``urdf``, ``mjcf``.
+        soft_friction: formats in which no file can tell it how stiffly joint friction holds.
+        blind_spots: sentences: what this engine, as it is used here, cannot see.
+    """
 
-    @property
-    def distribution(self) -> str:
-        """Return the installed package that provides it."""
-
-    @property
-    def formats(self) -> tuple[str, ...]:
-        """Return the description formats it loads: ``urdf``, ``mjcf``."""
-
-    @property
-    def soft_friction(self) -> tuple[str, ...]:
-        """Return formats in which no file can tell it how stiffly joint friction holds."""
-
-    @property
-    def blind_spots(self) -> tuple[str, ...]:
-        """Return sentences: what this engine, as it is used here, cannot see."""
+    name: str
+    distribution: str
+    formats: tuple[str, ...]
+    soft_friction: tuple[str, ...]
+    blind_spots: tuple[str, ...]
 
     def open(self, path: Path, config: MotionConfig) -> World:
         """Load a file with the base fixed.

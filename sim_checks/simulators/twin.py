@@ -11,6 +11,7 @@ from pathlib import Path
 
 from ..description import DescriptionError
 from ..read.document import find_file, parse_document
+from ..read.references import SRDF
 
 #: What MuJoCo must be told so that it neither fuses links nor forgets folders.
 MUJOCO_COMPILER = {"fusestatic": "false", "strippath": "false", "discardvisual": "true"}
@@ -37,13 +38,18 @@ def twin_of(urdf: Path, *, for_mujoco: bool = False) -> Iterator[str]:
     for mesh in root.iter("mesh"):
         mesh.set("filename", str(resolve(mesh.get("filename", ""), urdf.parent)))
     if for_mujoco:
-        _set_compiler(root)
+        mujoco = root.find("mujoco")
+        mujoco = ET.SubElement(root, "mujoco") if mujoco is None else mujoco
+        compiler = mujoco.find("compiler")
+        compiler = ET.SubElement(mujoco, "compiler") if compiler is None else compiler
+        compiler.attrib.pop("meshdir", None)
+        compiler.attrib.update(MUJOCO_COMPILER)
     with tempfile.TemporaryDirectory(prefix="twin-") as folder:
         target = Path(folder) / "twin.urdf"
         ET.ElementTree(root).write(target, encoding="unicode")
-        srdf = urdf.with_suffix(".srdf")
+        srdf = urdf.with_suffix(SRDF)
         if srdf.is_file():
-            shutil.copyfile(srdf, target.with_suffix(".srdf"))
+            shutil.copyfile(srdf, target.with_suffix(SRDF))
         yield str(target)
 
 
@@ -53,14 +59,3 @@ def resolve(reference: str, folder: Path) -> Path:
         return find_file(reference, folder)
     except DescriptionError:
         return (folder / reference).absolute()
-
-
-def _set_compiler(root: ET.Element) -> None:
-    mujoco = root.find("mujoco")
-    if mujoco is None:
-        mujoco = ET.SubElement(root, "mujoco")
-    compiler = mujoco.find("compiler")
-    if compiler is None:
-        compiler = ET.SubElement(mujoco, "compiler")
-    compiler.attrib.pop("meshdir", None)
-    compiler.attrib.update(MUJOCO_COMPILER)

@@ -151,7 +151,7 @@ def _grounds() -> tuple[Path, Path, _Alarm]:
     os.chdir(base / "cwd")
     # What compiles MJCF and reads checkpoints starts its children from here; it is up before
     # anybody watches.
-    preload(("asset_factory.sim_checks.read.mjcf_model", "mujoco", "pxr.Usd", "torch"))
+    preload(("asset_factory.sim_checks.read.mjcf_compiler", "mujoco", "pxr.Usd", "torch"))
     forkserver.ensure_running()
     return base, outside, _Alarm(outside)
 

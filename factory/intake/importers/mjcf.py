@@ -14,12 +14,12 @@ from pathlib import Path
 import numpy as np
 
 from asset_factory.sim_checks.description import DescriptionError, Mimic
+from asset_factory.sim_checks.read.mjcf_compiler import compile_model
 from asset_factory.sim_checks.read.mjcf_model import (
     CompiledEquality,
     CompiledGeom,
     CompiledJoint,
     CompiledModel,
-    compile_model,
 )
 from asset_factory.sim_checks.read.multiplied import refuse_multiplied
 from asset_factory.sim_checks.read.native import read_apart

@@ -49,14 +49,10 @@ class _Urdf:
         self._stage = stage
         self._folder = folder
         self._hung = _hung(stage)
-        self._names = _names([path for path in stage.bodies if self._is_link(path)])
-
-    def _is_link(self, path: str) -> bool:
-        """Tell whether a body is a link: the world is where something of it is seen or moves."""
-        if path != WORLD:
-            return True
-        movable = any(j.kind != "fixed" and WORLD in j.bodies for j in self._stage.joints)
-        return movable or any(surface.body == WORLD for surface in self._stage.surfaces)
+        # The world is a link where something of it is seen or moves.
+        moves = any(j.kind != "fixed" and WORLD in j.bodies for j in stage.joints)
+        shown = moves or any(surface.body == WORLD for surface in stage.surfaces)
+        self._names = _names([path for path in stage.bodies if path != WORLD or shown])
 
     def document(self, name: str) -> bytes:
         """Return the whole file."""

@@ -11,10 +11,11 @@ import numpy as np
 
 from ...description import DescriptionError, FloatArray, Mimic
 from .bodies import WORLD, PhysicsBody, rotation_of, split_scale
-from .prims import AXES, joint_kind
 
 #: The relationship by which a PhysX joint names its leader, of the axis that it is about.
 PHYSX_MIMIC = re.compile(r"physxMimicJoint:\w+:referenceJoint")
+#: Directions that joints' axes are named by.
+AXES = dict(zip("XYZ", np.eye(3), strict=True))
 PoseOf = Callable[[Any], FloatArray]
 
 
@@ -70,6 +71,16 @@ def joint_ends(prim: Any) -> tuple[Any, Any]:
     return joint.GetBody0Rel(), joint.GetBody1Rel()
 
 
+def _joint_kind(prim: Any) -> str:
+    """Return ``revolute``, ``prismatic``, ``fixed``, or the file's word for any other joint."""
+    from pxr import UsdPhysics
+
+    for kind in ("revolute", "prismatic", "fixed"):
+        if prim.IsA(getattr(UsdPhysics, f"{kind.capitalize()}Joint")):
+            return kind
+    return str(prim.GetTypeName())
+
+
 def read_joint(prim: Any, bodies: dict[str, PhysicsBody], pose_of: PoseOf) -> PhysicsJoint:
     """Return one joint, a prim of a type derived from ``UsdPhysics.Joint``.
 
@@ -84,7 +95,7 @@ def read_joint(prim: Any, bodies: dict[str, PhysicsBody], pose_of: PoseOf) -> Ph
     turn = joint.GetLocalRot1Attr()
     frame = _frame(joint.GetLocalPos0Attr(), joint.GetLocalRot0Attr(), one, bodies[first])
     frames = (frame, _frame(place, turn, other, bodies[second]))
-    kind = joint_kind(prim)
+    kind = _joint_kind(prim)
     name = str(prim.GetName())
     if kind not in ("revolute", "prismatic"):
         return PhysicsJoint(name, kind, (first, second), frames)
@@ -129,7 +140,7 @@ def _mimic(prim: Any, unit: float) -> Mimic | None:
     if leader is None or not leader:
         return None
     metres = float(UsdGeom.GetStageMetersPerUnit(prim.GetStage()))
-    led = np.pi / 180.0 if joint_kind(leader) == "revolute" else metres
+    led = np.pi / 180.0 if _joint_kind(leader) == "revolute" else metres
     multiplier = prim.GetAttribute(words[0])
     said = float(multiplier.Get()) if multiplier and multiplier.HasAuthoredValue() else 1.0
     constant = _number(prim.GetAttribute(words[1]))

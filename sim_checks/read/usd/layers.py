@@ -49,7 +49,12 @@ def require_inside(path: Path, folder: Path, most_bytes: int = MOST_BYTES) -> tu
             continue
         file = _own_file(identifier, root)
         files[file] = file.stat().st_size
-        _refuse_large(path.name, len(layers) + 1, sum(files.values()), most_bytes)
+        number = len(layers) + 1
+        total = sum(files.values())
+        if number > MOST_LAYERS or total > most_bytes:
+            limit = f"the limit is {MOST_LAYERS:,} and {most_bytes:,}"
+            message = f"{path.name}: {number:,} layers of {total:,} bytes together, {limit}; "
+            raise DescriptionError("too_large", message + "simplify it or raise the limit")
         with refusing(Path(identifier).name, root):
             layer = Sdf.Layer.FindOrOpen(identifier)
             if layer is None:
@@ -62,14 +67,6 @@ def require_inside(path: Path, folder: Path, most_bytes: int = MOST_BYTES) -> tu
     with refusing(path.name, root):
         refuse_multiplied(path.name, str(path.resolve()), layers, named)
     return tuple(sorted(files))
-
-
-def _refuse_large(name: str, number: int, total: int, most_bytes: int) -> None:
-    if number > MOST_LAYERS or total > most_bytes:
-        limit = f"the limit is {MOST_LAYERS:,} and {most_bytes:,}"
-        message = f"{name}: {number:,} layers of {total:,} bytes together, {limit}; "
-        message += "simplify it or raise the limit"
-        raise DescriptionError("too_large", message)
 
 
 def _identifier(reference: str, layer: Any) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from ..native import READER_BYTES, memory_bounded
 from ..urdf import MAX_TRIANGLES
 from .bodies import WORLD, PhysicsBody, rotation_of, split_scale
 from .joints import PhysicsJoint, joint_ends, read_joint, require_ends
-from .prims import is_joint_in_use, is_on, is_rigid_body, is_shown, list_prims
+from .multiplied import MOST_PRIMS
 from .refusing import refusing
 from .shapes import PhysicsSurface, read_triangles
 
@@ -86,12 +87,12 @@ class _Reader:
         if self._up == "y":
             turn = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
             self._world = turn @ self._world
-        self._prims = list_prims(self._stage, self._name)
+        self._prims = _list_prims(self._stage, self._name)
 
     def read(self) -> PhysicsStage:
         from pxr import UsdPhysics
 
-        joints = [prim for prim in self._prims if is_joint_in_use(prim)]
+        joints = [prim for prim in self._prims if _is_joint_in_use(prim)]
         if not self._lenient:
             for prim in joints:
                 require_ends(prim)
@@ -116,7 +117,7 @@ class _Reader:
         return np.asarray(self._world @ own)
 
     def _body_prims(self, joints: list[Any]) -> list[Any]:
-        rigid = [prim for prim in self._prims if is_rigid_body(prim)]
+        rigid = [prim for prim in self._prims if _is_rigid_body(prim)]
         if rigid or not self._lenient:
             return rigid
         relations = (relation for prim in joints for relation in joint_ends(prim))
@@ -131,8 +132,8 @@ class _Reader:
         for prim in self._prims:
             if not prim.IsA(UsdGeom.Gprim):
                 continue
-            seen = is_shown(prim)
-            touched = prim.HasAPI(UsdPhysics.CollisionAPI) and is_on(
+            seen = _is_shown(prim)
+            touched = prim.HasAPI(UsdPhysics.CollisionAPI) and _is_on(
                 UsdPhysics.CollisionAPI(prim).GetCollisionEnabledAttr()
             )
             if not (seen or (touched and not self._lenient)):
@@ -172,3 +173,51 @@ def _inertia(prim: Any, scale: FloatArray, kilograms: float) -> LinkInertia | No
     unit = float(np.cbrt(np.prod(scale)))
     tensor = axes @ np.diag(moments * kilograms * unit**2) @ axes.T
     return LinkInertia(mass, center * scale, tensor)
+
+
+def _list_prims(stage: Any, name: str) -> list[Any]:
+    """Return all prims of a composed stage, those of instances among them.
+
+    Raises:
+        DescriptionError: ``too_large``, with the file's name.
+    """
+    from pxr import Usd
+
+    every = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies())
+    prims = list(islice(every, MOST_PRIMS + 1))
+    if len(prims) > MOST_PRIMS:
+        raise DescriptionError("too_large", f"{name}: over {MOST_PRIMS:,} prims once composed")
+    return prims
+
+
+def _is_on(attribute: Any) -> bool:
+    """Return whether a switch is on, as it is where nobody says anything."""
+    return attribute.Get() is not False
+
+
+def _is_rigid_body(prim: Any) -> bool:
+    """Return whether it is a body of its own that physics moves."""
+    from pxr import UsdPhysics
+
+    enabled = UsdPhysics.RigidBodyAPI(prim).GetRigidBodyEnabledAttr()
+    return bool(prim.HasAPI(UsdPhysics.RigidBodyAPI)) and _is_on(enabled)
+
+
+def _is_joint_in_use(prim: Any) -> bool:
+    """Tell whether it is a joint that is enabled and in the tree; one that closes a loop is not."""
+    from pxr import UsdPhysics
+
+    if not prim.IsA(UsdPhysics.Joint):
+        return False
+    joint = UsdPhysics.Joint(prim)
+    left_out = joint.GetExcludeFromArticulationAttr().Get() is True
+    return _is_on(joint.GetJointEnabledAttr()) and not left_out
+
+
+def _is_shown(prim: Any) -> bool:
+    """Return whether a surface is visible, and made to be looked at."""
+    from pxr import UsdGeom
+
+    image = UsdGeom.Imageable(prim)
+    looked_at = image.ComputePurpose() in (UsdGeom.Tokens.default_, UsdGeom.Tokens.render)
+    return looked_at and image.ComputeVisibility() != UsdGeom.Tokens.invisible

@@ -236,7 +236,7 @@ def test_the_compiler_of_mjcf_leaves_no_log_behind(tmp_path):
     path = laid(tmp_path, {**cube_files(), "box.xml": text.encode()}, "box.xml")
     code = (
         "import sys, pathlib\n"
-        "from asset_factory.sim_checks.read.mjcf_model import compile_model\n"
+        "from asset_factory.sim_checks.read.mjcf_compiler import compile_model\n"
         "try:\n    compile_model(pathlib.Path(sys.argv[1]))\nexcept ValueError:\n    pass\n"
     )
     (tmp_path / "elsewhere").mkdir()

@@ -10,6 +10,7 @@ from box_world import body, box_shape, cabinet, described, joint, with_joint, wi
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
 from asset_factory.sim_checks.description import DescribedShape, LinkInertia
+from asset_factory.sim_checks.geometry.placing import joined
 from asset_factory.sim_checks.report import Report, Severity
 
 HARD = Severity.ERROR
@@ -34,9 +35,8 @@ def drawer_collisions(change):
 
 
 def hollow(shapes):
-    vertices = np.vstack([shape.vertices for shape in shapes])
-    faces = np.vstack([shape.faces + 8 * i for i, shape in enumerate(shapes)])
-    return (DescribedShape("drawer.obj", "mesh", vertices, faces),)
+    mesh = joined((shape, np.eye(4)) for shape in shapes)
+    return (DescribedShape("drawer.obj", "mesh", *mesh),)
 
 
 def scaled(shape, factor):

@@ -13,7 +13,7 @@ from asset_factory.sim_checks.checks.agreement import pose_samples
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
 from asset_factory.sim_checks.description import DescriptionError, Mimic
-from asset_factory.sim_checks.geometry.kinematics import build_tree, coupled_range
+from asset_factory.sim_checks.geometry.kinematics import build_tree
 from asset_factory.sim_checks.read.read import read_description, read_here
 from asset_factory.sim_checks.report import Severity
 
@@ -74,7 +74,7 @@ def test_only_free_joints_are_chosen_and_each_knows_who_follows_it():
 )
 def test_a_leader_goes_as_far_as_its_followers_can(mimic, expected):
     tree = build_tree(three(b=mimic))
-    found = coupled_range(tree, tree.free[0])
+    found = tree.ranges.get("a")
     assert found == (None if expected is None else pytest.approx(expected))
 
 
@@ -88,14 +88,14 @@ def test_a_follower_that_turns_far_enough_does_not_stop_its_leader(kind):
     ]
     turned = replace(description, joints=tuple(lines))
     tree = build_tree(turned)
-    assert coupled_range(tree, tree.free[0]) == (0.0, 1.0)
+    assert tree.ranges.get("a") == (0.0, 1.0)
     assert mimic_faults(turned) == []
 
 
 def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_fast():
     description = three(b=Mimic("a", 1.0, 0.6), c=Mimic("a", 1.0, -0.6))
     tree = build_tree(description)
-    assert coupled_range(tree, tree.free[0]) is None
+    assert tree.ranges.get("a") is None
     found = mimic_faults(description)
     assert [(f.joint, str(f.severity), f.code) for f in found] == [
         (name, "error", "mimic_limits") for name in ("b", "c")

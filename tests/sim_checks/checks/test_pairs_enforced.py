@@ -1,5 +1,6 @@
 """Which links each engine lets touch: seen in its contacts, and said the same way in the report."""
 
+from contextlib import closing
 from dataclasses import replace
 
 import numpy as np
@@ -60,15 +61,13 @@ def write_world(folder, kind):
 
 def look(path, engine, *, parents_touch=True):
     """Pairs that press on each other in the first step, and what the engine is said to enforce."""
-    world = simulator(engine).open(path, replace(MotionConfig(), parents_touch=parents_touch))
-    try:
+    config = replace(MotionConfig(), parents_touch=parents_touch)
+    with closing(simulator(engine).open(path, config)) as world:
         world.place(np.zeros(len(world.joints)))
         world.step(np.zeros(len(world.joints)))
         assert world.model.pairs is not None
         pressing = {pair for pair, touch in world.contacts().items() if touch.presses}
         return pressing, world.model.pairs
-    finally:
-        world.close()
 
 
 @pytest.mark.parametrize("engine", ENGINES)

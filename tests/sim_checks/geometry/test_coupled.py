@@ -14,13 +14,14 @@ from asset_factory.sim_checks.checks.pairs import RestingSolids
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.description import Mimic
-from asset_factory.sim_checks.geometry.coupled_path import CoupledPath
 from asset_factory.sim_checks.geometry.kinematics import build_tree
-from asset_factory.sim_checks.geometry.path import Path
+from asset_factory.sim_checks.geometry.path import JointAxis, Path
 from asset_factory.sim_checks.geometry.solids import Solids
 
 CONFIG = PenetrationConfig()
 Z = (0.0, 0.0, 1.0)
+#: Limits that stop no follower.
+SPAN = (-10.0, 10.0)
 
 
 BASE = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
@@ -125,12 +126,11 @@ def arm(multipliers):
     ]
     ways = [("revolute", Z), ("prismatic", (1.0, 0.0, 0.0)), ("revolute", (0.0, 1.0, 0.0))]
     mimics = [None, *(Mimic("j0", rate, 0.1 * i) for i, rate in enumerate(multipliers, 1))]
-    span = (-10.0, 10.0)
     lines = [
-        following(mimics[i], f"j{i}", kind, *names[i : i + 2], (0.1 * i, 0.2, 0.0), axis, span)
+        following(mimics[i], f"j{i}", kind, *names[i : i + 2], (0.1 * i, 0.2, 0.0), axis, SPAN)
         for i, (kind, axis) in enumerate(ways)
     ]
-    beside = ("k", "revolute", "base", "beside", (0.5, 0.0, 0.0), (1, 0, 0), span)
+    beside = ("k", "revolute", "base", "beside", (0.5, 0.0, 0.0), (1, 0, 0), SPAN)
     return described(links, [*lines, following(Mimic("j0", -0.7), *beside)])
 
 
@@ -164,10 +164,9 @@ def test_no_point_gets_beyond_the_bounds_between_two_places(seed):
         axis = generator.normal(size=3)
         turning = bool(generator.integers(2))
         unit = axis / np.linalg.norm(axis)
-        path = Path(turning, generator.normal(size=3), unit, 1.0)
-        return path, generator.uniform(-2, 2)
+        return JointAxis(turning, generator.normal(size=3), unit), generator.uniform(-2, 2)
 
-    path = CoupledPath(tuple(line() for _ in range(generator.integers(1, 5))), 1.5)
+    path = Path(tuple(line() for _ in range(generator.integers(1, 5))), 1.5)
     points = box_hull((0.3, 0.0, 0.0), (0.5, 0.2, 0.1)).vertices
     places = np.linspace(0.0, path.length, 5)
     direction = generator.normal(size=3)
@@ -188,10 +187,10 @@ def test_no_point_gets_beyond_the_bounds_between_two_places(seed):
 
 def test_the_inverse_undoes_the_motion():
     steps = (
-        (Path(True, np.ones(3), np.array(Z), 1.0), 0.7),
-        (Path(False, np.zeros(3), np.array(Z), 1.0), -2.0),
+        (JointAxis(True, np.ones(3), np.array(Z)), 0.7),
+        (JointAxis(False, np.zeros(3), np.array(Z)), -2.0),
     )
-    path = CoupledPath(steps, 1.0)
+    path = Path(steps, 1.0)
     assert path.pose(0.6) @ path.inverse().pose(0.6) == pytest.approx(np.eye(4), abs=1e-12)
     assert path.unturned(path.pose(0.6)[:3, 0], 0.6) == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
 
@@ -209,7 +208,7 @@ def tangle(seed):
         kind = ("revolute", "prismatic")[generator.integers(2)]
         parent = names[generator.integers(i)]
         at, axis = generator.normal(size=(2, 3))
-        line = joint(f"j{i}", kind, parent, name, 0.3 * at, axis, (-1.0, 1.5))
+        line = joint(f"j{i}", kind, parent, name, 0.3 * at, axis, (-1.0, 1.5) if i == 1 else SPAN)
         leader = f"j{generator.integers(1, max(i, 2))}"
         mimic = Mimic(leader, generator.uniform(-1, 1), generator.uniform(-0.1, 0.1))
         lines.append(line if i == 1 else replace(line, mimic=mimic))
@@ -221,19 +220,16 @@ def test_no_pose_on_the_way_is_worse_than_what_is_found(seed):
     description = tangle(seed)
     tree = build_tree(description)
     solids = Solids(description, tree)
-    ends = ({"j1": -1.0}, {"j1": 1.5})
-    solids.place(ends[0])
-    near = tuple(solids.standings(CONFIG.clearance_m))
-    rest = RestingSolids(solids, frozenset(), CONFIG, *ends, near, solids.diagonal())
-    course = JointCourse(tree.free[0], rest, ends[0]).run()
+    assert (tree.closed, tree.opened) == ({"j1": -1.0}, {"j1": 1.5})
+    solids.place(tree.closed)
+    near = solids.standings(CONFIG.clearance_m)
+    rest = RestingSolids(solids, CONFIG, near, solids.diagonal())
+    course = JointCourse(tree.free[0], rest, rest.lower).run()
     found = {pair.parts: pair for pair in course.pairs}
-    known = {(pair.first, pair.second): max(0.0, pair.overlap.depth) for pair in rest.standings}
     for at in np.linspace(-1.0, 1.5, 100):
         solids.place({"j1": at})
-        for pair in solids.standings(0.0):
-            bound = found[rest.parts(pair.first, pair.second)].bound
-            at_rest = known.get((pair.first, pair.second), 0.0)
-            assert pair.overlap.depth - at_rest <= bound + 1e-9
+        for pair, overlap in solids.standings(0.0).items():
+            assert overlap.depth - rest.depth(*pair) <= found[rest.parts(*pair)].bound + 1e-9
     for item in found.values():
         solids.place(item.pose)
         one, other = (solids.items[index].collider for index in item.hulls)

@@ -1,5 +1,6 @@
 """Coupled double doors in every engine: they start shut, open together and push nobody."""
 
+from contextlib import closing
 from dataclasses import replace
 
 import numpy as np
@@ -27,6 +28,11 @@ ENGINES = skipped_if_missing("sapien", "mujoco", "pybullet")
 MIMICS = [Mimic("lead", -1.0), Mimic("lead", 1.0), Mimic("lead", -1.0, 0.5)]
 #: How far each door opens [rad].
 OPEN = 1.8
+
+
+@pytest.fixture(params=ENGINES)
+def engine(request):
+    return request.param
 
 
 def doors(mimic, width, *, drawer):
@@ -88,7 +94,6 @@ def hard(findings):
     return {finding.code for finding in findings if finding.severity is Severity.ERROR}
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("mimic", MIMICS)
 @pytest.mark.parametrize("drawer", [False, True])
 def test_sound_coupled_doors_pass(tmp_path, engine, mimic, drawer):
@@ -103,7 +108,6 @@ def test_sound_coupled_doors_pass(tmp_path, engine, mimic, drawer):
         assert len(motions["slide"].needs_open) == 1
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("mimic", MIMICS)
 def test_coupled_doors_that_overlap_fail(tmp_path, engine, mimic):
     findings, _ = judged(coupled(tmp_path, mimic, width=0.52, drawer=False), engine)
@@ -120,7 +124,6 @@ def test_doors_that_an_mjcf_equality_couples_pass_and_fail_alike(tmp_path, mimic
     assert "jammed" in hard(findings)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize(
     "mimic", [Mimic("lead", 1.0, 0.5), Mimic("lead", -0.9, 0.0), Mimic("lead", -0.5, 0.0)]
 )
@@ -153,7 +156,6 @@ def chain(parents, mimics):
     return f'<robot name="chain">{links}{lines}</robot>'
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize(
     ("parents", "mimics"),
     [
@@ -166,8 +168,7 @@ def chain(parents, mimics):
 def test_joints_are_where_the_engine_is_said_to_force_them(tmp_path, engine, parents, mimics):
     path = tmp_path / "chain.urdf"
     path.write_text(chain(parents, mimics))
-    world = simulator(engine).open(path, CONFIG)
-    try:
+    with closing(simulator(engine).open(path, CONFIG)) as world:
         world.weigh(False)
         span = ranges(world)
         world.place(span.lower + 0.25 * span.travel)
@@ -178,8 +179,6 @@ def test_joints_are_where_the_engine_is_said_to_force_them(tmp_path, engine, par
             world.step(pull)
         assert [joint.follows for joint in world.joints] == [None, "ja", "jb"]
         assert world.positions() == pytest.approx(goal, abs=2e-3)
-    finally:
-        world.close()
 
 
 @pytest.mark.parametrize("engine", ENGINES[1:])

@@ -15,7 +15,7 @@ from asset_factory.sim_checks.geometry.kinematics import (
     rotation_about,
     sweep_range,
 )
-from asset_factory.sim_checks.geometry.path import Path
+from asset_factory.sim_checks.geometry.path import JointAxis
 
 CUBE = [((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))]
 
@@ -68,7 +68,7 @@ def test_what_hangs_below_a_joint_moves_with_it():
 def test_a_path_moves_points_as_the_kinematics_do():
     tree = build_tree(cabinet())
     rest, turned = (tree.link_poses({"hinge": value})["door"] for value in (0.0, 0.7))
-    path = Path(True, rest[:3, 3], np.array([0.0, 0.0, -1.0]), 1.57)
+    path = JointAxis(True, rest[:3, 3], np.array([0.0, 0.0, -1.0])).path(1.57)
     assert path.pose(0.7) @ rest == pytest.approx(turned, abs=1e-12)
 
 

@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 
 from asset_factory.factory.manufacture.decompose.convex import hull_of
 from asset_factory.factory.manufacture.decompose.outside import outside, uncovered
-from asset_factory.sim_checks.geometry.hull import convex_hull
-from asset_factory.sim_checks.geometry.outside import distance_outside
+from asset_factory.sim_checks.geometry.hull import convex_hull, distance_outside
 
 CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 #: 20 mm thick at x = 0, an edge like a knife's at x = 0.4.

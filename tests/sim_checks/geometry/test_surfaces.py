@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from box_world import box_hull
+from box_world import box_hull, box_shape
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -11,30 +11,20 @@ from asset_factory.sim_checks.geometry.depth import contact_region, overlap
 from asset_factory.sim_checks.geometry.gaps import visible_gap
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.geometry.loose import strayed
+from asset_factory.sim_checks.geometry.placing import joined
 from asset_factory.sim_checks.geometry.surfaces import (
     PosedSurface,
     SurfaceMeeting,
     VisibleSurface,
     patches,
 )
-from asset_factory.sim_checks.read.primitives import box
 
 MARGIN = 0.005
 
 
 def boxes(*items):
     """Boxes of centre and size [m] as one surface."""
-    surfaces = []
-    for center, size in items:
-        vertices, faces = box(np.array(size))
-        surfaces.append(VisibleSurface(vertices + center, faces.astype(np.int64)))
-    return joined(surfaces)
-
-
-def joined(surfaces):
-    starts = np.cumsum([0, *(len(item.vertices) for item in surfaces[:-1])])
-    faces = [item.faces + start for item, start in zip(surfaces, starts, strict=True)]
-    return VisibleSurface(np.vstack([item.vertices for item in surfaces]), np.vstack(faces))
+    return VisibleSurface(*joined((box_shape(*item), np.eye(4)) for item in items))
 
 
 def finer(surface, times=5):

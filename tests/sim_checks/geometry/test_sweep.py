@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from asset_factory.sim_checks.geometry.collision import Collider
 from asset_factory.sim_checks.geometry.depth import overlap
 from asset_factory.sim_checks.geometry.hull import convex_hull
-from asset_factory.sim_checks.geometry.path import Path
+from asset_factory.sim_checks.geometry.path import JointAxis, Orbit
 from asset_factory.sim_checks.geometry.sweep import Candidate, Sweep, Tolerance
 
 Z = np.array([0.0, 0.0, 1.0])
 SMALL = box_hull((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
-SLIDE = Path(turning=False, origin=np.zeros(3), axis=np.array([1.0, 0.0, 0.0]), length=1.0)
+SLIDE = JointAxis(turning=False, origin=np.zeros(3), axis=np.array([1.0, 0.0, 0.0])).path(1.0)
 
 
 def swept(path, moving, standing, steps=8):
@@ -38,7 +38,7 @@ def test_no_search_ends_before_it_knows_on_which_side_of_the_limit_it_falls():
     exact = top - np.arccos((jamb_at + limit) / radius)
     for beyond in np.linspace(2e-5, 8e-4, 40):
         within, past = (
-            worst(Path(True, np.zeros(3), -Z, at), door, jamb)
+            worst(JointAxis(True, np.zeros(3), -Z).path(at), door, jamb)
             for at in (exact - beyond, exact + beyond)
         )
         assert within.excess <= limit
@@ -69,7 +69,8 @@ def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(seed, tur
     axis = generator.normal(size=3)
     axis /= np.linalg.norm(axis)
     longest = 6.0 if turning else 3.0
-    path = Path(turning, generator.normal(size=3), axis, generator.uniform(0.5, longest))
+    line = JointAxis(turning, generator.normal(size=3), axis)
+    path = line.path(generator.uniform(0.5, longest))
     moving = convex_hull(generator.normal(size=(10, 3)) * 0.3)
     standing = convex_hull(generator.normal(size=(10, 3)) * 0.3 + generator.normal(size=3))
     found = worst(path, moving, standing, floor=0.1)
@@ -97,7 +98,7 @@ def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(seed, tur
 )
 @settings(max_examples=60, deadline=None)
 def test_no_hull_that_comes_near_is_left_out(turning, length, where, floor):
-    path = Path(turning, np.array([0.1, -0.2, 0.0]), Z, length)
+    path = JointAxis(turning, np.array([0.1, -0.2, 0.0]), Z).path(length)
     moving = [Collider(box_hull(at, (0.3, 0.1, 0.2))) for at in where[::2]]
     standing = [Collider(box_hull(at, (0.1, 0.4, 0.2))) for at in where[1::2]]
     sweep = Sweep(path, moving, standing, 16)
@@ -115,7 +116,10 @@ def test_a_hull_far_from_everything_is_told_without_a_fine_look(monkeypatch):
     close = Collider(box_hull((0.5, 0.0, 0.0), (0.1, 0.1, 0.1)))
     sweep = Sweep(SLIDE, [far, close], [Collider(box_hull((1.0, 0.0, 0.0), (0.1, 0.1, 0.1)))], 16)
     looked = []
-    swept = Sweep._swept
-    monkeypatch.setattr(Sweep, "_swept", lambda self, i: looked.append(i) or swept(self, i))
+    swept = Orbit.swept_bounds
+    monkeypatch.setattr(
+        Orbit, "swept_bounds", lambda self, at: looked.append(self) or swept(self, at)
+    )
     assert sweep.near(0.005).tolist() == [[False], [True]]
-    assert looked == [1]
+    (orbit,) = looked
+    assert np.array_equal(orbit.start, close.hull.vertices)

@@ -1,7 +1,7 @@
 """Every engine's world alike: weight, energy, axis, friction, named blockers, no trace left."""
 
 import math
-from contextlib import contextmanager
+from contextlib import closing
 
 import numpy as np
 import pytest
@@ -42,13 +42,20 @@ def slide(name, axis, upper):
     )
 
 
-@contextmanager
+@pytest.fixture(params=ENGINES)
+def engine(request):
+    return request.param
+
+
 def opened(path, engine):
-    world = simulator(engine).open(path, CONFIG)
-    try:
+    return closing(simulator(engine).open(path, CONFIG))
+
+
+@pytest.fixture
+def pendulum(tmp_path, engine):
+    """A swinging arm in an engine."""
+    with opened(written(tmp_path, PENDULUM), engine) as world:
         yield world
-    finally:
-        world.close()
 
 
 def judged(path, engine):
@@ -67,7 +74,6 @@ def written(folder, text, name="object.urdf"):
     return path
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 def test_what_has_no_limits_turns_on_after_a_whole_turn(tmp_path, engine):
     spinner = PENDULUM.replace('type="revolute"', 'type="continuous"')
     spinner = spinner.replace('axis xyz="0 1 0"', 'axis xyz="0 0 1"')
@@ -81,60 +87,53 @@ def test_what_has_no_limits_turns_on_after_a_whole_turn(tmp_path, engine):
         assert np.abs(np.diff(angles)).max() < 0.1
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(tmp_path, engine):
-    with opened(written(tmp_path, PENDULUM), engine) as world:
-        world.place(np.array([0.3]))
-        before = world.energy()
-        energies = []
-        for _ in range(120):
-            world.step(np.zeros(1))
-            energies.append(world.energy() - before)
-        fallen = 2.0 * 9.81 * 0.5 * (math.sin(float(world.positions()[0])) - math.sin(0.3))
-        assert fallen > 3.0
-        # What a first-order step of 1/240 s gains, and what Bullet's own drag of 4 % a second
-        # takes.
-        assert max(energies) < 0.03 * fallen
-        assert min(energies) > -0.1 * fallen
-        world.weigh(False)
-        world.place(np.array([0.3]))
-        for _ in range(120):
-            world.step(np.zeros(1))
-        assert world.positions()[0] == pytest.approx(0.3, abs=1e-6)
-        assert world.energy() == pytest.approx(0.0, abs=1e-9)
+def test_a_pendulum_keeps_its_energy_and_a_weightless_one_its_place(pendulum):
+    pendulum.place(np.array([0.3]))
+    before = pendulum.energy()
+    energies = []
+    for _ in range(120):
+        pendulum.step(np.zeros(1))
+        energies.append(pendulum.energy() - before)
+    fallen = 2.0 * 9.81 * 0.5 * (math.sin(float(pendulum.positions()[0])) - math.sin(0.3))
+    assert fallen > 3.0
+    # What a first-order step of 1/240 s gains, and what Bullet's own drag of 4 % a second
+    # takes.
+    assert max(energies) < 0.03 * fallen
+    assert min(energies) > -0.1 * fallen
+    pendulum.weigh(False)
+    pendulum.place(np.array([0.3]))
+    for _ in range(120):
+        pendulum.step(np.zeros(1))
+    assert pendulum.positions()[0] == pytest.approx(0.3, abs=1e-6)
+    assert pendulum.energy() == pytest.approx(0.0, abs=1e-9)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-def test_kinetic_energy_is_half_the_moment_of_inertia_times_speed_squared(tmp_path, engine):
-    with opened(written(tmp_path, PENDULUM), engine) as world:
-        world.weigh(False)
-        world.place(np.array([0.3]))
-        for _ in range(60):
-            world.step(np.array([1.0]))
-        inertia = float(world.mass_matrix()[0, 0])
-        speed = float(world.velocities()[0])
-        assert inertia == pytest.approx(0.53, rel=0.02)
-        assert speed == pytest.approx(0.25 / inertia, rel=0.01)
-        assert world.energy() == pytest.approx(0.5 * inertia * speed**2, rel=1e-4)
+def test_kinetic_energy_is_half_the_moment_of_inertia_times_speed_squared(pendulum):
+    pendulum.weigh(False)
+    pendulum.place(np.array([0.3]))
+    for _ in range(60):
+        pendulum.step(np.array([1.0]))
+    inertia = float(pendulum.mass_matrix()[0, 0])
+    speed = float(pendulum.velocities()[0])
+    assert inertia == pytest.approx(0.53, rel=0.02)
+    assert speed == pytest.approx(0.25 / inertia, rel=0.01)
+    assert pendulum.energy() == pytest.approx(0.5 * inertia * speed**2, rel=1e-4)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-def test_nothing_is_put_to_sleep(tmp_path, engine):
-    with opened(written(tmp_path, PENDULUM), engine) as world:
-        world.weigh(False)
-        world.place(np.array([0.3]))
-        for _ in range(240):
-            world.step(np.array([1e-3]))
-        speed = float(world.velocities()[0])
-        before = float(world.positions()[0])
-        assert 1e-3 < speed < 2e-3
-        for _ in range(480):
-            world.step(np.zeros(1))
-        # Two seconds at that speed, less Bullet's drag.
-        assert float(world.positions()[0]) - before == pytest.approx(2.0 * speed, rel=0.1)
+def test_nothing_is_put_to_sleep(pendulum):
+    pendulum.weigh(False)
+    pendulum.place(np.array([0.3]))
+    for _ in range(240):
+        pendulum.step(np.array([1e-3]))
+    speed = float(pendulum.velocities()[0])
+    before = float(pendulum.positions()[0])
+    assert 1e-3 < speed < 2e-3
+    for _ in range(480):
+        pendulum.step(np.zeros(1))
+    # Two seconds at that speed, less Bullet's drag.
+    assert float(pendulum.positions()[0]) - before == pytest.approx(2.0 * speed, rel=0.1)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 def test_an_arm_opens_by_its_weight_and_neither_rests_nor_falls_with_made_up_energy(
     tmp_path, engine
 ):
@@ -148,7 +147,6 @@ def test_an_arm_opens_by_its_weight_and_neither_rests_nor_falls_with_made_up_ene
     assert [f.joint for f in findings if f.code == "opens_by_itself"] == ["swing"]
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 def test_what_hangs_on_its_stop_does_not_open_by_itself(tmp_path, engine):
     result = judged(write_lid(tmp_path), engine)
     assert "opens_by_itself" not in codes(result, Severity.WARNING)
@@ -157,7 +155,6 @@ def test_what_hangs_on_its_stop_does_not_open_by_itself(tmp_path, engine):
     assert abs(moved(result, "hinge")["weight_open"]) < 2.0
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(tmp_path, engine):
     shape = '<collision><geometry><box size=".1 .1 .1"/></geometry></collision>'
     text = PENDULUM.replace('<axis xyz="0 1 0"/>', '<axis xyz="0.6 0 -0.8"/>')
@@ -173,7 +170,6 @@ def test_the_axis_arrives_in_the_child_s_frame_and_friction_with_the_shape(tmp_p
     assert carried == (frozenset({"arm"}),)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 def test_a_jam_names_the_stopper(tmp_path, engine):
     result = judged(write_urdf(tmp_path, {**PARTS, "stopper": STOPPER}), engine)
     motion = moved(result, "slide")
@@ -184,7 +180,6 @@ def test_a_jam_names_the_stopper(tmp_path, engine):
     assert "'drawer' presses on 'stopper'" in jam.message
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path, engine):
     cube = (0.2, 0.2, 0.2)
     boxes = {"base": ((0, 5, 0), cube), "a": ((0, 0, 0), cube), "b": ((0.12, 0, 0), cube)}
@@ -219,7 +214,6 @@ def flat(seen):
     return (*map(repr, told), seen.warnings)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 def test_what_was_looked_at_before_leaves_no_trace(tmp_path, engine):
     # One that jams and pushes, so that contact solvers have much to remember.
     wide = (((-0.015, 0.0, 0.5955), (0.37, 0.574, 0.363)),)
@@ -262,7 +256,6 @@ def button_door(*more):
     return Thing("button_door", bodies, moves)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize(("stop", "seen"), [((), False), ((STOP,), True)], ids=["free", "pressed"])
 def test_a_button_on_a_door_is_moved_by_what_presses_it_only(tmp_path, engine, stop, seen):
     hinge = moved(judged(write_thing(button_door(*stop), tmp_path), engine), "hinge")
@@ -284,7 +277,6 @@ def chain(links):
     return Thing("chain", bodies, moves)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
 def test_a_joint_of_a_chain_is_driven_without_shaking_the_others(tmp_path, engine):
     result = judged(write_thing(chain(10), tmp_path), engine)
     assert [finding for finding in result.findings if finding.severity is Severity.ERROR] == []
