@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
+from msgspec import Meta
 
 from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.mesh import FloatArray, IntArray
 from asset_factory.factory.models.particulate.components import component_features
 from asset_factory.factory.models.particulate.prediction import MotionClass
 
+from ..bounds import Amount, Count, Share, Whole
 from .sampled_object import SampledObject, parents_first
 
 QUARTER = np.pi / 2.0
+#: Of a size.
+Factor = Annotated[float, Meta(ge=1e-3, le=1e3)]
 #: An array; in a batch on its way through the network a tensor.
 Array = Any
 
@@ -42,18 +46,18 @@ class DrawSettings:
         components: whether points carry what their components look like.
     """
 
-    points: int = 2048
-    context: int = 3072
-    sharp_share: float = 0.5
-    scale: tuple[float, float] = (0.95, 1.05)
-    shift: float = 0.02
-    closed_share: float = 0.4
-    turned_share: float = 0.0
-    facing_share: float = 1.0
-    mirrored_share: float = 0.0
-    stretch: float = 0.0
-    fused_share: float = 0.0
-    merged_share: float = 0.0
+    points: Count = 2048
+    context: Whole = 3072
+    sharp_share: Share = 0.5
+    scale: tuple[Factor, Factor] = (0.95, 1.05)
+    shift: Amount = 0.02
+    closed_share: Share = 0.4
+    turned_share: Share = 0.0
+    facing_share: Share = 1.0
+    mirrored_share: Share = 0.0
+    stretch: Amount = 0.0
+    fused_share: Share = 0.0
+    merged_share: Share = 0.0
     components: bool = False
 
 
