@@ -19,7 +19,7 @@ from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.intake.limits import require_at_most
 from asset_factory.factory.mesh import FloatArray, IntArray, read_only
 from asset_factory.factory.models.particulate.prediction import MotionClass
-from asset_factory.factory.models.particulate.sampling import draw, sharp_edges
+from asset_factory.factory.models.particulate.sampling import Cloud, draw, sharp_edges
 from asset_factory.factory.models.particulate.surface import BoolArray, Surface
 from asset_factory.factory.runtime.store import write_whole
 
@@ -99,19 +99,31 @@ def sampled_from(
 ) -> SampledObject:
     """Return the training view of an object; its joint values 0 need not be closed.
 
-    A part that does not move is one with its parent: nobody could tell them apart. A part behind a
-    carrier turns *and* slides. Half of the ``points`` are on sharp edges.
+    Half of the ``points`` are on sharp edges.
 
     Raises:
-        InputRejected: ``too_many_parts``, ``no_movable_joint``, ``unsupported_joint``,
-            ``zero_size``.
+        InputRejected: as :func:`sampled_at`, ``zero_size``.
+    """
+    surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
+    cloud = draw(surface, sharp_edges(surface), points, rng, most_covered=int(COVERED * points))
+    return sampled_at(cloud, articulation, name=name, category=category, source=source)
+
+
+def sampled_at(
+    cloud: Cloud, articulation: Articulation, *, name: str, category: str, source: str
+) -> SampledObject:
+    """Return the training view of an object at these points of its surface.
+
+    A part that does not move is one with its parent: nobody could tell them apart. A part behind a
+    carrier turns *and* slides.
+
+    Raises:
+        InputRejected: ``too_many_parts``, ``no_movable_joint``, ``unsupported_joint``.
     """
     chains, group = _moving_parts(articulation)
     require_parts(name, 1 + len(chains))
     number = {0: 0} | {part: index for index, part in enumerate(chains, start=1)}
     of_part = np.array([number.get(group[part], 0) for part in range(len(group))])
-    surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
-    cloud = draw(surface, sharp_edges(surface), points, rng, most_covered=int(COVERED * points))
     return SampledObject(
         name=name,
         category=category,
