@@ -10,8 +10,8 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray, IntArray, read_only
 
+from ...bodies import bodies_of
 from ...samples.sampled_object import parents_first
-from ..bodies import bodies_of
 
 #: Points per object, as in the release; the paper speaks of ten times as many.
 POINTS = 100_000
