@@ -20,6 +20,7 @@ from asset_factory.factory.errors import AssetFactoryError, ConfigError, InputRe
 from asset_factory.factory.presets import overlay
 
 from ..objects.mixture import MixtureSettings, sample_object
+from ..samples.batches import Batch, collate
 from ..samples.sample import DrawSettings, Sample, draw
 from ..samples.sampled_object import SampledObject, read_sampled, sampled_from
 from .settings import DataSource, TrainConfig
@@ -142,6 +143,11 @@ class Dataset:
         weights = np.array([pool.weight for pool in pools])
         self._shares = np.cumsum(weights / weights.sum())
         self._kept = _Kept(config.run.cache_mb * 1_000_000)
+
+    def batch(self, step: int, numbers: Iterable[int]) -> Batch:
+        """Return the samples at places of a step. Raises ConfigError as :meth:`sample`."""
+        samples = [self.sample(step, number) for number in numbers]
+        return collate(samples, self._config.network.max_parts)
 
     def sample(self, step: int, number: int) -> Sample:
         """Return the sample at a place of a step.
