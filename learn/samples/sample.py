@@ -14,7 +14,7 @@ from asset_factory.factory.models.particulate.components import component_featur
 from asset_factory.factory.models.particulate.prediction import MotionClass
 
 from ..bounds import Amount, Count, Share, Whole
-from .sampled_object import SampledObject, parents_first
+from .sampled_object import SampledObject, carried
 
 QUARTER = np.pi / 2.0
 #: Of a size.
@@ -183,32 +183,29 @@ def _state(
 
 def _moved(sampled: SampledObject, body: _Body, turns: FloatArray, slides: FloatArray) -> _Body:
     """Move every part by its own and its ancestors' joints; axes by its parent's."""
-    count = len(sampled.parents)
-    rotation = np.tile(np.eye(3), (count, 1, 1))
-    shift = np.zeros((count, 3))
-    axis = body.axis.copy()
-    origin = body.origin.copy()
-    slide = body.slide.copy()
-    for part in parents_first(sampled.parents.tolist()):
-        parent = sampled.parents[part]
-        if parent < 0:
-            continue
-        own = rotation_about(body.axis[part], float(turns[part]))
-        rotation[part] = rotation[parent] @ own
-        offset = body.origin[part] - own @ body.origin[part] + own @ body.slide[part] * slides[part]
-        shift[part] = rotation[parent] @ offset + shift[parent]
-        axis[part] = rotation[parent] @ body.axis[part]
-        origin[part] = rotation[parent] @ body.origin[part] + shift[parent]
-        slide[part] = rotation[part] @ body.slide[part]
-    of_point = sampled.part_ids[body.rows]
-    points = body.points.copy()
-    normals = body.normals.copy()
-    for part in range(count):
-        if turns[part] or slides[part] or (sampled.parents[part] > 0):
-            mine = of_point == part
-            points[mine] = points[mine] @ rotation[part].T + shift[part]
-            normals[mine] = normals[mine] @ rotation[part].T
-    return replace(body, points=points, normals=normals, axis=axis, origin=origin, slide=slide)
+    own = np.tile(np.eye(4), (len(turns), 1, 1))
+    for part, (turn, slide) in enumerate(zip(turns, slides, strict=True)):
+        rotation = rotation_about(body.axis[part], float(turn))
+        arm = body.origin[part] - body.slide[part] * slide
+        own[part, :3, :3] = rotation
+        own[part, :3, 3] = body.origin[part] - rotation @ arm
+    poses = carried(sampled.parents.tolist(), own)
+    # The root stays where it is, so that it may stand for what carries it.
+    above = poses[np.maximum(sampled.parents, 0)]
+    of_point = poses[sampled.part_ids[body.rows]]
+    return replace(
+        body,
+        points=_rotated(of_point, body.points) + of_point[:, :3, 3],
+        normals=_rotated(of_point, body.normals),
+        axis=_rotated(above, body.axis),
+        origin=_rotated(above, body.origin) + above[:, :3, 3],
+        slide=_rotated(poses, body.slide),
+    )
+
+
+def _rotated(poses: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Return vectors turned as motions turn them, [n, 4, 4] and [n, 3]."""
+    return np.asarray(np.einsum("nij,nj->ni", poses[:, :3, :3], vectors))
 
 
 def _facing(rng: np.random.Generator, settings: DrawSettings) -> float:

@@ -193,6 +193,15 @@ def parents_first(parents: Sequence[int]) -> list[int]:
         raise ValueError(f"parents {parents}: {looped}") from None
 
 
+def carried(parents: Sequence[int], own: FloatArray) -> FloatArray:
+    """Return the motions of parts by their own joints, [n, 4, 4], and by those that carry them."""
+    poses = np.array(own)
+    for part in parents_first(parents):
+        if parents[part] >= 0:
+            poses[part] = poses[parents[part]] @ own[part]
+    return poses
+
+
 def write_sampled(path: Path, sampled: SampledObject) -> None:
     """Write one uncompressed npz file, complete or not there."""
     buffer = BytesIO()
