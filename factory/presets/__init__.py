@@ -21,20 +21,15 @@ def shipped_names(folder: str) -> tuple[str, ...]:
     return tuple(sorted(Path(file.name).stem for file in files if file.name.endswith(".toml")))
 
 
-def preset_names() -> tuple[str, ...]:
-    """Return the presets that come with the package."""
-    return ("default", *shipped_names("presets"))
-
-
-def toml_text(what: str, name: str, folder: str, *others: str) -> str:
+def toml_text(what: str, name: str, folder: str) -> str:
     """Return the text of a shipped file of ``configs/<folder>``, or of a TOML file at a path.
 
     Raises:
-        ConfigError: there is none; ``what`` is the word for it, ``others`` can be named, too.
+        ConfigError: there is none; ``what`` is the word for it.
     """
     shipped = shipped_names(folder)
     if name not in shipped and not name.endswith(".toml"):
-        there = ", ".join((*others, *shipped))
+        there = ", ".join(shipped)
         raise ConfigError(f"no {what} {name!r}; there are {there}, or a path to a .toml file")
     place = resources.files("asset_factory") / "configs" / folder / f"{name}.toml"
     try:
@@ -48,14 +43,12 @@ def load_config(preset: str) -> BuildConfig:
     """Return the configuration of a preset.
 
     Args:
-        preset: ``default``, the name of a shipped preset, or the path of a TOML file.
+        preset: the name of a shipped one, ``default`` among them, or the path of a TOML file.
 
     Raises:
         ConfigError: no such preset, unreadable TOML, or a setting that does not exist.
     """
-    if preset == "default":
-        return BuildConfig()
-    text = toml_text("preset", preset, "presets", "default")
+    text = toml_text("preset", preset, "presets")
     try:
         return overlay(BuildConfig(), tomllib.loads(text), preset)
     except tomllib.TOMLDecodeError as error:
