@@ -6,9 +6,7 @@ A file's frame is the rotation and uniform scale from the object frame [m] to it
 from __future__ import annotations
 
 import json
-import zipfile
 from collections.abc import Mapping
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
@@ -29,7 +27,6 @@ from ..surfaces.labelled import plain
 EFFORT = "100"
 VELOCITY = "10"
 LICENSE = "Apache-2.0"
-_ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
 def write_sample(
@@ -176,8 +173,4 @@ def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) 
             arrays["revolute_plucker"][child] = np.round([*direction, *moment], 9) + 0.0
         arrays[f"is_part_{kind}"][child] = True
         arrays[f"{kind}_range"][child] = np.round(limits, 9)
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
-        for name, array in arrays.items():
-            buffer = BytesIO()
-            np.save(buffer, array)
-            archive.writestr(zipfile.ZipInfo(f"{name}.npy", _ZIP_EPOCH), buffer.getvalue())
+    np.savez(path, allow_pickle=False, **arrays)
