@@ -6,7 +6,6 @@ import tomllib
 from dataclasses import fields, is_dataclass, replace
 from difflib import get_close_matches
 from importlib import resources
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -16,44 +15,44 @@ from ..errors import ConfigError
 C = TypeVar("C")
 
 
-def preset_names() -> tuple[str, ...]:
-    """Return the presets that come with the package."""
-    names = (entry.name for entry in _shipped().iterdir())
-    return (
-        "default",
-        *sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")),
-    )
+def shipped_names(folder: str) -> tuple[str, ...]:
+    """Return the TOML files that come with the package in a folder of ``configs``, by name."""
+    files = (resources.files("asset_factory") / "configs" / folder).iterdir()
+    return tuple(sorted(Path(file.name).stem for file in files if file.name.endswith(".toml")))
 
 
-def _shipped() -> Traversable:
-    return resources.files("asset_factory") / "configs" / "presets"
+def toml_text(what: str, name: str, folder: str) -> str:
+    """Return the text of a shipped file of ``configs/<folder>``, or of a TOML file at a path.
+
+    Raises:
+        ConfigError: there is none; ``what`` is the word for it.
+    """
+    shipped = shipped_names(folder)
+    if name not in shipped and not name.endswith(".toml"):
+        there = ", ".join(shipped)
+        raise ConfigError(f"no {what} {name!r}; there are {there}, or a path to a .toml file")
+    place = resources.files("asset_factory") / "configs" / folder / f"{name}.toml"
+    try:
+        return (place if name in shipped else Path(name)).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        why = error.strerror if isinstance(error, OSError) else error
+        raise ConfigError(f"{what} {name!r}: {why}") from error
 
 
 def load_config(preset: str) -> BuildConfig:
     """Return the configuration of a preset.
 
     Args:
-        preset: ``default``, the name of a shipped preset, or the path of a TOML file.
+        preset: the name of a shipped one, ``default`` among them, or the path of a TOML file.
 
     Raises:
         ConfigError: no such preset, unreadable TOML, or a setting that does not exist.
     """
-    if preset == "default":
-        return BuildConfig()
-    return overlay(BuildConfig(), _read(preset), preset)
-
-
-def _read(preset: str) -> dict[str, Any]:
-    shipped = preset in preset_names()
-    if not shipped and not preset.endswith(".toml"):
-        there = ", ".join(preset_names())
-        raise ConfigError(f"no preset {preset!r}; there are {there}, or a path to a .toml file")
-    file = _shipped() / f"{preset}.toml" if shipped else Path(preset)
+    text = toml_text("preset", preset, "presets")
     try:
-        return tomllib.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) else error
-        raise ConfigError(f"preset {preset!r}: {why}") from error
+        return overlay(BuildConfig(), tomllib.loads(text), preset)
+    except tomllib.TOMLDecodeError as error:
+        raise ConfigError(f"preset {preset!r}: {error}") from error
 
 
 def overlay(config: C, differences: dict[str, Any], where: str) -> C:

@@ -7,6 +7,7 @@ import sys
 import time
 from pathlib import Path
 
+from asset_factory.factory.cli.console import counted
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.runtime.terminal import complain, say
 
@@ -29,15 +30,16 @@ def main(arguments: list[str] | None = None) -> int:
             say("\n".join(map(str, write_split(asked.write_split, names, asked.held_out))))
             return 0
         started = time.monotonic()
-        report = prepare(
-            asked.kind,
-            asked.path,
-            asked.cache,
-            split=asked.split,
-            settings=settings,
-            workers=asked.workers,
-            on_progress=_progress if sys.stderr.isatty() else None,
-        )
+        with counted("objects") as on_progress:
+            report = prepare(
+                asked.kind,
+                asked.path,
+                asked.cache,
+                split=asked.split,
+                settings=settings,
+                workers=asked.workers,
+                on_progress=on_progress,
+            )
     except ConfigError as error:
         complain(error)
         return 2
@@ -71,10 +73,6 @@ def _parser() -> argparse.ArgumentParser:
     share = "share of the objects that --write-split holds out"
     add("--held-out", type=float, default=0.1, help=share)
     return parser
-
-
-def _progress(done: int, count: int) -> None:
-    complain(f"{done} of {count}", end="\r" if done < count else "\n")
 
 
 if __name__ == "__main__":

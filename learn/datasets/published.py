@@ -25,9 +25,10 @@ from asset_factory.factory.intake.annotation import AnnotatedJoint, Annotation
 from asset_factory.factory.intake.importers.prediction import point_on_line
 from asset_factory.factory.intake.limits import require_at_most
 from asset_factory.factory.intake.loading import load_visual
-from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.mesh import IntArray, Mesh
+from asset_factory.factory.models.particulate.sampling import Cloud
 
-from ..samples.sampled_object import SampledObject, parents_first, require_parts
+from ..samples.sampled_object import SampledObject, sampled_at
 from .categories import categories_of
 from .item import SourceItem, find_items
 from .settings import SourceSettings
@@ -40,6 +41,9 @@ RANGES = "link_range.npz"
 POINT_FIELDS = frozenset(
     {"points", "normals", "point_to_bone", "bone_structure", "link_axes_plucker", "link_range"}
 )
+MOST_BONES = 4096
+TINY = 1e-6
+"""Side of the triangle that stands for a point, in lengths of the object's longest side."""
 FULL_TURN = 2.0 * np.pi - 1e-3
 """A range of so much is a turn without an end: the release writes those as -pi to pi [rad]."""
 
@@ -59,17 +63,14 @@ def read_published(item: SourceItem, settings: SourceSettings) -> Articulation |
     bones = _arrays_of(item.main, settings.max_bytes)
     axes, ranges = (_arrays_of(folder / name, settings.max_bytes) for name in (AXES, RANGES))
     labels = _face_labels(folder / MESH, bones, visual.source_face_count)
-    count = int(max(labels.max(), bones["bone_structure"].max(initial=0))) + 1
-    names = tuple(f"part_{bone}" for bone in range(count))
-    annotation = Annotation(labels, names, _joints(bones, axes, ranges), "pred.npz")
     # The release writes visuals twice: of all faces on the same vertices the first is kept.
     kept = np.sort(distinct_rows(np.sort(visual.mesh.faces, axis=1))[0])
-    articulator = AnnotatedArticulator(annotation, np.eye(4), visual.source_faces[kept])
+    articulator = _articulator(labels, visual.source_faces[kept], bones, axes, ranges)
     return articulator.articulate(visual.mesh.submesh(kept))
 
 
 def _sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledObject:
-    """Return the sample of a point cache: fixed parts join their parents, all is one component.
+    """Return the sample of a point cache: a tiny triangle stands for each point, all one component.
 
     Raises:
         InputRejected: ``bad_annotation``, ``not_a_tree``, ``no_movable_joint``, ``too_many_parts``.
@@ -77,68 +78,37 @@ def _sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledO
     stored = _arrays_of(item.main, settings.max_bytes)
     points = stored["points"]
     bones = stored["point_to_bone"].astype(np.int64)
-    lines = stored["link_axes_plucker"].astype(np.float64)
-    ranges = stored["link_range"].astype(np.float64)
+    lines = stored["link_axes_plucker"]
+    ranges = stored["link_range"]
     count = len(lines)
     name = item.main.name
-    fitting = bones.shape == (len(points),) and len(bones)
+    fitting = bones.shape == (len(points),) and len(bones) and len(ranges) == count
     if not fitting or not 0 <= bones.min() <= bones.max() < count:
-        raise _bad_annotation(f"{name}: point_to_bone does not fit its points and {count} bones")
-    if lines.shape != (count, 12) or ranges.shape != (count, 4):
-        raise _bad_annotation(f"{name}: link_axes_plucker, link_range: want 12 and 4 columns")
-    parents, order = _tree(stored, count, name)
-    turns, slides = (np.asarray(lines[:, i : i + 3].any(axis=1)) for i in (0, 6))
-    kept = [bone for bone in order if parents[bone] < 0 or turns[bone] or slides[bone]]
-    require_parts(item.name, len(kept))
-    number = np.zeros(count, dtype=np.int64)
-    for bone in order:
-        number[bone] = kept.index(bone) if bone in kept else number[parents[bone]]
-    rows = np.asarray(kept)
-    axis = _unit(lines[rows, :3])
-    slide = _unit(lines[rows, 6:9])
-    squared = np.maximum((lines[rows, :3] ** 2).sum(axis=1, keepdims=True), 1e-12)
-    turn = ranges[rows, :2]
-    return SampledObject(
-        name=item.name,
-        category=item.category,
-        source="particulate",
-        points=points,
-        normals=stored["normals"],
-        part_ids=number[bones],
-        sharp=stored.get("point_from_sharp", np.zeros(len(points), dtype=np.bool_)),
-        components=np.zeros(len(points), dtype=np.int64),
-        parents=np.array([-1, *(number[parents[bone]] for bone in kept[1:])]),
-        motion=turns[rows] * 1 + slides[rows] * 2,
-        axis=axis,
-        origin=np.cross(lines[rows, 3:6], lines[rows, :3]) / squared,
-        turn=turn,
-        endless=turn[:, 1] - turn[:, 0] >= FULL_TURN,
-        slide_direction=slide,
-        slide=ranges[rows, 2:],
-    )
+        wrong = f"do not fit its points and {count} bones"
+        raise _bad_annotation(f"{name}: point_to_bone, link_range {wrong}")
+    axes, ends = ({str(bone): row for bone, row in enumerate(of)} for of in (lines, ranges))
+    corners = points[:, None] + TINY * np.eye(3)
+    rows = np.arange(len(points))
+    mesh = Mesh.from_triangles(corners, np.arange(3 * len(points)))
+    articulator = _articulator(bones, rows, stored, axes, ends)
+    sharp = stored.get("point_from_sharp", np.zeros(len(points), dtype=np.bool_))
+    cloud = Cloud(points, stored["normals"], rows, sharp, np.zeros_like(rows))
+    about = {"name": item.name, "category": item.category, "source": "particulate"}
+    return sampled_at(cloud, articulator.articulate(mesh), **about)
 
 
-def _tree(stored: Arrays, count: int, file: str) -> tuple[IntArray, list[int]]:
-    """Return the parent of every bone, -1 for the root, and the bones parents first."""
-    parents = np.full(count, -1)
-    for parent, child in stored["bone_structure"].reshape(-1, 2).astype(np.int64):
-        if not (0 <= parent < count and 0 <= child < count) or parents[child] >= 0:
-            said = f"{file}: bone {child} hangs on two bones, or on one that there is not"
-            raise InputRejected("not_a_tree", said)
-        parents[child] = parent
-    roots = int((parents < 0).sum())
-    try:
-        order = parents_first(parents.tolist())
-    except ValueError as error:
-        raise InputRejected("not_a_tree", f"{file}: {error}") from error
-    if roots != 1:
-        said = f"{file}: {roots} bones hang on none; want one tree of all {count}"
-        raise InputRejected("not_a_tree", said)
-    return parents, order
-
-
-def _unit(vectors: FloatArray) -> FloatArray:
-    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12))
+def _articulator(
+    labels: IntArray, faces: IntArray, bones: Arrays, axes: Arrays, ranges: Arrays
+) -> AnnotatedArticulator:
+    """Return who believes labels of faces, shape [face_count], and the joints between bones."""
+    structure = bones["bone_structure"]
+    if structure.min(initial=0) < 0:
+        raise _bad_annotation(f"bone_structure holds {structure.min()}, want 0 and more")
+    count = int(max(labels.max(), structure.max(initial=0))) + 1
+    require_at_most("its labels", count, MOST_BONES, "bones")
+    names = tuple(f"part_{bone}" for bone in range(count))
+    annotation = Annotation(labels, names, _joints(bones, axes, ranges), "pred.npz")
+    return AnnotatedArticulator(annotation, np.eye(4), faces)
 
 
 def _mains(files: Sequence[Path]) -> list[Path]:
@@ -171,7 +141,6 @@ def _face_labels(path: Path, bones: Arrays, face_count: int) -> IntArray:
         raise _bad_annotation(f"{path.name}: its faces do not fit the {labelled}")
     if labels.min() < 0:
         raise _bad_annotation(f"{META}: vert_to_bone holds {labels.min()}, want 0 and more")
-    require_at_most(META, int(labels.max()), 4096, "bones")
     return labels[vertices]
 
 

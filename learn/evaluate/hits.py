@@ -7,7 +7,7 @@ import numpy as np
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray
 
-from .bodies import face_centres
+from ..bodies import face_centres
 from .pairing import Pairing
 
 #: A match that covers a part by no more than this is of another part.

@@ -8,7 +8,7 @@ import numpy as np
 
 from asset_factory.factory.mesh import FloatArray, IntArray, read_only
 
-from .bodies import Bodies
+from ..bodies import Bodies
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import BoolArray, FloatArray
 from asset_factory.factory.models.particulate.prediction import MotionClass
 
-from .bodies import Bodies, bodies_of, face_centres
+from ..bodies import Bodies, bodies_of, face_centres
 from .hits import FOUND_IOU, angles, hits, offset
 from .pairing import Pairing, paired, shared_areas
 from .score import Score

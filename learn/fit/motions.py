@@ -7,8 +7,10 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
+import torch  # noqa: TID253 - this module is only imported to fit
 from scipy.optimize import minimize
 from scipy.special import softmax
+from torch.nn.utils.rnn import pad_sequence  # noqa: TID253
 
 from asset_factory.factory.articulate.evidence.numbers import NAMES
 from asset_factory.factory.articulate.evidence.rating import Rating, rating_of
@@ -21,7 +23,7 @@ from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
 
 from ..motions.motion_sample import MotionSample, motion_samples
-from .perceptron import Examples, FitSettings, Weighing, fit_perceptron
+from .perceptron import Examples, FitSettings, Tensor, Weighing, fit_perceptron
 from .writing import networks_stored
 
 INPUTS = {"guided": NAMES, "blind": NAMES, "turn_range": TURN_SETTING, "slide_range": SLIDE_SETTING}
@@ -132,20 +134,15 @@ def _weights(samples: Sequence[MotionSample], steps: int) -> Perceptron:
     teaching = [_telling(motion_sample) for motion_sample in samples]
     taught = list(zip(samples, teaching, strict=True))
     numbers = np.concatenate([x.numbers[rows] for x, rows in taught]).astype(np.float32)
-    worth = np.concatenate([x.worth[rows] for x, rows in taught]) + LEAST_WORTH
-    counts = np.array([len(rows) for rows in teaching])
-    owner = np.repeat(np.arange(len(samples)), counts)
-    starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    weights = _weights_of(samples)
+    counts = [len(rows) for rows in teaching]
+    worths = [torch.from_numpy(np.log(x.worth[rows] + LEAST_WORTH)) for x, rows in taught]
+    worth = pad_sequence(worths, batch_first=True)
+    weights = torch.from_numpy(_weights_of(samples))
 
-    def loss(scores: FloatArray) -> tuple[float, FloatArray]:
-        scores = scores[:, 0]
-        shares = np.exp(scores - np.maximum.reduceat(scores, starts)[owner])
-        total = np.add.reduceat(shares, starts)
-        good = np.add.reduceat(shares * worth, starts)
-        value = float((weights * (np.log(total) - np.log(good))).mean())
-        slope = weights[owner] * shares * (1.0 / total[owner] - worth / good[owner])
-        return value, slope[:, None] / len(samples)
+    def loss(scores: Tensor) -> Tensor:
+        parts = scores[:, 0].split(counts)
+        listed = pad_sequence(parts, batch_first=True, padding_value=-torch.inf)
+        return (weights * (listed.logsumexp(1) - (listed + worth).logsumexp(1))).mean()
 
     return fit_perceptron(numbers, loss, FitSettings(HIDDEN, 1, RATED, steps))
 

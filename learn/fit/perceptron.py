@@ -8,15 +8,18 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import torch  # noqa: TID253 - this module is only imported to fit
 from scipy.optimize import minimize
+from torch.nn import functional  # noqa: TID253
 
 from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.models.perceptron import FARTHEST, Perceptron
 
+Tensor = Any
 #: Of any precision.
 Numbers = npt.NDArray[Any]
-#: A loss of scores [n, answer_count], and its slope by each of them.
-Loss = Callable[[FloatArray], tuple[float, FloatArray]]
+#: A loss of scores, float64, shape [n, answer_count].
+Loss = Callable[[Tensor], Tensor]
 #: Inputs that hardly vary are scaled as if they varied by so much.
 LEAST_SCALE = 0.02
 
@@ -70,23 +73,25 @@ def fit_perceptron(numbers: Numbers, loss: Loss, settings: FitSettings) -> Perce
     shapes = settings.shapes(numbers.shape[1])
     sizes = [int(np.prod(shape)) for shape in shapes.values()]
     spread = np.repeat([settings.weights[name].spread for name in shapes], sizes)
-    decay = np.repeat([settings.weights[name].decay for name in shapes], sizes)
+    decay = torch.tensor(np.repeat([settings.weights[name].decay for name in shapes], sizes))
+    given = torch.from_numpy(numbers)
 
-    def unpacked(flat: FloatArray) -> dict[str, FloatArray]:
-        parts = np.split(flat, np.cumsum(sizes)[:-1])
-        return {name: part.reshape(shapes[name]) for name, part in zip(shapes, parts, strict=True)}
+    def unpacked(flat: Tensor) -> dict[str, Tensor]:
+        parts = zip(shapes.items(), flat.split(sizes), strict=True)
+        return {name: part.view(shape) for (name, shape), part in parts}
 
     def objective(flat: FloatArray) -> tuple[float, FloatArray]:
-        weights = unpacked(flat.astype(numbers.dtype))
-        value, slopes = _sloped(numbers, weights, loss)
-        gradient = np.concatenate([slopes[name].ravel() for name in shapes]).astype(np.float64)
-        return value + 0.5 * float(decay * flat @ flat), gradient + decay * flat
+        point = torch.tensor(flat, requires_grad=True)
+        scores = _scores(given, unpacked(point.to(given.dtype)))
+        value = loss(scores.double()) + 0.5 * (decay * point) @ point
+        value.backward()
+        return value.item(), point.grad.numpy()
 
     start = spread * np.random.default_rng(settings.seed).normal(size=sum(sizes))
     best = minimize(
         objective, start, jac=True, method="L-BFGS-B", options={"maxiter": settings.steps}
     )
-    found = unpacked(np.asarray(best.x))
+    found = {name: part.numpy() for name, part in unpacked(torch.from_numpy(best.x)).items()}
     width = settings.width
     answers = settings.answers
     return Perceptron(
@@ -98,23 +103,13 @@ def fit_perceptron(numbers: Numbers, loss: Loss, settings: FitSettings) -> Perce
     )
 
 
-def _sloped(
-    numbers: Numbers, weights: Mapping[str, FloatArray], loss: Loss
-) -> tuple[float, dict[str, FloatArray]]:
-    """Return the loss of some weights, and its slope by each of them."""
-    scores = np.zeros((len(numbers), 1), numbers.dtype) + weights.get("base", 0.0)
+def _scores(given: Tensor, weights: Mapping[str, Tensor]) -> Tensor:
+    """Return what weights make of rows, shape [n, answer_count]."""
+    scores = given.new_zeros((len(given), 1)) + weights.get("base", 0.0)
     if "inner" in weights:
-        hidden = np.tanh(numbers @ weights["inner"] + weights["offset"])
+        hidden = torch.tanh(given @ weights["inner"] + weights["offset"])
         scores = scores + hidden @ weights["outer"]
-    if "direct" in weights:
-        scores = scores + numbers @ weights["direct"]
-    value, slope = loss(scores.astype(np.float64))
-    slope = slope.astype(numbers.dtype)
-    slopes = {"base": slope.sum(axis=0), "direct": numbers.T @ slope}
-    if "inner" in weights:
-        back = slope @ weights["outer"].T * (1.0 - hidden * hidden)
-        slopes |= {"inner": numbers.T @ back, "offset": back.sum(axis=0), "outer": hidden.T @ slope}
-    return value, slopes
+    return scores + given @ weights["direct"] if "direct" in weights else scores
 
 
 @dataclass(frozen=True)
@@ -131,18 +126,12 @@ class Examples:
     wanted: FloatArray
     weights: FloatArray
 
-    def cross_entropy(self, scores: FloatArray) -> tuple[float, FloatArray]:
-        """Return the mean weighted cross entropy, and its slope by the scores [n, answer_count]."""
-        share = self.weights / self.weights.sum()
-        if self.wanted.shape[1] == 1:
-            yes = 1.0 / (1.0 + np.exp(-scores))
-            entropy = (np.logaddexp(0.0, scores) - self.wanted * scores)[:, 0]
-            return float(share @ entropy), share[:, None] * (yes - self.wanted)
-        scores = scores - scores.max(axis=1, keepdims=True)
-        chances = np.exp(scores)
-        chances /= chances.sum(axis=1, keepdims=True)
-        entropy = -(self.wanted * np.log(np.maximum(chances, 1e-12))).sum(axis=1)
-        return float(share @ entropy), share[:, None] * (chances - self.wanted)
+    def cross_entropy(self, scores: Tensor) -> Tensor:
+        """Return the mean weighted cross entropy of scores, shape [n, answer_count]."""
+        single = self.wanted.shape[1] == 1
+        kind = functional.binary_cross_entropy_with_logits if single else functional.cross_entropy
+        entropy = kind(scores, torch.from_numpy(self.wanted), reduction="none").view(len(scores))
+        return torch.from_numpy(self.weights / self.weights.sum()) @ entropy
 
 
 def fit_examples(examples: Examples, settings: FitSettings) -> Perceptron:

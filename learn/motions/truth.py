@@ -8,10 +8,10 @@ import numpy as np
 
 from asset_factory.factory.articulate.evidence import Guess, Partition
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
-from asset_factory.factory.geometry.posing import closed, face_parts, turned
+from asset_factory.factory.geometry.posing import closed, turned
 from asset_factory.factory.mesh import FloatArray
 
-from ..joints import way_down
+from ..bodies import bodies_of
 
 #: How wrong made-up guesses are: of the axis [rad], of its place as a share of the longest side.
 ANGLE_SPREAD = np.radians(15.0)
@@ -36,19 +36,10 @@ class Truth:
 
 def truth_of(articulation: Articulation, yaw: float) -> Truth:
     """Return the object closed, and turned about the vertical by ``yaw`` [rad]."""
-    shut = turned(closed(articulation), yaw)
-    solid = [i for i, part in enumerate(shut.parts) if i == 0 or len(part.faces)]
-    number = {part: k for k, part in enumerate(solid)}
-    owner = face_parts(shut)
-    labels = np.array([number.get(part, 0) for part in range(len(shut.parts))])[owner]
-    parents = [-1]
-    joints = {}
-    for part in solid[1:]:
-        parent, movable = way_down(shut, part)
-        parents.append(number.get(parent, 0))
-        if len(movable) == 1:
-            joints[number[part]] = movable[0]
-    return Truth(Partition(shut.mesh, labels, np.array(parents)), joints)
+    bodies = bodies_of(turned(closed(articulation), yaw))
+    single = {body: own[0] for body, own in enumerate(bodies.joints) if len(own) == 1}
+    mesh = bodies.articulation.mesh
+    return Truth(Partition(mesh, bodies.labels, np.array(bodies.parents)), single)
 
 
 def made_up_guess(joint: Joint, middle: FloatArray, size: float, rng: np.random.Generator) -> Guess:

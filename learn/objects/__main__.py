@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..joints import value_at
+from ..bodies import value_at
 from .catalog import CATEGORIES, make_object
 from .export import write_sample
 from .mixture import CHARACTERS, in_character

@@ -6,9 +6,7 @@ A file's frame is the rotation and uniform scale from the object frame [m] to it
 from __future__ import annotations
 
 import json
-import zipfile
 from collections.abc import Mapping
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement
@@ -22,13 +20,13 @@ from asset_factory.factory.export.text import vector, xml_text
 from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.mesh import FloatArray, Mesh
 
+from ..bodies import bodies_of
 from ..surfaces.labelled import plain
 
 #: What any furniture's motors stay below, [N m] or [N], and [rad/s] or [m/s]; a URDF wants it.
 EFFORT = "100"
 VELOCITY = "10"
 LICENSE = "Apache-2.0"
-_ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
 def write_sample(
@@ -137,20 +135,24 @@ def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) 
     the two ranges [part_count, 2] relative to the pose of the file [rad, file units].
 
     Raises:
-        ValueError: a carrier does not carry exactly one part, or not by the other kind of joint.
+        ValueError: a carrier does not carry exactly one part, or not by the other kind of joint;
+            or the root has no faces.
     """
-    number, carried = _numbers(articulation)
+    bodies = bodies_of(articulation)
+    moves = [(child, joint) for child, own in enumerate(bodies.joints) for joint in own]
+    kinds = {(child, joint.turns) for child, joint in moves}
+    once = len(kinds) == len({joint.name for _, joint in moves}) == len(moves)
+    if bodies.parts[0] != 0 or not once:
+        wanted = "want one to carry one part that turns and slides by it, and faces on the root"
+        raise ValueError(f"a part without faces: {wanted}")
     turn = frame[:3, :3]
     scale = float(np.cbrt(np.linalg.det(turn)))
-    count = len(set(number))
-    label = np.zeros(len(articulation.mesh.faces), dtype=np.int32)
-    for index, part in enumerate(articulation.parts):
-        label[part.faces] = number[index]
-    hung = [joint for joint in articulation.joints if joint.child not in carried]
-    edges = [(number[joint.parent], number[joint.child]) for joint in hung]
+    count = len(bodies)
+    order = np.argsort(articulation.mesh.face_material, kind="stable")
+    edges = [(parent, child) for child, parent in enumerate(bodies.parents) if child]
     arrays: dict[str, npt.NDArray[Any]] = {
         # Files hold the faces material by material.
-        "face_part_ids": label[np.argsort(articulation.mesh.face_material, kind="stable")],
+        "face_part_ids": bodies.labels.astype(np.int32)[order],
         "motion_hierarchy": np.array(edges, dtype=np.int64).reshape(-1, 2),
         "is_part_revolute": np.zeros(count, dtype=bool),
         "is_part_prismatic": np.zeros(count, dtype=bool),
@@ -159,8 +161,7 @@ def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) 
         "prismatic_axis": np.zeros((count, 3), dtype=np.float32),
         "prismatic_range": np.zeros((count, 2), dtype=np.float32),
     }
-    for joint in articulation.movable_joints:
-        child = number[joint.child]
+    for child, joint in moves:
         limits = np.array([joint.lower, joint.upper])
         direction = turn @ joint.axis / scale
         kind = "prismatic" if joint.kind is JointKind.PRISMATIC else "revolute"
@@ -172,26 +173,4 @@ def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) 
             arrays["revolute_plucker"][child] = np.round([*direction, *moment], 9) + 0.0
         arrays[f"is_part_{kind}"][child] = True
         arrays[f"{kind}_range"][child] = np.round(limits, 9)
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
-        for name, array in arrays.items():
-            buffer = BytesIO()
-            np.save(buffer, array)
-            archive.writestr(zipfile.ZipInfo(f"{name}.npy", _ZIP_EPOCH), buffer.getvalue())
-
-
-def _numbers(articulation: Articulation) -> tuple[list[int], set[int]]:
-    """Return the parts' numbers, a carrier's that of what it carries, and who is carried."""
-    carried: dict[int, int] = {}
-    for joint in articulation.joints:
-        carrier = articulation.parts[joint.parent]
-        if not joint.parent or len(carrier.faces):
-            continue
-        above = articulation.joints[joint.parent - 1]
-        both = above.movable and joint.movable and above.turns != joint.turns
-        if not both or joint.parent in carried.values():
-            wanted = "want it to carry one part that turns and slides by it"
-            raise ValueError(f"part {carrier.name!r}: has no faces, {wanted}")
-        carried[joint.child] = joint.parent
-    kept = [index for index in range(len(articulation.parts)) if index not in carried]
-    number = [kept.index(carried.get(index, index)) for index in range(len(articulation.parts))]
-    return number, set(carried)
+    np.savez(path, allow_pickle=False, **arrays)

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
+from msgspec import Meta
 
 from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.mesh import FloatArray, IntArray
 from asset_factory.factory.models.particulate.components import component_features
 from asset_factory.factory.models.particulate.prediction import MotionClass
 
-from .sampled_object import SampledObject, parents_first
+from ..bounds import Amount, Count, Share, Whole
+from .sampled_object import SampledObject, carried
 
 QUARTER = np.pi / 2.0
+#: Of a size.
+Factor = Annotated[float, Meta(ge=1e-3, le=1e3)]
 #: An array; in a batch on its way through the network a tensor.
 Array = Any
 
@@ -42,18 +46,18 @@ class DrawSettings:
         components: whether points carry what their components look like.
     """
 
-    points: int = 2048
-    context: int = 3072
-    sharp_share: float = 0.5
-    scale: tuple[float, float] = (0.95, 1.05)
-    shift: float = 0.02
-    closed_share: float = 0.4
-    turned_share: float = 0.0
-    facing_share: float = 1.0
-    mirrored_share: float = 0.0
-    stretch: float = 0.0
-    fused_share: float = 0.0
-    merged_share: float = 0.0
+    points: Count = 2048
+    context: Whole = 3072
+    sharp_share: Share = 0.5
+    scale: tuple[Factor, Factor] = (0.95, 1.05)
+    shift: Amount = 0.02
+    closed_share: Share = 0.4
+    turned_share: Share = 0.0
+    facing_share: Share = 1.0
+    mirrored_share: Share = 0.0
+    stretch: Amount = 0.0
+    fused_share: Share = 0.0
+    merged_share: Share = 0.0
     components: bool = False
 
 
@@ -179,32 +183,29 @@ def _state(
 
 def _moved(sampled: SampledObject, body: _Body, turns: FloatArray, slides: FloatArray) -> _Body:
     """Move every part by its own and its ancestors' joints; axes by its parent's."""
-    count = len(sampled.parents)
-    rotation = np.tile(np.eye(3), (count, 1, 1))
-    shift = np.zeros((count, 3))
-    axis = body.axis.copy()
-    origin = body.origin.copy()
-    slide = body.slide.copy()
-    for part in parents_first(sampled.parents.tolist()):
-        parent = sampled.parents[part]
-        if parent < 0:
-            continue
-        own = rotation_about(body.axis[part], float(turns[part]))
-        rotation[part] = rotation[parent] @ own
-        offset = body.origin[part] - own @ body.origin[part] + own @ body.slide[part] * slides[part]
-        shift[part] = rotation[parent] @ offset + shift[parent]
-        axis[part] = rotation[parent] @ body.axis[part]
-        origin[part] = rotation[parent] @ body.origin[part] + shift[parent]
-        slide[part] = rotation[part] @ body.slide[part]
-    of_point = sampled.part_ids[body.rows]
-    points = body.points.copy()
-    normals = body.normals.copy()
-    for part in range(count):
-        if turns[part] or slides[part] or (sampled.parents[part] > 0):
-            mine = of_point == part
-            points[mine] = points[mine] @ rotation[part].T + shift[part]
-            normals[mine] = normals[mine] @ rotation[part].T
-    return replace(body, points=points, normals=normals, axis=axis, origin=origin, slide=slide)
+    own = np.tile(np.eye(4), (len(turns), 1, 1))
+    for part, (turn, slide) in enumerate(zip(turns, slides, strict=True)):
+        rotation = rotation_about(body.axis[part], float(turn))
+        arm = body.origin[part] - body.slide[part] * slide
+        own[part, :3, :3] = rotation
+        own[part, :3, 3] = body.origin[part] - rotation @ arm
+    poses = carried(sampled.parents.tolist(), own)
+    # The root stays where it is, so that it may stand for what carries it.
+    above = poses[np.maximum(sampled.parents, 0)]
+    of_point = poses[sampled.part_ids[body.rows]]
+    return replace(
+        body,
+        points=_rotated(of_point, body.points) + of_point[:, :3, 3],
+        normals=_rotated(of_point, body.normals),
+        axis=_rotated(above, body.axis),
+        origin=_rotated(above, body.origin) + above[:, :3, 3],
+        slide=_rotated(poses, body.slide),
+    )
+
+
+def _rotated(poses: FloatArray, vectors: FloatArray) -> FloatArray:
+    """Return vectors turned as motions turn them, [n, 4, 4] and [n, 3]."""
+    return np.asarray(np.einsum("nij,nj->ni", poses[:, :3, :3], vectors))
 
 
 def _facing(rng: np.random.Generator, settings: DrawSettings) -> float:

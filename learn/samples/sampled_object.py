@@ -15,15 +15,14 @@ import numpy as np
 
 from asset_factory.factory.articulation import Articulation, Joint
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.intake.limits import require_at_most
 from asset_factory.factory.mesh import FloatArray, IntArray, read_only
 from asset_factory.factory.models.particulate.prediction import MotionClass
-from asset_factory.factory.models.particulate.sampling import draw, sharp_edges
+from asset_factory.factory.models.particulate.sampling import Cloud, draw, sharp_edges
 from asset_factory.factory.models.particulate.surface import BoolArray, Surface
 from asset_factory.factory.runtime.store import write_whole
 
-from ..joints import way_down
+from ..bodies import bodies_of
 
 MOST_PARTS = 16
 """Part queries of the network."""
@@ -99,31 +98,46 @@ def sampled_from(
 ) -> SampledObject:
     """Return the training view of an object; its joint values 0 need not be closed.
 
-    A part that does not move is one with its parent: nobody could tell them apart. A part behind a
-    carrier turns *and* slides. Half of the ``points`` are on sharp edges.
+    Half of the ``points`` are on sharp edges.
 
     Raises:
-        InputRejected: ``too_many_parts``, ``no_movable_joint``, ``unsupported_joint``,
-            ``zero_size``.
+        InputRejected: as :func:`sampled_at`, ``zero_size``.
     """
-    chains, group = _moving_parts(articulation)
-    require_parts(name, 1 + len(chains))
-    number = {0: 0} | {part: index for index, part in enumerate(chains, start=1)}
-    of_part = np.array([number.get(group[part], 0) for part in range(len(group))])
     surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
     cloud = draw(surface, sharp_edges(surface), points, rng, most_covered=int(COVERED * points))
+    return sampled_at(cloud, articulation, name=name, category=category, source=source)
+
+
+def sampled_at(
+    cloud: Cloud, articulation: Articulation, *, name: str, category: str, source: str
+) -> SampledObject:
+    """Return the training view of an object at these points of its surface.
+
+    A part that does not move is one with its parent: nobody could tell them apart. A part behind a
+    carrier turns *and* slides.
+
+    Raises:
+        InputRejected: ``too_many_parts``, ``no_movable_joint``, ``unsupported_joint``.
+    """
+    bodies = bodies_of(articulation)
+    row = np.zeros(len(bodies), dtype=np.int64)
+    moving = np.flatnonzero(bodies.moving).tolist()
+    for body, parent in enumerate(bodies.parents):
+        held = row[parent] if parent >= 0 else 0
+        row[body] = 1 + moving.index(body) if body in moving else held
+    require_parts(name, 1 + len(moving))
+    parents = [row[bodies.parents[body]] if bodies.parents[body] >= 0 else 0 for body in moving]
     return SampledObject(
         name=name,
         category=category,
         source=source,
         points=cloud.points,
         normals=cloud.normals,
-        part_ids=of_part[face_parts(articulation)[cloud.faces]],
+        part_ids=row[bodies.labels[cloud.faces]],
         sharp=cloud.sharp,
         components=cloud.components,
-        **_motions(
-            chains, {part: number[group[chain[0].parent]] for part, chain in chains.items()}
-        ),
+        parents=np.array([-1, *parents]),
+        **_motions(name, [bodies.joints[body] for body in moving]),
     )
 
 
@@ -141,15 +155,16 @@ def require_parts(name: str, count: int, most: int = MOST_PARTS) -> None:
         raise InputRejected("too_many_parts", message, value=count, limit=most)
 
 
-def _motions(chains: dict[int, tuple[Joint, ...]], parent: dict[int, int]) -> dict[str, Any]:
-    """Return what a sample says of its parts' motions, the root first; movers as in ``chains``."""
+def _motions(name: str, chains: Sequence[tuple[Joint, ...]]) -> dict[str, Any]:
+    """Return what a sample says of its parts' motions, the root first; others by their joints."""
     count = 1 + len(chains)
     widths = {"axis": 3, "origin": 3, "turn": 2, "slide_direction": 3, "slide": 2}
     told: dict[str, Any] = {name: np.zeros((count, width)) for name, width in widths.items()}
-    told |= {"parents": np.full(count, -1), "motion": np.zeros(count, dtype=np.int64)}
-    told["endless"] = np.zeros(count, dtype=np.bool_)
-    for row, (part, chain) in enumerate(chains.items(), start=1):
-        told["parents"][row] = parent[part]
+    told |= {"motion": np.zeros(count, dtype=np.int64), "endless": np.zeros(count, dtype=np.bool_)}
+    for row, chain in enumerate(chains, start=1):
+        if len({joint.turns for joint in chain}) < len(chain):
+            said = f"{name}, {chain[-1].name!r}: want at most one turn and one slide"
+            raise InputRejected("unsupported_joint", said)
         told["motion"][row] = sum(1 if joint.turns else 2 for joint in chain)
         for joint in chain:
             limits = (joint.lower, joint.upper)
@@ -178,20 +193,13 @@ def parents_first(parents: Sequence[int]) -> list[int]:
         raise ValueError(f"parents {parents}: {looped}") from None
 
 
-def _moving_parts(articulation: Articulation) -> tuple[dict[int, tuple[Joint, ...]], list[int]]:
-    """Return the joints of each moving part, and every part's representative."""
-    group = list(range(len(articulation.parts)))
-    chains: dict[int, tuple[Joint, ...]] = {}
-    for index, part in enumerate(articulation.parts):
-        above, joints = way_down(articulation, index)
-        if not joints:
-            group[index] = group[above]
-        elif len(part.faces):
-            chains[index] = joints
-            if len({joint.turns for joint in joints}) < len(joints):
-                said = f"part {part.name!r}: want at most one turn and one slide"
-                raise InputRejected("unsupported_joint", said)
-    return chains, group
+def carried(parents: Sequence[int], own: FloatArray) -> FloatArray:
+    """Return the motions of parts by their own joints, [n, 4, 4], and by those that carry them."""
+    poses = np.array(own)
+    for part in parents_first(parents):
+        if parents[part] >= 0:
+            poses[part] = poses[parents[part]] @ own[part]
+    return poses
 
 
 def write_sampled(path: Path, sampled: SampledObject) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,8 @@ Tensor = Any
 LAST = "last.pt"
 BEST = "best.pt"
 _FORMAT = 1
+#: Letters of what differs between networks; there are hundreds of names.
+MOST_SAID = 1000
 
 
 @dataclass(frozen=True)
@@ -92,16 +95,10 @@ def fill(network: Any, weights: dict[str, Tensor], path: Path) -> None:
     """Give a network weights, all of them and no others.
 
     Raises:
-        ConfigError: they are of another network; says all that differs.
+        ConfigError: they are of another network; says what differs.
     """
-    wanted = {name: tuple(tensor.shape) for name, tensor in network.state_dict().items()}
-    found = {name: tuple(tensor.shape) for name, tensor in weights.items()}
-    missing = [f"{name}: missing" for name in wanted if name not in found]
-    extra = [f"{name}: not in the network" for name in found if name not in wanted]
-    unlike = [name for name in wanted if name in found and found[name] != wanted[name]]
-    other = [f"{name}: shape {list(found[name])}, want {list(wanted[name])}" for name in unlike]
-    differences = other + missing + extra
-    if differences:
-        more = f"; and {len(differences) - 8} more" if len(differences) > 8 else ""
-        raise ConfigError(f"{path}: weights of another network: {'; '.join(differences[:8])}{more}")
-    network.load_state_dict(weights)
+    try:
+        network.load_state_dict(weights)
+    except RuntimeError as error:
+        said = textwrap.shorten(str(error), MOST_SAID)
+        raise ConfigError(f"{path}: weights of another network: {said}") from error

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -20,12 +20,10 @@ from asset_factory.factory.errors import AssetFactoryError, ConfigError, InputRe
 from asset_factory.factory.presets import overlay
 
 from ..objects.mixture import MixtureSettings, sample_object
+from ..samples.batches import Batch, collate
 from ..samples.sample import DrawSettings, Sample, draw
 from ..samples.sampled_object import SampledObject, read_sampled, sampled_from
 from .settings import DataSource, TrainConfig
-
-if TYPE_CHECKING:
-    from ..datasets import SourceReport
 
 _TRAINING, _HELD_OUT, _OBJECT, _ORDER = range(4)
 _TRIES = 20
@@ -35,12 +33,15 @@ _TRIES = 20
 class Files:
     """Sampled objects in files, sorted, and how often they are drawn relative to the other pools.
 
-    ``report`` says what became of the objects that they were made of; ``None``: they are as found.
+    They were made of a source of a ``kind``, of whose objects so many were ``skipped`` by reason;
+    ``lines`` say so for people.
     """
 
     paths: tuple[Path, ...]
     weight: float
-    report: SourceReport | None = None
+    kind: str = "sampled"
+    skipped: dict[str, int] = field(default_factory=dict)
+    lines: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -73,8 +74,7 @@ def _pool(source: DataSource, cache: Path) -> Pool:
 
 def source_lines(pools: Iterable[Pool]) -> list[str]:
     """Return lines for people: what became of the objects of converted sources."""
-    reports = (pool.report for pool in pools if isinstance(pool, Files) and pool.report)
-    return [line for report in reports for line in report.lines()]
+    return [line for pool in pools if isinstance(pool, Files) for line in pool.lines]
 
 
 def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
@@ -84,10 +84,9 @@ def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
         if isinstance(pool, Generator):
             objects = pool.source.objects or None
             counts.append({"kind": "procedural", "sampled": objects, "skipped": {}})
-            continue
-        report = pool.report
-        kind, skipped = ("sampled", {}) if report is None else (report.kind, report.counts)
-        counts.append({"kind": kind, "sampled": len(pool.paths), "skipped": skipped})
+        else:
+            read = len(pool.paths)
+            counts.append({"kind": pool.kind, "sampled": read, "skipped": pool.skipped})
     return counts
 
 
@@ -97,10 +96,12 @@ def _converted(source: DataSource, cache: Path) -> Files:
     settings = overlay(SourceSettings(), source.options, f"{source.kind}: options")
     split = Path(source.split) if source.split else None
     report = prepare(source.kind, Path(source.path), cache, split=split, settings=settings)
+    lines = tuple(report.lines())
     if not report.read:
-        said = "\n".join(report.lines())
+        said = "\n".join(lines)
         raise ConfigError(f"{source.path}: no object in it can be used; want at least one\n{said}")
-    return Files(tuple(sorted(report.read.values())), source.weight, report)
+    read = tuple(sorted(report.read.values()))
+    return Files(read, source.weight, source.kind, report.counts, lines)
 
 
 def _sampled_files(source: DataSource) -> Files:
@@ -142,6 +143,11 @@ class Dataset:
         weights = np.array([pool.weight for pool in pools])
         self._shares = np.cumsum(weights / weights.sum())
         self._kept = _Kept(config.run.cache_mb * 1_000_000)
+
+    def batch(self, step: int, numbers: Iterable[int]) -> Batch:
+        """Return the samples at places of a step. Raises ConfigError as :meth:`sample`."""
+        samples = [self.sample(step, number) for number in numbers]
+        return collate(samples, self._config.network.max_parts)
 
     def sample(self, step: int, number: int) -> Sample:
         """Return the sample at a place of a step.

@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to train
-from filelock import FileLock, Timeout
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.shape import expected_tensors, parameter_count
 from asset_factory.factory.models.weights.safetensors import write_safetensors
+from asset_factory.factory.registry.claims import claim
 from asset_factory.factory.runtime.store import write_whole
 
 from .checkpoints import BEST, LAST, State, fill, read_state, read_weights, write_state
@@ -250,14 +250,12 @@ def _prepare(
     if not begun and resume:
         raise ConfigError(f"{output}: holds no run to go on with; leave --resume out to begin one")
     if group.first:
-        output.mkdir(parents=True, exist_ok=True)
         # Held against every other training until this process ends.
-        lock = FileLock(output / ".lock", blocking=False, fallback_to_soft=False)
-        try:
-            stack.enter_context(lock)
-        except Timeout:
+        held = claim(output, ".lock")
+        if held is None:
             wanted = "wait for it, or name another folder"
-            raise ConfigError(f"{output}: another process is training there; {wanted}") from None
+            raise ConfigError(f"{output}: another process is training there; {wanted}")
+        stack.callback(held.release)
         for left in output.glob(".writing-*"):
             left.unlink()
     group.wait()

@@ -21,7 +21,7 @@ from .matching import arranged, arranged_columns, match
 from .settings import LossSettings
 
 Tensor = Any
-NAMES = tuple(each.name for each in fields(LossSettings) if each.type == "float")
+NAMES = tuple(each.name for each in fields(LossSettings) if each.type == "Amount")
 """Losses, by the settings that are their weights."""
 _DICE_EPS = 1e-6
 _SYMMETRIC = 0.02

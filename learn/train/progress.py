@@ -7,12 +7,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import timedelta
 
-from rich.console import Console
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
     Progress,
-    TaskID,
     TextColumn,
     TimeRemainingColumn,
 )
@@ -21,14 +19,12 @@ from asset_factory.factory.runtime.terminal import Terminal
 
 
 class Watch:
-    """Tells how a run goes: on the terminal's bar, or (``None``) in plain lines."""
+    """Tells how a run goes: on a bar where it is drawn, in plain lines elsewhere."""
 
-    def __init__(
-        self, console: Console, steps: int, done: int, bar: tuple[Progress, TaskID] | None
-    ) -> None:
-        self._console = console
+    def __init__(self, progress: Progress, steps: int, done: int) -> None:
+        self._progress = progress
+        self._task = progress.add_task("starting", total=steps, completed=done)
         self._steps = steps
-        self._bar = bar
         self._done = done
         self._since = time.monotonic()
         self._waited = 0.0
@@ -47,10 +43,8 @@ class Watch:
         speed = self._samples / took
         waiting = self._waited / took
         said = f"loss {loss:.3f}  rate {rate:.1e}  {speed:.1f} samples/s  waiting {waiting:.0%}"
-        if self._bar is not None:
-            progress, task = self._bar
-            progress.update(task, completed=step, description=said)
-        else:
+        self._progress.update(self._task, completed=step, description=said)
+        if self._progress.disable:
             left = timedelta(seconds=round(per_step * (self._steps - step)))
             self.say(f"step {step}/{self._steps}  {said}  left {left}")
         self._done = step
@@ -60,17 +54,15 @@ class Watch:
 
     def say(self, line: str) -> None:
         """Print a line, above the bar where there is one."""
-        self._console.print(line, markup=False, highlight=False, soft_wrap=True)
+        self._progress.console.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 @contextmanager
 def watching(steps: int, done: int, quiet: bool) -> Iterator[Watch]:
     """Follow a run of so many steps, some done before; all processes but the first are quiet."""
     console = Terminal(stderr=True, quiet=quiet)
-    if quiet or not console.is_terminal:
-        yield Watch(console, steps, done, None)
-        return
     columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, TextColumn("{task.description}"), console=console) as progress:
-        task = progress.add_task("starting", total=steps, completed=done)
-        yield Watch(progress.console, steps, done, (progress, task))
+    said = TextColumn("{task.description}")
+    drawn = console.is_terminal and not quiet
+    with Progress(*columns, said, console=console, disable=not drawn) as progress:
+        yield Watch(progress, steps, done)

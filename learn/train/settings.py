@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Annotated, Any
+
+from msgspec import Meta
 
 from asset_factory.factory.models.network.shape import AxisForm, NetworkShape
 from asset_factory.factory.models.particulate.components import COMPONENT_FEATURES
 
+from ..bounds import Amount, Count, Share, Whole
 from ..samples.sample import DrawSettings
 
 KINDS = (
@@ -17,6 +20,9 @@ KINDS = (
 )  # fmt: skip
 FEATURES = ("none", "components")
 PRECISIONS = ("float32", "bfloat16")
+#: Of a running mean, and of units in training: below 1, or nothing new would ever be learnt.
+Decay = Annotated[float, Meta(ge=0.0, le=0.99999)]
+Dropout = Annotated[float, Meta(ge=0.0, le=0.99)]
 
 
 @dataclass(frozen=True)
@@ -39,10 +45,10 @@ class DataSource:
     kind: str = "sampled"
     path: str = ""
     split: str = ""
-    weight: float = 1.0
-    objects: int = 0
-    reuse: int = 8
-    points: int = 8192
+    weight: Annotated[float, Meta(ge=1e-9, le=1e9)] = 1.0
+    objects: Whole = 0
+    reuse: Count = 8
+    points: Count = 8192
     style: dict[str, Any] = field(default_factory=dict)
     options: dict[str, Any] = field(default_factory=dict)
 
@@ -64,15 +70,15 @@ class NetworkSettings:
         quiet_below: [rad per unit of length].
     """
 
-    hidden: int = 768
-    blocks: int = 6
-    heads: int = 12
-    mlp_ratio: int = 4
+    hidden: Count = 768
+    blocks: Count = 6
+    heads: Count = 12
+    mlp_ratio: Count = 4
     raw_coords: bool = True
-    max_parts: int = 16
+    max_parts: Annotated[int, Meta(ge=2)] = 16
     features: str = "none"
     axes: str = AxisForm.CLOSEST_POINTS.value
-    dropout: float = 0.0
+    dropout: Dropout = 0.0
     quiet_start: bool = False
     quiet_below: float = 30.0
 
@@ -111,17 +117,17 @@ class LossSettings:
             torn between two opposite ones, and learnt as neither.
     """
 
-    mask: float = 1.0
-    dice: float = 0.0
-    hierarchy: float = 1.0
-    motion: float = 1.0
-    revolute_direction: float = 1.0
-    prismatic_direction: float = 1.0
-    revolute_range: float = 0.1
-    prismatic_range: float = 1.0
-    closest_points: float = 1.0
-    auxiliary: float = 0.0
-    auxiliary_points: int = 4
+    mask: Amount = 1.0
+    dice: Amount = 0.0
+    hierarchy: Amount = 1.0
+    motion: Amount = 1.0
+    revolute_direction: Amount = 1.0
+    prismatic_direction: Amount = 1.0
+    revolute_range: Amount = 0.1
+    prismatic_range: Amount = 1.0
+    closest_points: Amount = 1.0
+    auxiliary: Amount = 0.0
+    auxiliary_points: Count = 4
     root_first: bool = False
     sign_free: bool = False
     unseen_parts: bool = True
@@ -143,10 +149,10 @@ class ScheduleSettings:
         last_rate: share of it that is left at the end of the cosine.
     """
 
-    steps: int = 100_000
-    rate: float = 1e-4
-    warm_up: int = 1000
-    last_rate: float = 0.01
+    steps: Count = 100_000
+    rate: Share = 1e-4
+    warm_up: Whole = 1000
+    last_rate: Share = 0.01
 
     def rate_at(self, step: int) -> float:
         """Return the rate of a step, counted from 0: a line up, then half a cosine down."""
@@ -169,10 +175,10 @@ class OptimiserSettings:
             steps.
     """
 
-    betas: tuple[float, float] = (0.9, 0.98)
-    weight_decay: float = 0.02
-    clip: float = 1.0
-    ema: float = 0.999
+    betas: tuple[Decay, Decay] = (0.9, 0.98)
+    weight_decay: Amount = 0.02
+    clip: Amount = 1.0
+    ema: Share = 0.999
 
     def decay_at(self, step: int) -> float:
         """Return the share of the running mean that stays at a step, counted from 0.
@@ -204,18 +210,18 @@ class RunSettings:
         validate_every: steps per validation; 0: only at the end.
     """
 
-    micro_batch: int = 0
-    workers: int = 1
-    threads: int = 0
+    micro_batch: Whole = 0
+    workers: Whole = 1
+    threads: Whole = 0
     device: str = "auto"
     precision: str = "bfloat16"
     compile: bool = False
-    ahead: int = 4
-    cache_mb: int = 1024
+    ahead: Count = 4
+    cache_mb: Whole = 1024
     cache: str = ""
-    log_every: int = 50
-    checkpoint_every: int = 500
-    validate_every: int = 1000
+    log_every: Count = 50
+    checkpoint_every: Count = 500
+    validate_every: Whole = 1000
 
 
 @dataclass(frozen=True)
@@ -228,9 +234,9 @@ class ValidationSettings:
         batch: samples at once.
     """
 
-    objects: int = 64
-    points: int = 1024
-    batch: int = 16
+    objects: Count = 64
+    points: Count = 1024
+    batch: Count = 16
 
 
 @dataclass(frozen=True)
@@ -252,9 +258,9 @@ class TrainConfig:
 
     data: tuple[DataSource, ...] = ()
     held_out: tuple[DataSource, ...] = ()
-    seed: int = 0
-    batch: int = 128
-    lanes: int = 16
+    seed: Whole = 0
+    batch: Count = 128
+    lanes: Count = 16
     half: bool = False
     recipe: str = "paper"
     terms: str = ""

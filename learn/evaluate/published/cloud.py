@@ -10,8 +10,8 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray, IntArray, read_only
 
-from ...samples.sampled_object import parents_first
-from ..bodies import bodies_of
+from ...bodies import bodies_of
+from ...samples.sampled_object import carried
 
 #: Points per object, as in the release; the paper speaks of ten times as many.
 POINTS = 100_000
@@ -57,18 +57,14 @@ class ScoredCloud:
         Joints are at this share of their range. ``as_released``, that counts from 0 instead of from
         the lower limit, and a part that turns and slides only turns.
         """
-        poses = np.tile(np.eye(4), (len(self.parents), 1, 1))
-        for part in parents_first(self.parents):
-            own = self.joints[part]
-            if as_released and any(joint.turns for joint in own):
-                own = tuple(joint for joint in own if joint.turns)
-            parent = self.parents[part]
-            pose = np.eye(4) if parent < 0 else poses[parent]
-            for joint in own:
-                start = 0.0 if as_released else joint.lower
-                pose = pose @ joint.motion(start + share * joint.range)
-            poses[part] = pose
-        return poses
+        own = np.tile(np.eye(4), (len(self.parents), 1, 1))
+        for part, joints in enumerate(self.joints):
+            turning = any(joint.turns for joint in joints)
+            for joint in joints:
+                if joint.turns or not (as_released and turning):
+                    start = 0.0 if as_released else joint.lower
+                    own[part] = own[part] @ joint.motion(start + share * joint.range)
+        return carried(self.parents, own)
 
 
 def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> ScoredCloud:

@@ -13,7 +13,7 @@ from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.runtime.store import Store
-from asset_factory.learn.evaluate.bodies import bodies_of, face_centres
+from asset_factory.learn.bodies import bodies_of, face_centres
 from asset_factory.learn.evaluate.cases import (
     folder_requests,
     in_settings,

@@ -144,10 +144,10 @@ def test_other_data_start_from_the_weights_of_a_run(path, output, tmp_path):
 
 def test_weights_of_another_network_are_refused_with_what_differs(output):
     network = torch.nn.Sequential(torch.nn.Linear(2, 2))
-    with pytest.raises(ConfigError, match=r"0\.weight: missing.*not in the network.*more"):
+    with pytest.raises(ConfigError, match=r"Missing key.*0\.weight.*Unexpected key.*\[\.\.\.\]"):
         fill(network, read_weights(output / "last.pt"), output / "last.pt")
     weights = {"0.weight": torch.zeros(3, 2), "0.bias": torch.zeros(2)}
-    with pytest.raises(ConfigError, match=r"0\.weight: shape \[3, 2\], want \[2, 2\]"):
+    with pytest.raises(ConfigError, match=r"0\.weight: .* shape torch.Size\(\[3, 2\]\)"):
         fill(network, weights, output)
 
 
@@ -236,7 +236,7 @@ def test_a_checkpoint_of_another_network_is_refused(path, output, tmp_path):
     state = torch.load(output / "last.pt", weights_only=True)
     state["weights"].popitem()
     torch.save(state, tmp_path / "run" / "last.pt")
-    with pytest.raises(ConfigError, match=r"last\.pt: weights of another network: .*: missing"):
+    with pytest.raises(ConfigError, match=r"last\.pt: weights of another network: .*Missing key"):
         train(Train(str(path), tmp_path / "run", resume=True))
 
 

@@ -4,14 +4,15 @@ import pytest
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.shape import NetworkShape
-from asset_factory.learn.train.recipes import load_train_config, parse_train_config, recipe_names
+from asset_factory.factory.presets import shipped_names
+from asset_factory.learn.train.recipes import load_train_config, parse_train_config
 
 DATA = '[[data]]\nkind = "procedural"\n'
 
 
 def test_every_shipped_recipe_can_be_read():
-    assert {"laptop", "small", "paper"} <= set(recipe_names())
-    for name in recipe_names():
+    assert {"laptop", "small", "paper"} <= set(shipped_names("train"))
+    for name in shipped_names("train"):
         assert load_train_config(name).recipe == name
 
 
@@ -46,24 +47,27 @@ def test_components_bring_their_channels():
         (f'[network]\nfeatures = "partfield"\n{DATA}', "PartField is not computed while training"),
         (f"[network]\nheads = 5\n{DATA}", "do not divide the width 768"),
         (f"[network]\ndepth = 5\n{DATA}", "no setting 'depth'; there are axes, blocks"),
-        (f"[loss]\nmask = -1.0\n{DATA}", "loss.mask must be 0 or more"),
-        (f"[schedule]\nsteps = 0\n{DATA}", "schedule.steps must be 1 or more, not 0"),
+        (f"[loss]\nmask = -1.0\n{DATA}", "loss.mask must be float >= 0.0, not -1.0"),
+        (f"[schedule]\nsteps = 0\n{DATA}", "schedule.steps must be int >= 1, not 0"),
         (f'[run]\nprecision = "float8"\n{DATA}', "'float32' or 'bfloat16'"),
         ("batch = \n", "here"),
-        (f"seed = -1\n{DATA}", "seed must be 0 to"),
-        (f"[run]\nworkers = -1\n{DATA}", "run.workers must be 0 or more, not -1"),
+        (f"seed = -1\n{DATA}", "seed must be int >= 0"),
+        (f"[run]\nworkers = -1\n{DATA}", "run.workers must be int >= 0, not -1"),
         (f"[run]\nmicro_batch = -2\n{DATA}", "run.micro_batch must be"),
-        (f"[draw]\nscale = [1.0]\n{DATA}", "draw.scale must be two numbers"),
-        (f"[draw]\nscale = [1.1, 0.9]\n{DATA}", "the lower one first"),
+        (f"[draw]\nscale = [1.0]\n{DATA}", "draw.scale must be array of length 2"),
+        (f"[draw]\nscale = [1.1, 0.9]\n{DATA}", "the lower number first"),
         (f"[draw]\nscale = 1.0\n{DATA}", "draw: scale must be tuple"),
-        (f"[draw]\nclosed_share = 5\n{DATA}", "draw.closed_share must be 0 to 1"),
-        (f"[draw]\nshift = inf\n{DATA}", "draw.shift must be 0 or more"),
-        (f'[optimiser]\nbetas = ["a", "b"]\n{DATA}', "optimiser.betas must be 0 to"),
-        (f"[optimiser]\nema = 1.5\n{DATA}", "optimiser.ema must be 0 to 1"),
+        (f"[draw]\nclosed_share = 5\n{DATA}", "draw.closed_share must be float <= 1.0, not 5.0"),
+        (f"[draw]\nshift = inf\n{DATA}", "draw.shift must be float <= .*, not inf"),
+        (
+            f'[optimiser]\nbetas = ["a", "b"]\n{DATA}',
+            "betas\\[0\\] must be float, not 'a'",
+        ),
+        (f"[optimiser]\nema = 1.5\n{DATA}", "optimiser.ema must be float <= 1.0"),
         (f"[schedule]\nrate = nan\n{DATA}", "schedule.rate must be"),
-        (f"{DATA}weight = inf\n", "data 1: weight must be"),
-        (f"{DATA}objects = -3\n", "data 1: objects must be 0 or more, not -3"),
-        (f'{DATA}style = "plain"\n', "data 1: style must be a table"),
+        (f"{DATA}weight = inf\n", "data\\[0\\].weight must be"),
+        (f"{DATA}objects = -3\n", "data\\[0\\].objects must be int >= 0, not -3"),
+        (f'{DATA}style = "plain"\n', "data 1: style must be dict"),
     ],
 )
 def test_mistakes_are_named(text, says):

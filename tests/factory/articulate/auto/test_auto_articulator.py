@@ -20,7 +20,7 @@ from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.models.perceptron import linear
 from asset_factory.factory.part import Proposer
-from asset_factory.learn.evaluate.bodies import bodies_of
+from asset_factory.learn.bodies import bodies_of
 from asset_factory.learn.objects import make_object
 
 SHOWN = ParticulateConfig(points=1500, context_points=500)

@@ -1,4 +1,4 @@
-"""What of an articulation is scored: the parts that have faces, and how each of them moves."""
+"""What of an articulation can be seen: the parts that have faces, and how each of them moves."""
 
 from __future__ import annotations
 
@@ -7,12 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
-from asset_factory.factory.articulation import Articulation, Joint
+from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray, Mesh, read_only
 from asset_factory.factory.models.particulate.prediction import MotionClass
-
-from ..joints import value_at, way_down
 
 
 @dataclass(frozen=True)
@@ -83,7 +81,7 @@ class Bodies:
 def bodies_of(articulation: Articulation) -> Bodies:
     """Return the bodies of an articulation, root first, parents before children."""
     parts = [index for index, part in enumerate(articulation.parts) if len(part.faces)]
-    chains = [way_down(articulation, part) for part in parts]
+    chains = [_way_down(articulation, part) for part in parts]
     number = {part: body for body, part in enumerate(parts)}
     labels = np.searchsorted(parts, face_parts(articulation))
     parents = (
@@ -97,3 +95,25 @@ def bodies_of(articulation: Articulation) -> Bodies:
 def face_centres(mesh: Mesh) -> FloatArray:
     """Return the centroid of every face [m], shape [face_count, 3]."""
     return np.asarray(mesh.vertices[mesh.faces].mean(axis=1))
+
+
+def value_at(joint: Joint, share: float) -> float:
+    """Return the joint value with a share of the range opened [rad] or [m].
+
+    A joint without ends has no closed one: it starts where it is, and all its range is half a turn.
+    """
+    if joint.kind is JointKind.CONTINUOUS:
+        return share * np.pi
+    return joint.lower + share * joint.range
+
+
+def _way_down(articulation: Articulation, part: int) -> tuple[int, tuple[Joint, ...]]:
+    """Return the next part with faces towards the root, or the root, and movable joints to it."""
+    found: list[Joint] = []
+    while (joint := articulation.parent_joint(part)) is not None:
+        if joint.movable:
+            found.insert(0, joint)
+        part = joint.parent
+        if len(articulation.parts[part].faces):
+            break
+    return part, tuple(found)
