@@ -32,6 +32,9 @@ def make_sampled(
         sampled = sampled_item(kind, item, settings, seed=int(key[-16:], 16))
     except InputRejected as error:
         return ItemRefusal(error.code, error.message)
+    except (TimeoutError, ChildProcessError):
+        # An accident of a reader's own process, not the object's fault: it may go well next time.
+        raise
     except FileNotFoundError as error:
         missing = Path(str(error.filename)).name
         return ItemRefusal("missing_file", f"{item.name}: {missing} is not there")

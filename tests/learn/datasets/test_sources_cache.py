@@ -13,7 +13,7 @@ from usda import CABINET, stage, write
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Entry, Registry
-from asset_factory.learn.datasets import SourceSettings, prepare
+from asset_factory.learn.datasets import SourceSettings, making, prepare
 from asset_factory.learn.datasets.__main__ import _parser, main
 from asset_factory.learn.datasets.description import find_descriptions
 from asset_factory.learn.datasets.fronts import front_advice
@@ -51,6 +51,16 @@ def dataset(tmp_path):
     cabinet(data / "still_1", kind="fixed")
     (cabinet(data / "torn_1")).write_text("<robot name='x'><link")
     return tmp_path
+
+
+@pytest.mark.parametrize("accident", [TimeoutError(), ChildProcessError()])
+def test_an_accident_of_a_reader_is_no_refusal_to_keep(dataset, monkeypatch, accident):
+    def read(*_, **__):
+        raise accident
+
+    monkeypatch.setattr(making, "sampled_item", read)
+    with pytest.raises(type(accident)):
+        making.make_sampled("description", None, None, "key-0000000000000000", dataset / "x.npz")
 
 
 def test_good_objects_are_read_and_bad_ones_counted(dataset):
