@@ -216,8 +216,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
         executor = LocalExecutor(workers or 1, config.retries)
     max_s = None if command.max_hours is None else 3600.0 * command.max_hours
     budget = Budget(command.limit, max_s, command.retry_rejected, command.repair)
-    here = command.executor == "local"
-    return Job(inputs, command.output, config, executor, budget, one_network=here)
+    return Job(inputs, command.output, config, executor, budget)
 
 
 def build_config(command: Build) -> BuildConfig:
