@@ -92,7 +92,7 @@ def _asset(registry: Registry, listed: Entry) -> tuple[Entry, dict[str, bytes]] 
         if not folder.is_dir():
             return None
         try:
-            return read_record(folder, note_path(registry.root, listed.id)).entry, _whole(folder)
+            return read_record(folder).entry, _whole(folder)
         except (RegistryError, OSError) as error:
             # Somebody may have published it anew between two files.
             if attempt == _TRIES - 1:
