@@ -46,8 +46,10 @@ def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:
             ``no_movable_joint``.
     """
     limits = (settings.max_bytes, settings.max_faces)
-    mesh, annotation, transform = read_annotated(item.main, item.folder, *limits)
-    articulator = AnnotatedArticulator(annotation, transform, np.arange(len(mesh.faces)))
+    found = read_annotated(item.main, item.folder, *limits)
+    mesh = found.mesh
+    faces = np.arange(len(mesh.faces))
+    articulator = AnnotatedArticulator(found.annotation, found.frame, faces)
     articulation = articulator.articulate(mesh)
     if not articulation.movable_joints:
         message = f"{item.name}: nothing moves; want a joint to learn from"
