@@ -23,7 +23,6 @@ from ...mesh import FloatArray, Material, Texture, stack_corners
 from ..files import InputFiles
 from ..images import encode_png, read_texture
 from ..limits import require_at_most, unreadable
-from ..rejecting import rejecting
 
 if TYPE_CHECKING:
     import trimesh
@@ -61,8 +60,7 @@ def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
     if find_spec("collada") is None:
         why = "COLLADA needs the package pycollada; install it or convert"
         raise InputRejected("unsupported", f"{path.name}: {why}")
-    with rejecting(path.name, path.parent, files.log):
-        refuse_doctype(data, path.name)
+    refuse_doctype(data, path.name)
 
     import trimesh
 
