@@ -164,7 +164,7 @@ def seen(shape):
         ("not_a_tree", AB, "'a', 'b'"),
         ("not_a_tree", link("a") + link("a"), "'a'"),
         ("not_a_tree", link("a") + joint("j", "fixed", "a", "ghost"), "'ghost'"),
-        ("not_a_tree", AB + link("c") + CYCLE, "cycle"),
+        ("not_a_tree", AB + link("c") + CYCLE, "'j', 'k' form a loop"),
         ("not_a_tree", AB + TWICE, "'j' and 'k'"),
         ("unsupported_joint", AB + joint("j", "planar", "a", "b"), "'planar'"),
         ("unreadable", seen('<box size="1 1"/>'), "'1 1'"),
