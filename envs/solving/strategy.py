@@ -42,8 +42,8 @@ def act(driver: Driver, blank: Attempt, avoided: frozenset[Key]) -> tuple[Attemp
     begun = driver.share()
 
     def ended(reason: str, message: str) -> tuple[Attempt, tuple[Key, ...]]:
-        told = {"reason": reason, "message": message, "kinds": tuple(kinds), "target": target}
-        return replace(blank, **told, **driver.measured()), tuple(used)
+        why = replace(blank, reason=reason, message=message, kinds=tuple(kinds), target=target)
+        return replace(why, **driver.measured()), tuple(used)
 
     try:
         for stage in range(STAGES):
