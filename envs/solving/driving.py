@@ -75,7 +75,7 @@ class Driver:
         self._home = self.command[:3].copy()
 
     def measured(self) -> dict[str, Any]:
-        """Return what an :class:`~.attempt.Attempt` says of what was done so far, by name."""
+        """Return the figures so far, by their names in an :class:`~.attempt.Attempt`."""
         touched = [force for force in self.forces if force > 0.0]
         actions = np.array(self.actions, dtype=np.float32)
         return {

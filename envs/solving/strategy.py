@@ -29,7 +29,7 @@ def act(driver: Driver, blank: Attempt, avoided: frozenset[Key]) -> tuple[Attemp
 
     Args:
         driver: of the episode.
-        blank: what is attempted.
+        blank: names the joint, the robot and the seed.
         avoided: grips of earlier tries.
 
     Returns:
