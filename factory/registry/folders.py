@@ -39,7 +39,7 @@ def current_folder(root: Path, asset_id: str) -> Path:
 
 
 def read_record(folder: Path) -> RegistryRow:
-    """Return the row of one asset's folder, in a registry or an export, with what is noted of it.
+    """Return the row of one asset's folder, in a registry or an export, with its note.
 
     Raises:
         RegistryError: its report cannot be read, or is of another asset or place.

@@ -45,12 +45,10 @@ def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:
             ``empty``, ``not_a_tree``, ``unsupported_joint``, ``no_limits``, ``bad_axis``,
             ``no_movable_joint``.
     """
-    limits = (settings.max_bytes, settings.max_faces)
-    found = read_annotated(item.main, item.folder, *limits)
+    found = read_annotated(item.main, item.folder, settings.max_bytes, settings.max_faces)
     mesh = found.mesh
-    faces = np.arange(len(mesh.faces))
-    articulator = AnnotatedArticulator(found.annotation, found.frame, faces)
-    articulation = articulator.articulate(mesh)
+    told = (found.annotation, found.frame, np.arange(len(mesh.faces)))
+    articulation = AnnotatedArticulator(*told).articulate(mesh)
     if not articulation.movable_joints:
         message = f"{item.name}: nothing moves; want a joint to learn from"
         raise InputRejected("no_movable_joint", message, value=0.0)

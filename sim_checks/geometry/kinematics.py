@@ -148,10 +148,9 @@ def build_tree(description: Description) -> Tree:
         NotATree: with the links at fault.
     """
     names = [link.name for link in description.links]
-    strangers = {end for joint in description.joints for end in (joint.parent, joint.child)}
-    strangers -= set(names)
-    if strangers:
-        raise NotATree(f"joints name links that are not there: {_listed(sorted(strangers))}")
+    ends = {end for joint in description.joints for end in (joint.parent, joint.child)}
+    if strangers := sorted(ends - set(names)):
+        raise NotATree(f"joints name links that are not there: {_listed(strangers)}")
     twice = [name for name, count in Counter(names).items() if count > 1]
     if twice:
         raise NotATree(f"{len(twice)} link names are used twice ({_listed(twice)})")
@@ -165,9 +164,9 @@ def build_tree(description: Description) -> Tree:
     if len(roots) != 1:
         raise NotATree(f"{len(roots)} root links ({_listed(roots)}), want 1")
     order = _parents_first(roots[0], description.joints)
-    if len(order) < len(description.joints):
-        reached = {joint.child for joint in order}
-        loop = [joint.name for joint in description.joints if joint.child not in reached]
+    reached = {joint.child for joint in order}
+    loop = [joint.name for joint in description.joints if joint.child not in reached]
+    if loop:
         raise NotATree(f"joints {_listed(loop)} form a loop apart from root {roots[0]!r}")
     moving = tuple(joint for joint in description.joints if joint.kind in MOVING_KINDS)
     return Tree(roots[0], order, moving, _parts(names, roots[0], order), sound_mimics(description))
@@ -190,8 +189,7 @@ def sound_mimics(description: Description) -> dict[str, Mimic]:
 
 
 def _listed(names: list[str]) -> str:
-    more = f" and {len(names) - 5} more" if len(names) > 5 else ""
-    return ", ".join(map(repr, names[:5])) + more
+    return ", ".join(map(repr, names[:5]))
 
 
 def _parents_first(root: str, joints: tuple[JointLine, ...]) -> tuple[JointLine, ...]:
