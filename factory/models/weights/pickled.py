@@ -9,10 +9,14 @@ empty stand-in is made instead.
 
 from __future__ import annotations
 
+import math
+import resource
 import tempfile
+import time
 import zipfile
 from collections import Counter, OrderedDict
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -20,16 +24,14 @@ from typing import Any
 
 from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 from asset_factory.sim_checks.processes.scratch import scratch
-from asset_factory.sim_checks.read.native import memory_bounded
 
 from ...errors import ConfigError
 from .safetensors import Checkpoint, Tensor, read_safetensors, write_safetensors
 
 #: For all that the child does, importing torch and writing the tensors included [s].
 _WALL_S = 300.0
-#: Processor time of the child after which reading the description hangs: an error, of which nothing
-#: is kept [s].
-_READING_S = 60
+#: Processor time after which reading the description hangs: an error, of which nothing is kept [s].
+_READING_S = 20
 #: Memory for the description, beyond what torch and the mapped file take [bytes].
 _READING_BYTES = 2**30
 _MAX_DESCRIPTION = 8_000_000
@@ -86,8 +88,7 @@ def read_pickled(file: Path) -> Checkpoint:
 @lru_cache(maxsize=4)
 def _unpacked(file: Path, _inode: int, _size: int, _changed_ns: int) -> Path:
     target = Path(tempfile.mkdtemp(dir=scratch())) / "weights.safetensors"
-    limits = Limits(wall_s=_WALL_S, cpu_s=_READING_S)
-    outcome = run_isolated(unpack, file, target, limits=limits)
+    outcome = run_isolated(unpack, file, target, _READING_S, limits=Limits(wall_s=_WALL_S))
     if isinstance(outcome.error, ConfigError):
         raise outcome.error
     if outcome.failure is not None:
@@ -97,8 +98,10 @@ def _unpacked(file: Path, _inode: int, _size: int, _changed_ns: int) -> Path:
     return target
 
 
-def unpack(file: Path, target: Path) -> None:
+def unpack(file: Path, target: Path, most_s: int) -> None:
     """Write an archive's tensors as safetensors; called in the child.
+
+    ``file`` is its real path; its description may take ``most_s`` of processor time [s].
 
     Raises:
         ConfigError: as :func:`read_pickled`.
@@ -108,14 +111,14 @@ def unpack(file: Path, target: Path) -> None:
     except ImportError as error:
         advice = "pip install torch, or convert it to safetensors where there is one"
         raise ConfigError(f"{file}: what torch saved is read by torch: {advice}") from error
-    # The file as it is mapped, and its tensors once more, to be written.
-    most = (1 + _MOST_SHARED) * file.stat().st_size + _READING_BYTES
+    size = file.stat().st_size
     try:
         stored = _stored_bytes(file)
-        with memory_bounded(most):
-            names = torch.serialization.get_unsafe_globals_in_checkpoint(file)
-            with torch.serialization.safe_globals([_stand_in(name) for name in names]):
-                top = torch.load(file, map_location="cpu", weights_only=True, mmap=True)
+        usual = _limit_reading(most_s, size)
+        names = torch.serialization.get_unsafe_globals_in_checkpoint(file)
+        with torch.serialization.safe_globals([_stand_in(name) for name in names]):
+            top = torch.load(file, map_location="cpu", weights_only=True, mmap=True)
+        resource.setrlimit(resource.RLIMIT_CPU, usual)
     except ConfigError:
         raise
     except (zipfile.BadZipFile, zipfile.LargeZipFile, EOFError) as error:
@@ -133,6 +136,18 @@ def unpack(file: Path, target: Path) -> None:
         raise ConfigError(f"{file}: holds no tensors")
     _require_stored(file, tensors, stored)
     write_safetensors(target, {name: own.clone() for name, own in tensors.items()}, {})
+
+
+def _limit_reading(most_s: int, size: int) -> tuple[int, int]:
+    """Limit reading beyond what torch has taken; returns the limit of processor time before."""
+    with suppress(OSError):
+        pages = int(Path("/proc/self/statm").read_text().split()[0])
+        # The file as it is mapped, and its tensors once more, to be written.
+        most = pages * resource.getpagesize() + (1 + _MOST_SHARED) * size + _READING_BYTES
+        resource.setrlimit(resource.RLIMIT_AS, (most, resource.getrlimit(resource.RLIMIT_AS)[1]))
+    usual = resource.getrlimit(resource.RLIMIT_CPU)
+    resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(time.process_time()) + most_s, usual[1]))
+    return usual
 
 
 def _stand_in(name: str) -> tuple[type, str]:

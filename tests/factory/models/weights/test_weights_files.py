@@ -144,7 +144,7 @@ def test_without_torch_the_remedy_is_named(tmp_path, monkeypatch):
     torch.save(TENSORS, file)
     monkeypatch.setitem(sys.modules, "torch", None)
     with pytest.raises(ConfigError, match="pip install torch"):
-        unpack(file, tmp_path / "to.safetensors")
+        unpack(file, tmp_path / "to.safetensors", 5)
 
 
 def test_a_file_that_takes_too_long_is_given_up(tmp_path, monkeypatch):
