@@ -18,6 +18,7 @@ from asset_factory.factory.export.manifest import (
     ManifestJoint,
     ManifestTarget,
 )
+from asset_factory.factory.registry.report_file import StoredReport, read_report
 from asset_factory.factory.runtime.store import digest_bytes
 
 FloatArray = npt.NDArray[np.float64]
@@ -95,6 +96,14 @@ class RegisteredAsset:
     def urdf(self) -> Path:
         """Return the file to load."""
         return self.folder / self.manifest.urdf
+
+    @property
+    def report(self) -> StoredReport | None:
+        """Return what the validator said of it; ``None`` where that cannot be read."""
+        try:
+            return read_report(self.folder)
+        except RegistryError:
+            return None
 
     @property
     def bounds(self) -> FloatArray:

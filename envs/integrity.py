@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry.report_file import file_digests, read_report
 from asset_factory.factory.runtime.layout import MANIFEST
@@ -29,18 +27,13 @@ def check_unaltered(asset: RegisteredAsset) -> None:
     if manifest != asset.digest:
         changed = f"{MANIFEST} changed since the registry was read"
         raise RegistryError(f"{name}: {changed}; make the task again")
-    registered = _registered_digests(asset.folder)
-    if registered is not None:
-        found = file_digests(asset.folder)
-        files = registered.keys() | found.keys()
-        wrong = sorted(file for file in files if registered.get(file) != found.get(file))
-        if wrong:
-            words = f"{listed(wrong)} not as registered (SHA-256)"
-            raise RegistryError(f"{name}: {words}; build it again")
-
-
-def _registered_digests(folder: Path) -> dict[str, str] | None:
     try:
-        return read_report(folder).files
+        registered = read_report(asset.folder).files
     except (RegistryError, ValueError):
-        return None
+        return
+    found = file_digests(asset.folder)
+    files = registered.keys() | found.keys()
+    wrong = sorted(file for file in files if registered.get(file) != found.get(file))
+    if wrong:
+        words = f"{listed(wrong)} not as registered (SHA-256)"
+        raise RegistryError(f"{name}: {words}; build it again")

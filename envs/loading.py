@@ -23,10 +23,6 @@ SLIP_SPEED = 1e-3
 #: Fastest decay of motion that the simulation's step can follow [1/s].
 MAX_DECAY = 50.0
 
-#: Beyond these PhysX refuses a hull on a GPU, or simulates it badly.
-GPU_HULL_VERTICES = 64
-GPU_HULL_ASPECT = 64.0
-
 # PhysX lets two shapes meet if one's first group word shares a bit with the other's second, unless
 # their third words share one.
 GROUND_GROUPS = (0b01, 0b00)
@@ -133,18 +129,10 @@ def resist(
 
 
 def warn_of_hulls(assets: Iterable[RegisteredAsset]) -> None:
-    """Say which assets have convex pieces that PhysX cannot simulate well on a GPU."""
-    known = list(assets)
-    unfit = [
-        asset.id
-        for asset in known
-        if any(link.max_hull_vertices > GPU_HULL_VERTICES for link in asset.manifest.links)
-        or any(link.max_hull_aspect > GPU_HULL_ASPECT for link in asset.manifest.links)
-    ]
+    """Say of which assets the validator found that PhysX simulates their hulls badly on a GPU."""
+    reports = {asset.id: asset.report for asset in assets}
+    unfit = [id for id, told in reports.items() if told is not None and told.gpu_ready == "no"]
     if unfit:
-        warnings.warn(
-            f"{len(unfit)} of {len(known)} assets have hulls of more than {GPU_HULL_VERTICES} "
-            f"vertices or longer than {GPU_HULL_ASPECT:g} times their width, "
-            f"which PhysX simulates badly on a GPU; the first is {unfit[0]!r}",
-            stacklevel=3,
-        )
+        hulls = "hulls that PhysX refuses on a GPU, or simulates badly there"
+        which = f"{len(unfit)} of {len(reports)} assets have {hulls}; the first is {unfit[0]!r}"
+        warnings.warn(f"{which}; `factory show` says why", stacklevel=3)

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.factory.registry.entry import SPLITS, Split, split_of
-from asset_factory.factory.registry.report_file import read_report
 
 from .assets import OpenableJoint, RegisteredAsset, listed
 
@@ -59,11 +58,8 @@ class Wanted:
 
 def verdicts_of(asset: RegisteredAsset) -> tuple[str, ...]:
     """Return an asset's verdicts: ``passed``, as all in a registry, ``clean`` without findings."""
-    try:
-        clean = read_report(asset.folder).clean
-    except RegistryError:
-        return ("passed",)
-    return ("passed", "clean") if clean else ("passed",)
+    report = asset.report
+    return ("passed", "clean") if report is not None and report.clean else ("passed",)
 
 
 def select(assets: Assets, wanted: Wanted) -> Assets:

@@ -12,19 +12,15 @@ from __future__ import annotations
 
 import multiprocessing
 import sys
+from argparse import ArgumentParser
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, NoReturn
-
-from asset_factory.factory.errors import Exit
-from asset_factory.factory.runtime.terminal import complain
+from typing import Any
 
 from ..loading import replaced
 from ..tasks.arguments import BLIND_MODES
 from ..tasks.catalog import TASKS
 from .converting import to_hand_poses
-
-FLAG = "--registry"
 
 
 def replay(arguments: Sequence[str]) -> None:
@@ -35,36 +31,17 @@ def replay(arguments: Sequence[str]) -> None:
     """
     from mani_skill.trajectory import replay_trajectory as tool
 
-    rest, registry = _without_registry(arguments)
+    own = ArgumentParser(add_help=False, allow_abbrev=False)
+    own.add_argument("--registry")
+    told, rest = own.parse_known_args(arguments)
     wanted = tool.parse_args(rest)
     if not (wanted.save_video or wanted.vis) and wanted.obs_mode in (None, *BLIND_MODES):
         wanted.render_mode = None
     if wanted.num_envs > 1 and "ee" in (wanted.target_control_mode or ""):
         mode = f"--target-control-mode {wanted.target_control_mode}"
-        _refuse(f"--num-envs must be 1 with {mode}, not {wanted.num_envs}")
-    with _told(registry):
+        own.error(f"--num-envs must be 1 with {mode}, not {wanted.num_envs}")
+    with _told(told.registry):
         tool.main(wanted)
-
-
-def _without_registry(arguments: Sequence[str]) -> tuple[list[str], str | None]:
-    """Return the other arguments, and the registry if one is named."""
-    rest: list[str] = []
-    registry = None
-    waiting = iter(arguments)
-    for argument in waiting:
-        name, equals, value = argument.partition("=")
-        if name != FLAG:
-            rest.append(argument)
-            continue
-        registry = value if equals else next(waiting, None)
-        if not registry:
-            _refuse(f"{FLAG}: names no folder")
-    return rest, registry
-
-
-def _refuse(words: str) -> NoReturn:
-    complain(words)
-    raise SystemExit(Exit.USAGE)
 
 
 @contextmanager

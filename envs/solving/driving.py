@@ -74,6 +74,18 @@ class Driver:
         self.command = self.values()
         self._home = self.command[:3].copy()
 
+    def measured(self) -> dict[str, Any]:
+        """Return the figures so far, by their names in an :class:`~.attempt.Attempt`."""
+        touched = [force for force in self.forces if force > 0.0]
+        actions = np.array(self.actions, dtype=np.float32)
+        return {
+            "solved": self.solved,
+            "open_fraction": self.opened,
+            "peak_force": sustained(self.forces),
+            "mean_force": float(np.mean(touched)) if touched else 0.0,
+            "actions": actions.reshape(-1, *self.env.action_space.shape),
+        }
+
     def values(self) -> FloatArray:
         """Return the robot's joint values now, shape [degree]."""
         return np.array(self._arm.qpos, dtype=float)

@@ -23,6 +23,7 @@ from ..assets import FloatArray
 from .attempt import Attempt
 from .robots import SOLVERS
 from .solve import make_episodes, replay
+from .world import matrix_of
 
 #: Control steps per second, and of how many one is drawn.
 RATE = 20
@@ -92,7 +93,7 @@ def read_film(registry: str, attempt: Attempt) -> FilmScene:
         robot = scene_of_file(Path(task.agent.urdf_path))
         asset = scene_of_file(task.asset_record.urdf)
         where = {"robot": task.agent.robot, "asset": task._parts[0]}
-        poses = {whose: _matrix(actor) for whose, actor in where.items()}
+        poses = {whose: matrix_of(actor.pose.sp) for whose, actor in where.items()}
     finally:
         environment.close()
     parts = {"robot": (robot, poses["robot"]), "asset": (asset, poses["asset"])}
@@ -127,10 +128,6 @@ def _values(task: Any) -> Values:
         for joint, value in zip(actor.active_joints, values, strict=True):
             found[f"{whose}/{joint.name}"] = float(value)
     return found
-
-
-def _matrix(actor: Any) -> FloatArray:
-    return np.asarray(actor.pose.sp.to_transformation_matrix(), dtype=float)
 
 
 def _post(foot: FloatArray) -> tuple[SceneSurface, ...]:

@@ -10,6 +10,8 @@ import numpy as np
 import trimesh
 from scipy.spatial.transform import Rotation
 
+from asset_factory.sim_checks.geometry.placing import rigid
+
 from ..assets import FloatArray
 from .solids import Balls
 from .world import RobotWorld
@@ -266,7 +268,4 @@ def _most_across(direction: FloatArray) -> FloatArray:
 
 def _hand(position: FloatArray, ahead: FloatArray, fingers: FloatArray) -> FloatArray:
     """Hand frame, shape [4, 4]."""
-    pose = np.eye(4)
-    pose[:3, :3] = np.stack([np.cross(fingers, ahead), fingers, ahead], axis=1)
-    pose[:3, 3] = position
-    return pose
+    return rigid(np.stack([np.cross(fingers, ahead), fingers, ahead], axis=1), position)

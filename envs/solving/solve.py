@@ -7,8 +7,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.sim_checks.processes.isolation import (
     Failure,
@@ -181,30 +179,14 @@ def _try(
     environment: Any, blank: Attempt, avoided: frozenset[tuple[object, ...]]
 ) -> tuple[Attempt, tuple[tuple[object, ...], ...]]:
     """Return one episode, and the grips it took."""
-    from .driving import Driver, sustained
+    from .driving import Driver
     from .strategy import act
     from .world import read_world
 
     environment.reset(seed=blank.seed, options=dict(blank.options))
     task = environment.unwrapped
     driver = Driver(environment, read_world(task), STEPS)
-    course = act(driver, blank.seed, avoided)
-    touched = [force for force in driver.forces if force > 0.0]
-    actions = np.array(driver.actions, dtype=np.float32)
-    attempt = replace(
-        blank,
-        digest=task.asset_record.digest,
-        solved=driver.solved,
-        reason=course.reason,
-        message=course.message,
-        open_fraction=driver.opened,
-        peak_force=sustained(driver.forces),
-        mean_force=float(np.mean(touched)) if touched else 0.0,
-        target=course.target,
-        kinds=course.kinds,
-        actions=actions.reshape(-1, *environment.action_space.shape),
-    )
-    return attempt, course.used
+    return act(driver, replace(blank, digest=task.asset_record.digest), avoided)
 
 
 def _nothing(task: SolveTask) -> Attempt:

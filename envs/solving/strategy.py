@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Set
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..assets import FloatArray
+from .attempt import Attempt
 from .driving import OVERLOAD, Driver, Stopped, sustained
 from .grips import drags, grasps, pushes, unobstructed
 from .planning import ArmPlan, plans
@@ -23,28 +24,16 @@ MOVED = 0.02
 Key = tuple[object, ...]
 
 
-@dataclass(frozen=True)
-class EpisodeCourse:
-    """How an episode went.
-
-    Attributes:
-        reason: why it ended without success; empty for solved ones and those that ran out of steps.
-        message: a sentence about that.
-        used: the grips, as ``(stage, kind, label)``, so that another try takes others.
-        kinds, target: of them, see :class:`~asset_factory.envs.solving.attempt.Attempt`.
-    """
-
-    reason: str
-    message: str
-    used: tuple[Key, ...]
-    kinds: tuple[str, ...]
-    target: int
-
-
-def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> EpisodeCourse:
+def act(driver: Driver, blank: Attempt, avoided: frozenset[Key]) -> tuple[Attempt, tuple[Key, ...]]:
     """Act in an episode that has just begun until it is solved or nothing is left to try.
 
-    Grips of earlier tries are avoided.
+    Args:
+        driver: of the episode.
+        blank: names the joint, the robot and the seed.
+        avoided: grips of earlier tries.
+
+    Returns:
+        The attempt, and its grips as ``(stage, kind, label)``, so that another try takes others.
     """
     used: list[Key] = []
     kinds: list[str] = []
@@ -52,12 +41,13 @@ def act(driver: Driver, seed: int, avoided: frozenset[Key]) -> EpisodeCourse:
     target = -1
     begun = driver.share()
 
-    def ended(reason: str, message: str) -> EpisodeCourse:
-        return EpisodeCourse(reason, message, tuple(used), tuple(kinds), target)
+    def ended(reason: str, message: str) -> tuple[Attempt, tuple[Key, ...]]:
+        why = replace(blank, reason=reason, message=message, kinds=tuple(kinds), target=target)
+        return replace(why, **driver.measured()), tuple(used)
 
     try:
         for stage in range(STAGES):
-            found = _best(driver, seed, stage, avoided | useless)
+            found = _best(driver, blank.seed, stage, avoided | useless)
             if isinstance(found, _Nothing):
                 if used and driver.share() < MOVED:
                     break

@@ -171,7 +171,7 @@ def read_world(task: Any) -> RobotWorld:
     return RobotWorld(
         robot=robot,
         chain=chain,
-        root=_matrix(arm.pose),
+        root=matrix_of(arm.pose),
         tip=links.index(robot.tip),
         free=free,
         grippers=tuple(degrees[name] for name in robot.finger_joints),
@@ -179,7 +179,7 @@ def read_world(task: Any) -> RobotWorld:
         palm=links.index(robot.palm),
         balls=robot_balls(arm, fingers).of(moving),
         object_chain=object_chain,
-        object_root=_matrix(thing.pose),
+        object_root=matrix_of(thing.pose),
         pieces=object_pieces(thing),
         joint=joint,
         degree=[other.name for other in part.active_joints].index(joint.name),
@@ -199,5 +199,6 @@ def read_targets(
     return tuple(sorted(found, key=lambda target: -target.stated.score))
 
 
-def _matrix(pose: Any) -> FloatArray:
+def matrix_of(pose: Any) -> FloatArray:
+    """Return a pose of SAPIEN's, shape [4, 4]."""
     return np.asarray(pose.to_transformation_matrix(), dtype=float)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 from asset_factory.factory.errors import ConfigError
 
@@ -91,7 +92,7 @@ def choose_renderer(
     Raises:
         ConfigError: pictures are wanted and ``render_backend`` is ``none``.
     """
-    pictures = wants_pictures(obs_mode, render_mode)
+    pictures = obs_mode not in BLIND_MODES or render_mode is not None
     if render_backend == "auto":
         return "gpu" if pictures else "none"
     if render_backend in (None, "none"):
@@ -103,19 +104,22 @@ def choose_renderer(
     return str(render_backend)
 
 
-def wants_pictures(obs_mode: str, render_mode: str | None) -> bool:
-    """Return whether an environment has to be able to render."""
-    return obs_mode not in BLIND_MODES or render_mode is not None
-
-
-def no_renderer(task: str, obs_mode: str, render_mode: str | None, error: Exception) -> ConfigError:
-    """Return what to raise where SAPIEN found nothing to render with."""
-    return ConfigError(
-        f"{task}: {_picture_words(obs_mode, render_mode)} needs Vulkan, "
-        f"and none was found ({error}); install a GPU driver, or Mesa's software Vulkan "
-        "(mesa-vulkan-drivers 25 or newer, and libvulkan1); "
-        f"obs_mode {BLIND_MODES[0]!r} without render_mode works without"
-    )
+@contextmanager
+def needing_renderer(
+    task: str, obs_mode: str, render_mode: str | None, backend: str
+) -> Iterator[None]:
+    """Raise ConfigError where SAPIEN finds nothing to render with, and is asked to."""
+    try:
+        yield
+    except RuntimeError as error:
+        if backend == "none" or not any(sign in str(error) for sign in NO_RENDERER_SIGNS):
+            raise
+        raise ConfigError(
+            f"{task}: {_picture_words(obs_mode, render_mode)} needs Vulkan, "
+            f"and none was found ({error}); install a GPU driver, or Mesa's software Vulkan "
+            "(mesa-vulkan-drivers 25 or newer, and libvulkan1); "
+            f"obs_mode {BLIND_MODES[0]!r} without render_mode works without"
+        ) from error
 
 
 def _picture_words(obs_mode: str, render_mode: str | None) -> str:

@@ -108,7 +108,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         self.assets: tuple[RegisteredAsset, ...] = ()
         if reconfiguration_freq is None:
             reconfiguration_freq = 0 if len(self._assets) == 1 or num_envs > 1 else 1
-        try:
+        with arguments.needing_renderer(task, obs_mode, render_mode, backend):
             super().__init__(
                 *args,
                 robot_uids=robot_uids,
@@ -120,11 +120,6 @@ class JointScene(BaseEnv):  # type: ignore[misc]
                 render_backend=backend,
                 **kwargs,
             )
-        except RuntimeError as error:
-            signs = any(sign in str(error) for sign in arguments.NO_RENDERER_SIGNS)
-            if signs and backend != "none":
-                raise arguments.no_renderer(task, obs_mode, render_mode, error) from error
-            raise
 
     # Which asset, which joint.
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import tyro
 
@@ -34,8 +34,6 @@ from .report import report_after
 if TYPE_CHECKING:
     from ..jobs.job import Job
     from ..report.summary import Summary
-
-EXECUTORS = ("local", "ray")
 
 
 @dataclass(frozen=True)
@@ -72,8 +70,8 @@ class Build:
     """Build again what was rejected or could not be validated for these reasons; 'any': for any."""
     repair: bool = False
     """Verify the files of known assets, and build damaged ones again."""
-    executor: str = "local"
-    """Where workers run: local, or ray."""
+    executor: Literal["local", "ray"] = "local"
+    """Where workers run: on this machine, or on a Ray cluster."""
     ray_address: str = "local"
     """With --executor ray: 'auto' or host:port of a cluster that runs; 'local' starts one."""
     ray_exchange: str = ""
@@ -198,9 +196,6 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
     from ..jobs.memory import BUILD_BYTES, workers_for
 
     config = build_config(command)
-    if command.executor not in EXECUTORS:
-        known = ", ".join(EXECUTORS)
-        raise ConfigError(f"--executor: no executor {command.executor!r}; there are {known}")
     if command.executor != "ray" and (command.ray_address != "local" or command.ray_exchange):
         raise ConfigError("--ray-address and --ray-exchange want --executor ray")
     workers = command.workers
@@ -216,8 +211,7 @@ def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
         executor = LocalExecutor(workers or 1, config.retries)
     max_s = None if command.max_hours is None else 3600.0 * command.max_hours
     budget = Budget(command.limit, max_s, command.retry_rejected, command.repair)
-    here = command.executor == "local"
-    return Job(inputs, command.output, config, executor, budget, one_network=here)
+    return Job(inputs, command.output, config, executor, budget)
 
 
 def build_config(command: Build) -> BuildConfig:

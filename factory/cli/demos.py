@@ -17,10 +17,14 @@ if TYPE_CHECKING:
     from asset_factory.envs.demos.episodes import Settings
 
 #: Control modes that joint targets can be converted to, and the solver's own.
-CONTROL_MODES = (
-    *("pd_joint_pos", "pd_joint_delta_pos", "pd_joint_target_delta_pos"),
-    *("pd_ee_delta_pose", "pd_ee_target_delta_pose", "pd_ee_pose"),
-)
+ControlMode = Literal[
+    "pd_joint_pos",
+    "pd_joint_delta_pos",
+    "pd_joint_target_delta_pos",
+    "pd_ee_delta_pose",
+    "pd_ee_target_delta_pose",
+    "pd_ee_pose",
+]
 
 
 @dataclass(frozen=True)
@@ -65,7 +69,7 @@ class Demos:
     """Longest that one episode may take [s]."""
     obs_mode: str = "state"
     """What is observed, as in `gymnasium.make`; none for the simulation's actions and states."""
-    control_mode: str = "pd_joint_pos"
+    control_mode: ControlMode = "pd_joint_pos"
     """What actions say; the solver's own is pd_joint_pos, from which they are converted."""
     keep_failures: bool = False
     """Keep the best try of a failed episode as a trajectory with success false."""
@@ -106,9 +110,6 @@ def _settings(command: Demos) -> Settings:
     from asset_factory.envs.demos.episodes import Settings
 
     check_effort(command, ("per_joint", "shard_size", "workers", "tries"))
-    if command.control_mode not in CONTROL_MODES:
-        known = ", ".join(CONTROL_MODES)
-        raise ConfigError(f"--control-mode: no {command.control_mode!r}; want one of {known}")
     if command.robot == "fetch" and command.control_mode == "pd_ee_pose":
         raise ConfigError("--control-mode: Fetch has no 'pd_ee_pose'; want pd_ee_delta_pose")
     require_maniskill("demonstrations want", "h5py")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rich.filesize import decimal
 from rich.table import Table
 
 from ..errors import ConfigError, Exit
@@ -11,7 +12,6 @@ from ..registry import Registry
 from ..registry.cleaning import collect_garbage
 from ..runtime.terminal import Terminal, say
 from .flags import OfRegistry
-from .registry import size
 
 _GB = 1e9
 _DAY_S = 86_400.0
@@ -46,10 +46,10 @@ def run(command: Gc) -> int:
     table = Table("what", "files", "size")
     for name in ("staging", "unfinished", "cache"):
         removed = getattr(freed, name)
-        table.add_row(name, str(removed.files), size(removed.bytes))
+        table.add_row(name, str(removed.files), decimal(removed.bytes))
     Terminal().print(table)
-    say(f"freed {size(freed.bytes)}")
+    say(f"freed {decimal(freed.bytes)}")
     if freed.kept.files:
         smaller = "" if command.keep_gb is not None else "; --keep-gb 1 makes it smaller"
-        say(f"the cache holds {freed.kept.files} results, {size(freed.kept.bytes)}{smaller}")
+        say(f"the cache holds {freed.kept.files} results, {decimal(freed.kept.bytes)}{smaller}")
     return Exit.OK

@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from itertools import chain
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import tyro
+from rich.filesize import decimal
 from tyro.conf import Positional
 
 from ..errors import ConfigError, Exit
@@ -27,7 +28,6 @@ from .flags import AssetId, AssetIds, OfPassed, OfRegistry, Printed
 _GB = 1e9
 #: Lines of one kind that are shown before the rest is only counted.
 SHOWN = 50
-_UNITS = ("B", "kB", "MB", "GB", "TB")
 
 
 def _retag(output: Path, asset_id: str, change: Callable[[set[str]], set[str]]) -> int:
@@ -101,16 +101,13 @@ class Difference(Printed):
 class Handing(OfPassed):
     """Assets to hand on, and how they are laid out."""
 
-    layout: str = "plain"
-    """plain, or huggingface: with the tables and the front matter that its hub shows."""
+    layout: Literal["plain", "huggingface"] = "plain"
+    """How they are laid out; huggingface: with the tables and front matter that its hub shows."""
 
     def files(self) -> Iterator[tuple[str, bytes]]:
-        """Yield paths and contents. Raises ConfigError: no such layout, or none of the assets."""
-        from ..registry.export import LAYOUTS, contents
+        """Yield paths and contents. Raises ConfigError: there are none of the assets."""
+        from ..registry.export import contents
 
-        if self.layout not in LAYOUTS:
-            known = ", ".join(LAYOUTS)
-            raise ConfigError(f"--layout: no layout {self.layout!r}; there are {known}")
         entries = self.entries()
         first = next(entries, None)
         if first is None:
@@ -131,7 +128,7 @@ class Export(Handing):
         from ..registry.export import write_export
 
         written = write_export(self.files(), self.target)
-        say(f"{shown(self.target)}: {written.files} files, {size(written.bytes)}")
+        say(f"{shown(self.target)}: {written.files} files, {decimal(written.bytes)}")
         return Exit.OK
 
 
@@ -157,7 +154,7 @@ class Sync(Handing):
             want = "want e.g. s3://bucket/assets or file:///copy"
             raise ConfigError(f"{self.url}: is no URL, {want}")
         synced = sync(files, self.url)
-        sent = f"{synced.sent} sent ({size(synced.bytes)}), {synced.removed} removed"
+        sent = f"{synced.sent} sent ({decimal(synced.bytes)}), {synced.removed} removed"
         say(f"{shown(self.url)}: {synced.files} files, {sent}")
         return Exit.OK
 
@@ -260,15 +257,6 @@ class RegistryCommand:
 def run(command: RegistryCommand) -> int:
     """Do one of them; returns the exit code."""
     return command.action.run()
-
-
-def size(number: float) -> str:
-    """Return a number of bytes as people say it."""
-    unit = 0
-    while number >= 1000 and unit < len(_UNITS) - 1:
-        number = number / 1000
-        unit = unit + 1
-    return f"{number:.3g} {_UNITS[unit]}"
 
 
 def print_diff(diff: Diff) -> None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
-from ..errors import ConfigError, Exit, RegistryError
+from ..errors import Exit, RegistryError
 from ..runtime.layout import SOLVING
 from ..runtime.terminal import complain, say
 from .flags import AssetIds, check_effort, require_maniskill
@@ -38,8 +38,8 @@ class Solve:
     """The registry's folder."""
     joint: str | None = None
     """Only this joint of each."""
-    robot: str = "any"
-    """panda, fetch, or any: Fetch tries what Panda could not open."""
+    robot: Literal["panda", "fetch", "any"] = "any"
+    """Who tries; of any, Fetch tries what Panda could not open."""
     workers: int = 1
     """Joints tried at once."""
     seed: int = 0
@@ -106,9 +106,6 @@ def run(command: Solve) -> int:
 def _require_sound(command: Solve) -> None:
     from ..report.pages import require_libraries
 
-    if command.robot not in (*ROBOTS, "any"):
-        known = ", ".join((*ROBOTS, "any"))
-        raise ConfigError(f"--robot: no robot {command.robot!r}; want one of {known}")
     check_effort(command, ("workers", "tries"))
     require_maniskill("solving wants")
     if command.video:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import warnings
+from collections.abc import Callable
 
 from PIL import Image
 
@@ -48,6 +49,26 @@ def load_texture(data: bytes, name: str, files: InputFiles) -> Texture | None:
             raise InputRejected("too_large", f"texture {name}: does not fit into memory") from error
         except Exception:  # noqa: BLE001 - a picture from anybody: its decoders raise whatever they trip over
             return None
+
+
+def read_texture(
+    name: str, read: Callable[[], bytes], files: InputFiles, notes: list[str]
+) -> Texture | None:
+    """Return :func:`load_texture` of the image that ``read`` gives, or is missing; notes if none.
+
+    Raises:
+        InputRejected: as ``read`` and :func:`load_texture` do.
+    """
+    try:
+        data = read()
+    except FileNotFoundError:
+        notes.append(f"The texture {name} is missing; a plain colour was used.")
+        return None
+    texture = load_texture(data, name, files)
+    if texture is None:
+        broken = f"The texture {name} ({len(data)} bytes) cannot be decoded"
+        notes.append(f"{broken}; a plain colour was used.")
+    return texture
 
 
 def encode_png(image: Image.Image) -> bytes:

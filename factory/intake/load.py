@@ -5,13 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from asset_factory.sim_checks.read.usd.layers import SUFFIXES as USD_SUFFIXES
-from asset_factory.sim_checks.read.usd.layers import is_usd
 from asset_factory.sim_checks.read.xacro import SUFFIX as XACRO
 
 from ..config import IntakeConfig
 from ..runtime.keys import Stage
 from .importers.load import load_description
-from .importers.usd import load_usd
 from .intake import Intake
 from .loading import load_mesh
 from .reads import ReadLog
@@ -34,8 +32,6 @@ def load(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake
     Raises:
         InputRejected: with a reason code.
     """
-    if is_usd(path):
-        return load_usd(path, config, log)
     if path.suffix.lower() in DESCRIPTION_SUFFIXES:
         return load_description(path, config, log)
     return load_mesh(path, config, log)

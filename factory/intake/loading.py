@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,16 +12,17 @@ from asset_factory.sim_checks.read.document import inside
 from ..config import IntakeConfig
 from ..errors import InputRejected
 from ..geometry.clean import Cleaned, clean
-from ..geometry.soup import Soup
+from ..mesh import FloatArray
 from .categories import category_of
 from .files import InputFiles
-from .formats.catalog import FORMATS, Reader, format_of
+from .formats.catalog import FORMATS, format_of
 from .intake import Intake, Provenance
 from .licenses import require_allowed
-from .limits import require_sensible_size, unreadable
+from .limits import require_sensible_size
 from .naming import safe_name, well_formed
 from .orientation import rotation_to_z_up
 from .reads import ReadLog
+from .rejecting import rejecting
 from .sidecar import Sidecar, read_sidecar
 from .sizes import check_config, given_scale, given_up, scale_by_size, scale_of_unit_cube
 from .stated import read_stated
@@ -86,34 +86,24 @@ def load_mesh(
     license = sidecar.license or visual.license
     require_allowed(path.name, license, config.allowed_licenses, files.digest)
     notes = list(visual.notes)
-    form = format_of(path)
-    said = ("y", "format") if form is not None and form.y_up else ("z", "default")
-    up, up_source = given_up(config, sidecar) or said
-    if up_source == "default":
-        notes.append(f"The up axis was taken to be {up}: {path.suffix.lower()} does not say.")
-    transform = np.eye(4)
-    transform[:3, :3] = rotation_to_z_up(up)
-    mesh = visual.mesh if up == "z" else visual.mesh.transformed(transform)
+    up, up_source = _choose_up(path, config, sidecar, notes)
+    rotation = rotation_to_z_up(up)
+    extents = np.abs(rotation) @ visual.mesh.extents
     category = _choose_category(path, sidecar, notes)
     scale = (
-        given_scale(mesh.extents, config, sidecar, path.name)
-        or scale_of_unit_cube(mesh.extents, category)
-        or scale_by_size(mesh.extents, category)
+        given_scale(extents, config, sidecar, path.name)
+        or scale_of_unit_cube(extents, category)
+        or scale_by_size(extents, category)
     )
-    if scale.note:
-        notes.append(scale.note)
-    doubted = up_source == "format" and not scale.plausible
-    if doubted and scale_by_size(visual.mesh.extents, category).plausible:
-        height = f"its height would be {visual.mesh.extents[2]:.4g}, a plausible size"
-        advice = "if the file breaks glTF's rule that y is up, set up to z."
-        notes.append(f"With the input's z axis up {height}: {advice}")
-    require_sensible_size(path.name, mesh.bounds * scale.factor)
-    if scale.factor != 1.0:
-        transform[:3, :3] *= scale.factor
-        mesh = mesh.transformed(np.diag([scale.factor] * 3 + [1.0]))
+    notes += [scale.note] if scale.note else []
+    if up_source == "format" and not scale.plausible:
+        notes += _doubts(visual.mesh.extents, category)
+    require_sensible_size(path.name, visual.mesh.bounds * scale.factor)
+    transform = np.eye(4)
+    transform[:3, :3] = scale.factor * rotation
     return Intake(
         name=safe_name(path),
-        mesh=mesh,
+        mesh=visual.mesh.transformed(transform),
         source_faces=visual.source_faces,
         transform=transform,
         provenance=Provenance(
@@ -141,7 +131,11 @@ def _load(path: Path, files: InputFiles) -> Visual:
     if form is None:
         known = ", ".join(each.suffix for each in FORMATS)
         raise InputRejected("unsupported", f"{path.name}: want one of {known}")
-    soup = _read(form.read, path, files)
+    with rejecting(path.name, path.parent, files.log), np.errstate(all="ignore"):
+        data = files.read(path)
+        if not data:
+            raise InputRejected("empty", f"{path.name}: has 0 bytes", value=0.0, unit="bytes")
+        soup = form.read(data, path, files)
     return Visual(
         **vars(clean(soup, path.name)),
         source_face_count=len(soup.corners),
@@ -158,29 +152,25 @@ def _few(notes: tuple[str, ...]) -> tuple[str, ...]:
     return (*short, f"{more} more notes of this kind.") if more else short
 
 
-def _read(reader: Reader, path: Path, files: InputFiles) -> Soup:
-    """Run a reader on a file from anybody: whatever it trips over is a fault of the file."""
-    try:
-        data = files.read(path)
-        if not data:
-            raise InputRejected("empty", f"{path.name}: has 0 bytes", value=0.0, unit="bytes")
-        with np.errstate(all="ignore"):
-            return reader(data, path, files)
-    except InputRejected:
-        raise
-    except MemoryError as error:
-        raise InputRejected("too_large", f"{path.name}: does not fit into memory") from error
-    except Exception as error:
-        raise unreadable(path.name, _said(error)) from error
+def _choose_up(
+    path: Path, config: IntakeConfig, sidecar: Sidecar, notes: list[str]
+) -> tuple[str, str]:
+    """Return the axis up and who says so; a note where nobody does."""
+    form = format_of(path)
+    said = ("y", "format") if form is not None and form.y_up else ("z", "default")
+    up, source = given_up(config, sidecar) or said
+    if source == "default":
+        notes.append(f"The up axis was taken to be {up}: {path.suffix.lower()} does not say.")
+    return up, source
 
 
-def _said(error: Exception) -> str:
-    """Return an error in words for a report, which holds no path of this machine."""
-    if isinstance(error, OSError) and error.strerror:
-        return error.strerror
-    if isinstance(error, json.JSONDecodeError):
-        return f"its JSON is broken at character {error.pos}: {error.msg}"
-    return f"{type(error).__name__}: {error}"
+def _doubts(extents: FloatArray, category: str | None) -> list[str]:
+    """Return a note where the size is plausible with the input's z axis up."""
+    if not scale_by_size(extents, category).plausible:
+        return []
+    height = f"its height would be {extents[2]:.4g}, a plausible size"
+    advice = "if the file breaks glTF's rule that y is up, set up to z."
+    return [f"With the input's z axis up {height}: {advice}"]
 
 
 def _choose_category(path: Path, sidecar: Sidecar, notes: list[str]) -> str | None:

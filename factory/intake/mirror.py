@@ -84,17 +84,13 @@ def _fetch(url: str, mirror: Path) -> None:
         (folder / _FETCHED).open("a", encoding="utf-8", buffering=1) as journal,
         ThreadPoolExecutor(AT_ONCE, thread_name_prefix="fetch") as pool,
     ):
-        copies = [
-            pool.submit(_copy, system, f"{root}/{name}", folder / name, wanted[name][0])
-            for name in missing
-        ]
-        try:
-            for name, copy in zip(missing, copies, strict=True):
-                copy.result()
-                journal.write(json.dumps([name, *wanted[name]]) + "\n")
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+
+        def copy(name: str) -> None:
+            _copy(system, f"{root}/{name}", folder / name, wanted[name][0])
+
+        # Where one fails, those after it are not begun.
+        for name, _ in zip(missing, pool.map(copy, missing), strict=True):
+            journal.write(json.dumps([name, *wanted[name]]) + "\n")
     if not single:
         _drop_others(folder, frozenset(wanted))
 

@@ -47,7 +47,8 @@ def rejecting(name: str, folder: Path, log: ReadLog | None = None) -> Iterator[N
     except MemoryError as error:
         raise InputRejected("too_large", f"{name}: does not fit into memory") from error
     except Exception as error:
-        words = str(error).replace(str(folder.resolve()), "")
+        said = error.strerror if isinstance(error, OSError) else None
+        words = said or str(error).replace(str(folder.resolve()), "")
         raise unreadable(name, f"{type(error).__name__}: {words}") from error
 
 

@@ -74,9 +74,9 @@ class Job:
     """One run over some inputs. The same job again builds only missing ones.
 
     Args:
-        inputs: files, as :func:`~..mesh.find_inputs` lists them; each once.
+        inputs: files, as :func:`~..intake.discover.find_inputs` lists them; each once.
         output: the registry's folder; made if it is not there.
-        one_network: whether all workers ask one network, which takes an executor on this machine.
+        executor: of one on this machine all workers ask one network.
 
     Attributes:
         left: inputs not done, for want of time or because the limit was reached.
@@ -93,8 +93,6 @@ class Job:
         config: BuildConfig,
         executor: Executor,
         budget: Budget | None = None,
-        *,
-        one_network: bool = True,
     ) -> None:
         if asks_network(inputs, config):
             require_torch()
@@ -102,8 +100,8 @@ class Job:
         self._output = output.absolute()
         self._config = config
         self._executor = executor
+        self._local = executor if isinstance(executor, LocalExecutor) else None
         self._budget = budget or Budget()
-        self._one_network = one_network
         self._registry = Registry(self._output, create=True)
         self._known_reads = KnownReads(output / CACHE / "inputs", config)
         self._begun: dict[str, _Begun] = {}
@@ -135,8 +133,7 @@ class Job:
 
     def under_way(self) -> tuple[UnderWay, ...]:
         """Return what workers on this machine are at; from any thread."""
-        executor = self._executor
-        return executor.under_way() if isinstance(executor, LocalExecutor) else ()
+        return () if self._local is None else self._local.under_way()
 
     def _run(self) -> Iterator[Result]:
         self._until = None if self._budget.max_s is None else time.monotonic() + self._budget.max_s
@@ -201,7 +198,7 @@ class Job:
     def _network(self, waiting: Sequence[Probe], stack: ExitStack) -> Address | None:
         """Return one network for all workers, if one of the inputs may ask it."""
         asks = asks_network([probe.source for probe in waiting], self._config)
-        if not (asks and self._one_network):
+        if self._local is None or not asks:
             return None
         return stack.enter_context(ModelService(self._config.particulate)).address
 
@@ -209,7 +206,6 @@ class Job:
         self, waiting: list[Probe], staging: Path, network: Callable[[], Address | None]
     ) -> Iterator[Call]:
         """Yield what workers shall do, made as they ask for it."""
-        local = self._executor if isinstance(self._executor, LocalExecutor) else None
         for number, seen in enumerate(waiting):
             held = claim(self._output / CLAIMS, seen.claim)
             if held is None:
@@ -239,7 +235,7 @@ class Job:
                 "config": self._config,
                 "cache": self._output / CACHE,
                 "address": network(),
-                "engines": 1 if local is None else local.engines,
+                "engines": 1 if self._local is None else self._local.engines,
             }
             yield Call(str(probe.source), arguments, until, lambda: not self._winding_up)
 

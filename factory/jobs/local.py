@@ -6,12 +6,12 @@ import math
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from itertools import islice
 from queue import SimpleQueue
 from threading import Event, get_ident
-from typing import Any, Generic, TypeVar
+from typing import TypeVar
 
 from asset_factory.sim_checks.processes.isolation import (
     Failure,
@@ -32,25 +32,25 @@ CALLS = 50
 RESIDENT_BYTES = 2 * 1024**3
 
 
-@dataclass(frozen=True)
 class LocalExecutor:
-    """Worker processes on this machine, kept from call to call.
+    """Worker processes on this machine, kept from call to call; threads each look after one.
 
-    Attributes:
+    Args:
         workers: calls under way at once.
         retries: further tries of a call that crashed, hung or ran out of memory, each in a new
             process.
         calls: after so many a worker is replaced.
     """
 
-    workers: int
-    retries: int = 1
-    calls: int = CALLS
-    _pools: list[_WorkerPool[Any]] = field(default_factory=list, compare=False, repr=False)
+    def __init__(self, workers: int, retries: int = 1, calls: int = CALLS) -> None:
+        self.workers = workers
+        self._retries = retries
+        self._calls = calls
+        self._making: dict[WarmChild, str] = {}
 
     def under_way(self) -> tuple[UnderWay, ...]:
         """Return the calls that are being made now; from any thread."""
-        return tuple(each for pool in self._pools for each in pool.under_way())
+        return tuple(UnderWay(name, child.place) for child, name in [*self._making.items()])
 
     @property
     def engines(self) -> int:
@@ -61,79 +61,47 @@ class LocalExecutor:
         self, function: Callable[..., T], calls: Iterable[Call], limits: Limits
     ) -> Iterator[tuple[Call, Outcome[T]]]:
         """Make every call as :class:`~.executor.Executor` promises."""
-        pool: _WorkerPool[T] = _WorkerPool(self, function, limits)
-        self._pools[:] = [pool]
+        children: dict[int, WarmChild] = {}
+        done: SimpleQueue[Future[tuple[Call, Outcome[T]]]] = SimpleQueue()
+        dismissed = Event()
+
+        def begin() -> None:
+            children[get_ident()] = WarmChild(self._calls, RESIDENT_BYTES)
+
+        def answered(call: Call) -> tuple[Call, Outcome[T]]:
+            child = children[get_ident()]
+            self._making[child] = call.name
+            outcome = tried(
+                child,
+                partial(function, **call.arguments),
+                limits,
+                retries=self._retries,
+                until=call.until,
+                wanted=lambda: call.wanted() and not dismissed.is_set(),
+            )
+            del self._making[child]
+            return call, outcome
+
+        threads = ThreadPoolExecutor(self.workers, "build", begin)
         waiting = iter(calls)
         under_way = 0
         try:
             while True:
                 for call in islice(waiting, AHEAD * self.workers - under_way):
-                    pool.ask(call)
+                    threads.submit(answered, call).add_done_callback(done.put)
                     under_way += 1
                 if not under_way:
                     return
-                answered = pool.answer()
+                outcome = done.get().result()
                 under_way -= 1
-                yield answered
+                yield outcome
         finally:
-            self._pools.clear()
-            pool.dismiss()
-
-
-class _WorkerPool(Generic[T]):
-    """Threads that each look after one warm child."""
-
-    def __init__(self, executor: LocalExecutor, function: Callable[..., T], limits: Limits) -> None:
-        self._executor = executor
-        self._function = function
-        self._limits = limits
-        self._threads = ThreadPoolExecutor(executor.workers, "build", self._begin)
-        self._done: SimpleQueue[Future[tuple[Call, Outcome[T]]]] = SimpleQueue()
-        self._dismissed = Event()
-        self._children: dict[int, WarmChild] = {}
-        self._making: dict[WarmChild, str] = {}
-
-    def ask(self, call: Call) -> None:
-        self._threads.submit(self._answered, call).add_done_callback(self._done.put)
-
-    def answer(self) -> tuple[Call, Outcome[T]]:
-        return self._done.get().result()
-
-    def dismiss(self) -> None:
-        """End all workers at once; running tasks are lost."""
-        self._dismissed.set()
-        for child in [*self._children.values()]:
-            child.abandon()
-        self._threads.shutdown(cancel_futures=True)
-        for child in self._children.values():
-            child.close()
-
-    def under_way(self) -> Iterator[UnderWay]:
-        """Yield the calls that are being made."""
-        for child, name in [*self._making.items()]:
-            yield UnderWay(name, child.place)
-
-    def _begin(self) -> None:
-        """Give a new thread its child."""
-        child = WarmChild(self._executor.calls, RESIDENT_BYTES)
-        self._children[get_ident()] = child
-
-    def _answered(self, call: Call) -> tuple[Call, Outcome[T]]:
-        def wanted() -> bool:
-            return call.wanted() and not self._dismissed.is_set()
-
-        child = self._children[get_ident()]
-        self._making[child] = call.name
-        outcome = tried(
-            child,
-            partial(self._function, **call.arguments),
-            self._limits,
-            retries=self._executor.retries,
-            until=call.until,
-            wanted=wanted,
-        )
-        del self._making[child]
-        return call, outcome
+            dismissed.set()
+            for child in [*children.values()]:
+                child.abandon()
+            threads.shutdown(cancel_futures=True)
+            for child in children.values():
+                child.close()
 
 
 def tried(

@@ -10,7 +10,7 @@ from asset_factory.sim_checks import Status
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, REJECTED, REPORT
 from .entry import entry_from, is_id
-from .notes import read_note
+from .notes import note_path, read_note
 from .report_file import read_report
 from .rows import RegistryRow
 
@@ -30,8 +30,7 @@ def current_folder(root: Path, asset_id: str) -> Path:
     """Return where an asset lies: with those that passed, or with the others.
 
     It lies in both only if a process died between putting it in one and taking it out of the other:
-        the newer counts,
-    and in doubt the rejection.
+    the newer counts, and in doubt the rejection.
     """
     passed, rejected = (root / place / asset_id for place in (ASSETS, REJECTED))
     if not rejected.is_dir():
@@ -39,8 +38,8 @@ def current_folder(root: Path, asset_id: str) -> Path:
     return passed if _written(passed) > _written(rejected) else rejected
 
 
-def read_record(folder: Path, note: Path) -> RegistryRow:
-    """Return the row of one folder.
+def read_record(folder: Path) -> RegistryRow:
+    """Return the row of one asset's folder, in a registry or an export, with its note.
 
     Raises:
         RegistryError: its report cannot be read, or is of another asset or place.
@@ -48,7 +47,7 @@ def read_record(folder: Path, note: Path) -> RegistryRow:
     stored = read_report(folder)
     try:
         files = stored.files
-        noted = read_note(note)
+        noted = read_note(note_path(folder.parents[1], folder.name))
         entry = entry_from(stored.entry, tags=noted.tags, solved=noted.solved_with(files))
         gpu_ready = stored.gpu_ready
     except (ValueError, KeyError, TypeError, AttributeError) as error:

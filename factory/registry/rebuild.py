@@ -26,7 +26,6 @@ from .database import (
     writing,
 )
 from .folders import all_ids, current_folder, read_record
-from .notes import note_path
 from .placing import remove, sync_tree
 from .rows import delete, insert, select
 
@@ -175,7 +174,7 @@ def _write_rows(connection: sqlite3.Connection, root: Path, ids: Sequence[str]) 
     unreadable = []
     for asset_id in ids:
         try:
-            found = read_record(current_folder(root, asset_id), note_path(root, asset_id))
+            found = read_record(current_folder(root, asset_id))
         except RegistryError as error:
             delete(connection, asset_id)
             unreadable.append(str(error))

@@ -103,7 +103,7 @@ class Registry:
                 # always there.
                 if other.exists() or not _same(content, folder, files):
                     place(content, folder)
-                rows.insert(connection, (read_record(folder, note_path(self.root, entry.id)),))
+                rows.insert(connection, (read_record(folder),))
             remove(content)
             if other.exists():
                 os.rename(other, staging / "other")
@@ -138,7 +138,7 @@ class Registry:
                 tried = fingerprint(read_report(folder).files) if solved else ""
                 noted = replace(noted, solved=solved, solved_files=tried)
             write_note(path, noted)
-            record = read_record(folder, path)
+            record = read_record(folder)
             rows.insert(connection, (record,))
         return record.entry
 

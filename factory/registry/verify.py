@@ -16,7 +16,6 @@ from . import rows
 from .aside import set_aside, set_asset_aside
 from .database import connected, writing
 from .folders import all_ids, current_folder, read_record
-from .notes import note_path
 from .rebuild import write_rows
 from .registry import Registry
 from .report_file import file_digests, read_report
@@ -127,7 +126,7 @@ def _problems(registry: Registry, asset_id: str) -> Iterator[Problem]:
     yield from _problems_of_files(folder, where, digest)
     if entry is not None:
         try:
-            told = read_record(folder, note_path(root, asset_id)).entry
+            told = read_record(folder).entry
         except RegistryError as error:
             yield Problem(asset_id, ProblemKind.UNREADABLE, f"{where}/{REPORT}", str(error))
             return

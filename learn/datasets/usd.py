@@ -45,10 +45,10 @@ def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:
             ``empty``, ``not_a_tree``, ``unsupported_joint``, ``no_limits``, ``bad_axis``,
             ``no_movable_joint``.
     """
-    limits = (settings.max_bytes, settings.max_faces)
-    mesh, annotation, transform = read_annotated(item.main, item.folder, *limits)
-    articulator = AnnotatedArticulator(annotation, transform, np.arange(len(mesh.faces)))
-    articulation = articulator.articulate(mesh)
+    found = read_annotated(item.main, item.folder, settings.max_bytes, settings.max_faces)
+    mesh = found.mesh
+    told = (found.annotation, found.frame, np.arange(len(mesh.faces)))
+    articulation = AnnotatedArticulator(*told).articulate(mesh)
     if not articulation.movable_joints:
         message = f"{item.name}: nothing moves; want a joint to learn from"
         raise InputRejected("no_movable_joint", message, value=0.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -159,21 +160,26 @@ def build_tree(description: Description) -> Tree:
         NotATree: with the links at fault.
     """
     names = [link.name for link in description.links]
-    children = [joint.child for joint in description.joints]
-    known = set(names)
-    strangers = {end for joint in description.joints for end in (joint.parent, joint.child)} - known
-    if strangers:
-        raise NotATree(f"joints name links that are not there: {', '.join(sorted(strangers))}")
-    if len(known) != len(names):
-        raise NotATree(f"{len(names) - len(known)} link names are used twice")
-    if len(set(children)) != len(children):
-        raise NotATree("a link is the child of two joints")
-    roots = [name for name in names if name not in set(children)]
+    ends = {end for joint in description.joints for end in (joint.parent, joint.child)}
+    if strangers := sorted(ends - set(names)):
+        raise NotATree(f"joints name links that are not there: {_listed(strangers)}")
+    twice = [name for name, count in Counter(names).items() if count > 1]
+    if twice:
+        raise NotATree(f"{len(twice)} link names are used twice ({_listed(twice)})")
+    holders: dict[str, JointLine] = {}
+    for joint in description.joints:
+        other = holders.setdefault(joint.child, joint)
+        if other is not joint:
+            both = f"joints {other.name!r} and {joint.name!r}"
+            raise NotATree(f"link {joint.child!r} is the child of {both}, want one")
+    roots = [name for name in names if name not in holders]
     if len(roots) != 1:
-        raise NotATree(f"{len(roots)} root links ({', '.join(roots[:5])}), want 1")
+        raise NotATree(f"{len(roots)} root links ({_listed(roots)}), want 1")
     order = _parents_first(roots[0], description.joints)
-    if loop := len(description.joints) - len(order):
-        raise NotATree(f"{loop} joints form a loop apart from root {roots[0]!r}")
+    reached = {joint.child for joint in order}
+    loop = [joint.name for joint in description.joints if joint.child not in reached]
+    if loop:
+        raise NotATree(f"joints {_listed(loop)} form a loop apart from root {roots[0]!r}")
     moving = tuple(joint for joint in description.joints if joint.kind in MOVING_KINDS)
     return Tree(roots[0], order, moving, _parts(names, roots[0], order), sound_mimics(description))
 
@@ -192,6 +198,10 @@ def sound_mimics(description: Description) -> dict[str, Mimic]:
     """
     moving = {joint.name: joint.mimic for joint in description.joints if joint.kind in MOVING_KINDS}
     return sound_chains(moving)
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(map(repr, names[:5]))
 
 
 def _parents_first(root: str, joints: tuple[JointLine, ...]) -> tuple[JointLine, ...]:

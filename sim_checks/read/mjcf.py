@@ -102,8 +102,8 @@ class _Describer:
 
     def _shape(self, geom: CompiledGeom) -> DescribedShape | None:
         file = None
-        if geom.shape in _PRIMITIVES:
-            vertices, faces = _PRIMITIVES[geom.shape](geom.size)
+        if geom.shape in PRIMITIVES:
+            vertices, faces = PRIMITIVES[geom.shape](geom.size)
             name = geom.shape
         elif geom.shape == MESH:
             mesh = self._model.meshes[geom.mesh]
@@ -141,7 +141,7 @@ def _undo_reference(joint: CompiledJoint) -> FloatArray:
 
 
 #: Builders by MuJoCo's name of a shape; its sizes are half extents.
-_PRIMITIVES: dict[str, Callable[[FloatArray], tuple[FloatArray, IntArray]]] = {
+PRIMITIVES: dict[str, Callable[[FloatArray], tuple[FloatArray, IntArray]]] = {
     "box": lambda size: box(2.0 * size),
     "sphere": lambda size: ellipsoid(np.full(3, size[0])),
     "ellipsoid": ellipsoid,

@@ -26,8 +26,18 @@ def box(size: FloatArray) -> tuple[FloatArray, IntArray]:
 
 def cylinder(radius: float, length: float) -> tuple[FloatArray, IntArray]:
     """Return a cylinder along z, centred at the origin [m]."""
-    half = length / 2
-    return lathe(np.array([(0.0, -half), (radius, -half), (radius, half), (0.0, half)]), SEGMENTS)
+    turn = 2.0 * np.pi * np.arange(SEGMENTS) / SEGMENTS
+    ring = radius * np.column_stack([np.cos(turn), np.sin(turn), np.zeros(SEGMENTS)])
+    up = np.array([0.0, 0.0, length / 2])
+    vertices = np.vstack([-up, up, ring - up, ring + up])
+    low = 2 + np.arange(SEGMENTS)
+    next_low = np.roll(low, -1)
+    high = low + SEGMENTS
+    next_high = next_low + SEGMENTS
+    pole = np.zeros_like(low)
+    corners = (pole, next_low, low), (low, next_low, next_high), (low, next_high, high)
+    faces = [np.column_stack(each) for each in (*corners, (pole + 1, high, next_high))]
+    return vertices, np.vstack(faces).astype(np.int64)
 
 
 def capsule(radius: float, length: float) -> tuple[FloatArray, IntArray]:
@@ -79,24 +89,3 @@ def _hull(points: FloatArray) -> tuple[FloatArray, IntArray]:
 
     hull = convex_hull(points)
     return hull.vertices, hull.triangles
-
-
-def lathe(profile: FloatArray, segments: int) -> tuple[FloatArray, IntArray]:
-    """Turn pairs of radius and height [m], shape [pair_count, 2], around z, in so many steps.
-
-    They go from the lower pole to the upper one, both of radius 0, which are the first vertices.
-    """
-    turn = 2.0 * np.pi * np.arange(segments) / segments
-    ring = np.column_stack([np.cos(turn), np.sin(turn), np.ones(segments)])
-    rings = [ring * [r, r, z] for r, z in profile[1:-1]]
-    poles = np.array([[0.0, 0.0, profile[0, 1]], [0.0, 0.0, profile[-1, 1]]])
-    here = np.arange(segments)
-    following = (here + 1) % segments
-    faces = [np.column_stack([np.zeros(segments, int), 2 + following, 2 + here])]
-    for a in range(2, 2 + (len(rings) - 1) * segments, segments):
-        b = a + segments
-        faces.append(np.column_stack([a + here, a + following, b + following]))
-        faces.append(np.column_stack([a + here, b + following, b + here]))
-    last = 2 + (len(rings) - 1) * segments
-    faces.append(np.column_stack([np.ones(segments, int), last + here, last + following]))
-    return np.vstack([poles, *rings]), np.vstack(faces).astype(np.int64)

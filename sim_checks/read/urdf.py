@@ -29,7 +29,8 @@ from .urdf_elements import STRICT, TENSOR, number, read_mimic
 
 #: Of all shapes of one file together.
 MAX_TRIANGLES = 20_000_000
-_PRIMITIVES: dict[str, Callable[..., tuple[FloatArray, IntArray]]] = {
+#: Makers of shapes by their name, from sizes as a URDF states them [m].
+PRIMITIVES: dict[str, Callable[..., tuple[FloatArray, IntArray]]] = {
     "box": lambda *edges: box(np.array(edges)),
     "cylinder": cylinder,
     "capsule": capsule,
@@ -138,7 +139,7 @@ def _shape(element: ET.Element, link: str, shapes: _Shapes) -> DescribedShape:
         file = path.relative_to(shapes.folder).as_posix()
         name = path.name
     else:
-        vertices, faces = _PRIMITIVES[geometry.kind](*geometry.size)
+        vertices, faces = PRIMITIVES[geometry.kind](*geometry.size)
     shapes.count(len(faces), where)
     vertices = placed(vertices, STRICT.origin(element, where))
     return DescribedShape(element.get("name") or name, geometry.kind, vertices, faces, file)

@@ -7,6 +7,7 @@ import pytest
 from openable_samples import assemble, box, cabinet, oven, valve, write_registry
 
 from asset_factory.envs.assets import read_registry
+from asset_factory.envs.loading import warn_of_hulls
 from asset_factory.envs.selection import Wanted, select, verdicts_of
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.factory.registry.entry import TEST_SHARE, split_of
@@ -116,3 +117,13 @@ def test_an_asset_judged_without_a_finding_is_clean(assets):
         report = {"passed": True, "findings": findings}
         (asset.folder / "report.json").write_text(json.dumps(report))
         assert verdicts_of(asset) == verdicts
+
+
+def test_hulls_that_a_gpu_does_not_take_are_told_as_the_validator_found_them(assets, recwarn):
+    for name, code in (("oven", "oblong_hull"), ("cabinet", "low_mass")):
+        report = {"passed": True, "findings": [{"code": code}]}
+        (assets[name].folder / "report.json").write_text(json.dumps(report))
+    warn_of_hulls(assets[name] for name in sorted(assets) if name != "oven")
+    assert not recwarn
+    with pytest.warns(UserWarning, match=f"1 of {len(assets)} assets have hulls.* is 'oven'"):
+        warn_of_hulls(assets.values())

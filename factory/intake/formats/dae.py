@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import re
 from dataclasses import replace
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,9 +21,8 @@ from ...errors import InputRejected
 from ...geometry.soup import Soup, plain_soup, unique_names
 from ...mesh import FloatArray, Material, Texture, stack_corners
 from ..files import InputFiles
-from ..images import encode_png, load_texture
+from ..images import encode_png, read_texture
 from ..limits import require_at_most, unreadable
-from ..rejecting import rejecting
 
 if TYPE_CHECKING:
     import trimesh
@@ -40,17 +40,15 @@ class _Resolver:
         self.notes: list[str] = []
 
     def get(self, name: str) -> bytes:
+        encoded = partial(self._files.read_reference, name.removeprefix("file:"), self._folder)
+        texture = None
         try:
-            data = self._files.read_reference(name.removeprefix("file:"), self._folder)
-            if load_texture(data, name, self._files) is not None:
-                return data
-            broken = f"The texture {name} ({len(data)} bytes) cannot be decoded"
-            self.notes.append(f"{broken}; a plain colour was used.")
+            texture = read_texture(name, encoded, self._files, self.notes)
         except InputRejected as rejection:
             self.rejection = self.rejection or rejection
-        except FileNotFoundError:
-            self.notes.append(f"The texture {name} is missing; a plain colour was used.")
-        raise FileNotFoundError(name)
+        if texture is None:
+            raise FileNotFoundError(name)
+        return texture.data
 
 
 def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
@@ -62,8 +60,7 @@ def read_dae(data: bytes, path: Path, files: InputFiles) -> Soup:
     if find_spec("collada") is None:
         why = "COLLADA needs the package pycollada; install it or convert"
         raise InputRejected("unsupported", f"{path.name}: {why}")
-    with rejecting(path.name, path.parent, files.log):
-        refuse_doctype(data, path.name)
+    refuse_doctype(data, path.name)
 
     import trimesh
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from scipy.spatial.transform import Rotation
 from ...geometry.soup import Soup, plain_soup, unique_names
 from ...mesh import FloatArray, IntArray, Material, Texture, stack_corners
 from ..files import InputFiles
-from ..images import load_texture
+from ..images import read_texture
 from ..limits import require_at_most, unreadable
 from .gltf_document import GltfDocument
 
@@ -320,19 +321,6 @@ def _texture(
         document.notes.append(f"{lacks}; the plain base colour was kept.")
         return None
     if image not in textures:
-        textures[image] = _image(document, int(image))
+        encoded = partial(document.image_bytes, int(image))
+        textures[image] = read_texture(f"image {image}", encoded, document.files, document.notes)
     return textures[image]
-
-
-def _image(document: GltfDocument, index: int) -> Texture | None:
-    try:
-        data = document.image_bytes(index)
-    except FileNotFoundError:
-        missing = f"The file of image {index} is missing"
-        document.notes.append(f"{missing}; the plain base colour was kept.")
-        return None
-    texture = load_texture(data, f"image {index}", document.files)
-    if texture is None:
-        broken = f"Image {index} ({len(data)} bytes) cannot be decoded"
-        document.notes.append(f"{broken}; the plain base colour was kept.")
-    return texture

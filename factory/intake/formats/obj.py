@@ -6,7 +6,7 @@ import io
 from array import array
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from ...geometry.soup import Soup, unique_names
 from ...mesh import FloatArray, IntArray, Material, Texture
 from ..files import InputFiles
-from ..images import load_texture
+from ..images import read_texture
 from ..limits import require_at_most, unreadable
 
 _MANY = 64
@@ -182,16 +182,9 @@ def read_mtl(data: bytes, folder: Path, files: InputFiles, notes: list[str]) -> 
 
     @cache
     def texture(reference: str) -> Texture | None:
-        try:
-            data = files.read_reference(reference, folder)
-        except FileNotFoundError:
-            notes.append(f"The texture {reference} is missing; the plain colour was kept.")
-            return None
-        image = load_texture(data, reference, files)
-        if image is None:
-            broken = f"The texture {reference} ({len(data)} bytes) cannot be decoded"
-            notes.append(f"{broken}; the plain colour was kept.")
-        return image
+        return read_texture(
+            reference, partial(files.read_reference, reference, folder), files, notes
+        )
 
     result: dict[str, Material] = {}
     name: str | None = None

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from ...geometry.colors import linear_of
 from ...geometry.soup import Soup
 from ...mesh import FloatArray, IntArray, Material
 from ..files import InputFiles
-from ..images import load_texture
+from ..images import read_texture
 from ..limits import require_at_most, unreadable
 
 _TYPES = {
@@ -319,14 +320,9 @@ def _uv(vertex: PlyTable, face: PlyTable, triangles: _Triangles) -> FloatArray |
 def _textured(name: str | None, path: Path, files: InputFiles, notes: list[str]) -> Material | None:
     if not name:
         return None
-    try:
-        texture = load_texture(files.read_reference(name, path.parent), name, files)
-    except FileNotFoundError:
-        texture = None
-    if texture is None:
-        notes.append(f"The texture {name} is missing or broken; a plain colour was used.")
-        return None
-    return Material("textured", (1.0, 1.0, 1.0, 1.0), texture)
+    encoded = partial(files.read_reference, name, path.parent)
+    texture = read_texture(name, encoded, files, notes)
+    return None if texture is None else Material("textured", (1.0, 1.0, 1.0, 1.0), texture)
 
 
 def _coloured(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...mesh import Mesh
-from ..annotation import AnnotatedJoint
+from ...mesh import FloatArray, Mesh, concatenate
+from ..annotation import AnnotatedJoint, Annotation
 
 
 @dataclass(frozen=True)
@@ -15,14 +15,15 @@ class Imported:
     """A description with every joint at its zero.
 
     Attributes:
-        pieces: part id and mesh, root frame [m], in the order of the file.
+        pieces: part id and mesh, root frame [m], z up, in the order of the file.
         part_names: indexed by part id.
-        joints: root frame.
+        joints: in the file's own frame and units.
         digests: SHA-256 of everything that was read, in the order of first use.
         notes: departures, one sentence each.
-        source: ``urdf`` or ``mjcf``.
+        source: ``urdf``, ``mjcf`` or ``usd``.
         licenses: as the mesh files state them, each once.
         dropped_degenerate, dropped_non_finite: faces that the mesh files had and ``pieces`` do not.
+        frame: from the file's own frame to the root frame, shape [4, 4].
     """
 
     pieces: tuple[tuple[int, Mesh], ...]
@@ -34,6 +35,18 @@ class Imported:
     licenses: tuple[str, ...] = ()
     dropped_degenerate: int = 0
     dropped_non_finite: int = 0
+    frame: FloatArray = field(default_factory=lambda: np.eye(4))
+
+    @property
+    def mesh(self) -> Mesh:
+        """Return all pieces as one mesh; there is at least one."""
+        return concatenate([mesh for _, mesh in self.pieces])
+
+    @property
+    def annotation(self) -> Annotation:
+        """Return the parts of the faces of :attr:`mesh`, and the joints."""
+        parts = [np.full(len(mesh.faces), part) for part, mesh in self.pieces]
+        return Annotation(np.concatenate(parts), self.part_names, self.joints, self.source)
 
 
 def rigid_groups(count: int, welds: list[tuple[int, int]]) -> list[int]:

@@ -1,4 +1,4 @@
-"""A URDF or MJCF file as an intake: one mesh in the root frame, and the joints it came with."""
+"""A description as an intake: one mesh in the root frame, and the joints that it came with."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ import numpy as np
 from asset_factory.sim_checks.description import DescriptionError
 from asset_factory.sim_checks.read.gather import gather
 from asset_factory.sim_checks.read.roots import ReadOptions, Roots
+from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
 from ...geometry.triangles import face_areas
-from ...mesh import FloatArray, IntArray, Mesh, concatenate
+from ...mesh import FloatArray, IntArray, Mesh
 from ...runtime.store import digest_bytes
-from ..annotation import Annotation
 from ..categories import category_of
 from ..files import InputFiles
 from ..intake import Intake, Provenance
@@ -33,15 +33,17 @@ from ..sizes import Scale, check_config, given_scale, given_up, scale_by_size
 from .imported import Imported
 from .mjcf import import_mjcf
 from .urdf import import_urdf
+from .usd import import_usd
 from .xml_source import read_xml
 
 
 def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = None) -> Intake:
     """Return an articulated object as an input: its visual geometry with every joint at zero.
 
-    Zero is the joint value 0 of a URDF and ``qpos0`` of an MJCF. The annotation speaks of the root
-    frame, metres and z up by both specifications; ``transform`` leads from there to the object
-    frame, which differs only where an option or a sidecar says so.
+    Zero is the joint value 0 of a URDF, ``qpos0`` of an MJCF and the authored pose of a USD stage.
+    The annotation speaks of the file's own frame and units: of a URDF and an MJCF metres and z up
+    by both specifications, of a stage those that it states. ``transform`` leads from there to the
+    object frame, which else differs only where an option or a sidecar says so.
 
     What the file refers to lies in its folder, its package or a root.
 
@@ -52,7 +54,8 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
     Raises:
         InputRejected: ``unreadable``, ``unsupported``, ``missing_file``, ``external_reference``,
             ``too_large``, ``empty``, ``zero_size``, ``absurd_size``, ``not_a_tree``,
-            ``unsupported_joint``, ``bad_sidecar``, ``license_disallowed``.
+            ``unsupported_joint``, ``bad_sidecar``, ``license_disallowed``. ``unsupported``, too:
+            the library that reads USD is not installed.
         TimeoutError, ChildProcessError: what reads it hung or was killed, which is no verdict.
         ConfigError: ``config.up`` or ``config.height`` cannot be.
     """
@@ -62,7 +65,7 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
     imported = _imported(path, config, files.log)
     digest = digest_bytes("\n".join([*imported.digests, *files.digests]).encode())
     license = _allowed_license(path.name, sidecar, imported, config, digest)
-    whole, face_part, kept = _joined(imported, path.name)
+    whole, kept = _joined(imported, path.name)
     up, up_source = given_up(config, sidecar) or ("z", "format")
     rotation = rotation_to_z_up(up)
     extents = np.ptp(whole.vertices[np.unique(whole.faces[kept])] @ rotation.T, axis=0)
@@ -76,14 +79,14 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
         name=safe_name(path),
         mesh=whole.submesh(kept).transformed(transform),
         source_faces=kept,
-        transform=transform,
+        transform=transform @ imported.frame,
         provenance=Provenance(
             input=well_formed(path.name),
             digest=digest,
             category=category,
             up=up,
             up_source=up_source,
-            scale=scale.factor,
+            scale=scale.factor * float(np.cbrt(np.linalg.det(imported.frame[:3, :3]))),
             scale_source=scale.source,
             density=sidecar.density,
             license=license,
@@ -91,12 +94,14 @@ def load_description(path: Path, config: IntakeConfig, log: ReadLog | None = Non
             dropped_non_finite=imported.dropped_non_finite,
             notes=(*imported.notes, *_doubts(extents * scale.factor, category)),
         ),
-        annotation=Annotation(face_part, imported.part_names, imported.joints, imported.source),
+        annotation=imported.annotation,
     )
 
 
 def _imported(path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
-    """Read a description, or a copy of it beside all that it refers to."""
+    """Read a description; of a URDF or MJCF a copy beside all that it refers to, if need be."""
+    if is_usd(path):
+        return import_usd(path, config, log)
     roots = tuple(map(Path, (*config.roots, *config.given)))
     options = ReadOptions(roots, config.allow_outside, config.arguments)
     with TemporaryDirectory() as folder:
@@ -140,16 +145,15 @@ def _allowed_license(
     return "; ".join(licenses) or None
 
 
-def _joined(imported: Imported, name: str) -> tuple[Mesh, IntArray, IntArray]:
-    """Return all pieces as one mesh; the part of each of its faces; which of them have an area."""
+def _joined(imported: Imported, name: str) -> tuple[Mesh, IntArray]:
+    """Return all pieces as one mesh, and which of its faces have an area."""
     if not imported.pieces:
         raise InputRejected("empty", f"{name}: no link has any geometry")
-    whole = concatenate([mesh for _, mesh in imported.pieces])
+    whole = imported.mesh
     kept = np.flatnonzero(face_areas(whole) > 0.0)
     if not len(kept):
         raise InputRejected("empty", f"{name}: no face of its geometry has any area")
-    parts = [np.full(len(mesh.faces), part) for part, mesh in imported.pieces]
-    return whole, np.concatenate(parts), kept
+    return whole, kept
 
 
 def _doubts(extents: FloatArray, category: str | None) -> list[str]:

@@ -6,7 +6,7 @@ The format: https://mujoco.readthedocs.io/en/stable/XMLreference.html.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from asset_factory.sim_checks.description import DescriptionError, Mimic
+from asset_factory.sim_checks.read.mjcf import PRIMITIVES
 from asset_factory.sim_checks.read.mjcf_compiler import compile_model
 from asset_factory.sim_checks.read.mjcf_model import (
     CompiledEquality,
@@ -33,21 +34,12 @@ from ..files import InputFiles
 from ..images import load_texture
 from ..limits import require_at_most
 from ..reads import ReadLog
-from . import primitives
 from .imported import Imported, fixed
 from .xml_source import read_xml
 
 KINDS = {"hinge": "revolute", "slide": "prismatic"}
 #: Geoms of these groups are shown by MuJoCo's viewer unless asked otherwise.
 SHOWN_GROUPS = range(3)
-#: Makers by MuJoCo's name of a shape; its sizes are half extents.
-_PRIMITIVES: Mapping[str, Callable[[FloatArray, Material], Mesh]] = {
-    "box": lambda size, material: primitives.box(2.0 * size, material),
-    "sphere": lambda size, material: primitives.ellipsoid(np.full(3, size[0]), material),
-    "ellipsoid": primitives.ellipsoid,
-    "cylinder": lambda size, material: primitives.cylinder(size[0], 2.0 * size[1], material),
-    "capsule": lambda size, material: primitives.capsule(size[0], 2.0 * size[1], material),
-}
 
 
 def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
@@ -71,18 +63,19 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
     digests = tuple(log.digest(file) for file in (path, *files))
     model = _compiled(path)
     visuals = _visuals(model)
-    faces = sum(len(model.meshes[geom.mesh].faces) for geom in visuals if geom.mesh >= 0)
-    require_at_most(path.name, faces, config.max_faces, "faces")
     notes = list(_notes(model))
     images = _images(model, InputFiles(path.parent, config, log), path.parent)
     poses = _world_poses(model)
     pieces = []
+    faces = 0
     for geom in visuals:
         mesh = _mesh_of(geom, model, images)
         if mesh is None:
             notes.append(f"body {_body_name(model, geom.body)!r}: a {geom.shape} geom is left out")
-        else:
-            pieces.append((geom.body, mesh.transformed(poses[geom.body] @ geom.pose)))
+            continue
+        faces += len(mesh.faces)
+        require_at_most(path.name, faces, config.max_faces, "faces")
+        pieces.append((geom.body, mesh.transformed(poses[geom.body] @ geom.pose)))
     names, joints = _jointed(model, poses, notes)
     return Imported(tuple(pieces), names, joints, digests, tuple(notes), "mjcf")
 
@@ -168,8 +161,8 @@ def _shape(geom: CompiledGeom, model: CompiledModel, material: Material) -> Mesh
     if geom.mesh >= 0:
         mesh = model.meshes[geom.mesh]
         return Mesh.from_triangles(mesh.vertices, mesh.faces, material)
-    make = _PRIMITIVES.get(geom.shape)
-    return None if make is None else make(geom.size, material)
+    make = PRIMITIVES.get(geom.shape)
+    return None if make is None else Mesh.from_triangles(*make(geom.size), material)
 
 
 def _images(model: CompiledModel, files: InputFiles, folder: Path) -> dict[int, Texture]:

@@ -7,14 +7,20 @@ of one name, several ``<inertial>`` (neither matters to an import), and ``<capsu
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections import Counter
 from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
-from asset_factory.sim_checks.description import DescriptionError, FloatArray, JointLine, Mimic
-from asset_factory.sim_checks.geometry.kinematics import MOVING_KINDS
+from asset_factory.sim_checks.description import (
+    Description,
+    DescriptionError,
+    FloatArray,
+    JointLine,
+    Link,
+    Mimic,
+)
+from asset_factory.sim_checks.geometry.kinematics import MOVING_KINDS, NotATree, build_tree
 from asset_factory.sim_checks.read.urdf_elements import LENIENT, read_mimic
 
 from ...config import IntakeConfig
@@ -44,12 +50,8 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
     for what, elements in (("links", links), ("joints", robot.findall("joint"))):
         require_at_most(path.name, len(elements), MAX_LINKS, what)
     names = tuple(LENIENT.name(link) for link in links)
-    _refuse_repeats(names, path.name)
-    known = frozenset(names)
-    joints = [_joint(element, known, path.name) for element in robot.findall("joint")]
-    poses = {name: np.eye(4) for name in names}
-    for joint in _root_first(names, joints, path.name):
-        poses[joint.child] = poses[joint.parent] @ joint.origin
+    joints = [_joint(element, path.name) for element in robot.findall("joint")]
+    poses = _poses(names, joints, path)
     notes = _notes(robot, joints)
     reader = ShapeReader(robot, path.parent, config, log)
     part_of = {name: part for part, name in enumerate(names)}
@@ -82,54 +84,28 @@ def import_urdf(robot: ET.Element, path: Path, config: IntakeConfig, log: ReadLo
     )
 
 
-def _refuse_repeats(names: tuple[str, ...], file: str) -> None:
-    if not names:
-        raise _no_tree(file, "has no <link>, want at least one")
-    repeated = sorted(name for name, count in Counter(names).items() if count > 1)
-    if repeated:
-        raise _no_tree(file, f"two links are called {repeated[0]!r}; want unique names")
-
-
-def _no_tree(where: str, why: str, value: float | None = None) -> InputRejected:
-    return InputRejected("not_a_tree", f"{where}: {why}", value=value)
-
-
-def _joint(element: ET.Element, links: frozenset[str], file: str) -> JointLine:
+def _joint(element: ET.Element, file: str) -> JointLine:
     joint = LENIENT.joint(element)
-    where = f"{file}: joint {joint.name!r}"
     if joint.kind not in (*MOVING_KINDS, "fixed", "floating"):
         want = "want fixed, revolute, continuous or prismatic"
-        why = f"{where}: is of type {joint.kind!r}; {want}"
+        why = f"{file}: joint {joint.name!r}: is of type {joint.kind!r}; {want}"
         raise InputRejected("unsupported_joint", why)
-    for role, link in (("parent", joint.parent), ("child", joint.child)):
-        if link not in links:
-            raise _no_tree(where, f"its {role} link {link!r} is not in the file")
     return joint
 
 
-def _root_first(names: tuple[str, ...], joints: list[JointLine], file: str) -> list[JointLine]:
-    """Return the joints, parents first. Raises InputRejected ``not_a_tree`` naming the links."""
-    holder: dict[str, JointLine] = {}
-    for joint in joints:
-        if joint.child in holder:
-            both = f"joints {holder[joint.child].name!r} and {joint.name!r}"
-            raise _no_tree(file, f"link {joint.child!r} is the child of {both}; want one")
-        holder[joint.child] = joint
-    roots = [name for name in names if name not in holder]
-    if len(roots) > 1:
-        listed = ", ".join(repr(name) for name in roots[:5])
-        why = f"{len(roots)} links have no parent ({listed}); want one root"
-        raise _no_tree(file, why, len(roots))
-    ordered: list[JointLine] = []
-    reached = set(roots)
-    while len(ordered) < len(joints):
-        ready = [j for j in joints if j.parent in reached and j.child not in reached]
-        if not ready:
-            stuck = ", ".join([repr(name) for name in names if name not in reached][:5])
-            raise _no_tree(file, f"links {stuck} form a cycle; want one tree from one root")
-        ordered += ready
-        reached |= {j.child for j in ready}
-    return ordered
+def _poses(names: tuple[str, ...], joints: list[JointLine], path: Path) -> dict[str, FloatArray]:
+    """Return every link's pose in the root's frame, shape [4, 4] each."""
+    if not names:
+        raise InputRejected("not_a_tree", f"{path.name}: has no <link>, want at least one")
+    links = tuple(Link(name, None, (), ()) for name in names)
+    try:
+        tree = build_tree(Description(path, "urdf", links, tuple(joints)))
+    except NotATree as error:
+        raise InputRejected("not_a_tree", f"{path.name}: {error}") from error
+    poses = {tree.root: np.eye(4)}
+    for joint in tree.order:
+        poses[joint.child] = poses[joint.parent] @ joint.origin
+    return poses
 
 
 def _choose_shapes(

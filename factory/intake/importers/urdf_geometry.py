@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from asset_factory.sim_checks.read.urdf import PRIMITIVES
 from asset_factory.sim_checks.read.urdf_elements import LENIENT, UrdfGeometry
 
 from ...config import IntakeConfig
@@ -19,7 +19,6 @@ from ..images import load_texture
 from ..limits import require_at_most
 from ..loading import Visual, load_visual
 from ..reads import ReadLog
-from . import primitives
 from .xml_source import find_reference
 
 #: The material of a shape that says nothing about its looks.
@@ -28,12 +27,6 @@ PLAIN = Material("default")
 NOTHING_TO_SEE = ("empty", "zero_size")
 #: Objects of a hundred mesh files would otherwise repeat themselves a hundred times.
 FEW_NOTES = 3
-_PRIMITIVES: dict[str, Callable[..., Mesh]] = {
-    "box": lambda *edges: primitives.box(edges, PLAIN),
-    "sphere": lambda radius: primitives.ellipsoid([radius] * 3, PLAIN),
-    "cylinder": lambda radius, length: primitives.cylinder(radius, length, PLAIN),
-    "capsule": lambda radius, length: primitives.capsule(radius, length, PLAIN),
-}
 
 
 class ShapeReader:
@@ -86,7 +79,7 @@ class ShapeReader:
             return None
         if geometry.kind == "mesh":
             return self._mesh(geometry, where)
-        return _PRIMITIVES[geometry.kind](*geometry.size)
+        return Mesh.from_triangles(*PRIMITIVES[geometry.kind](*geometry.size), PLAIN)
 
     def _mesh(self, geometry: UrdfGeometry, where: str) -> Mesh | None:
         path = find_reference(geometry.file, self._folder, where, self._log)

@@ -16,9 +16,9 @@ from asset_factory.sim_checks.read.usd.stage import PhysicsStage
 from ...articulation import rotation_about
 from ...errors import InputRejected
 from ...mesh import FloatArray, Mesh
-from ..annotation import AnnotatedJoint, Annotation
+from ..annotation import AnnotatedJoint
 from ..limits import unreadable
-from .imported import fixed, rigid_groups
+from .imported import Imported, fixed, rigid_groups
 
 ALIGNED = np.radians(2.0)
 """Angle between two bodies' joint frames, about another axis than the joint's, to match [rad].
@@ -28,17 +28,17 @@ CLOSE = 0.02
 """The same for their distance off the axis, as a share of that along it or of the joint's range."""
 
 
-def annotation_of(
-    stage: PhysicsStage, pieces: Sequence[tuple[str, Mesh]], transform: FloatArray, file: str
-) -> Annotation:
-    """Return parts and joints of a stage, in the file's own frame and units.
+def hang_pieces(
+    stage: PhysicsStage, pieces: Sequence[tuple[str, Mesh]], frame: FloatArray, file: str
+) -> Imported:
+    """Return a stage's surfaces by the parts that its joints make of its bodies.
 
     Bodies that no joint holds stand still: they are fixed to the root.
 
     Args:
-        stage: with at least one surface.
-        pieces: body and mesh, which give the order of faces.
-        transform: from the file's frame to the stage's, shape [4, 4].
+        stage: as it was read.
+        pieces: bodies and their meshes, at least one [m], z up.
+        frame: from the file's own frame to that of the pieces, shape [4, 4].
         file: name for messages.
 
     Raises:
@@ -47,17 +47,17 @@ def annotation_of(
     ends = [body for joint in stage.joints for body in joint.bodies]
     bodies = list(dict.fromkeys([*(body for body, _ in pieces), *ends]))
     index = {body: number for number, body in enumerate(bodies)}
-    joints = [_joint_at_pose(joint, stage, index, transform) for joint in stage.joints]
+    joints = [_joint_at_pose(joint, stage, index, frame) for joint in stage.joints]
     group = rigid_groups(len(bodies), [(j.parent, j.child) for j in joints if j.kind == "fixed"])
     # Moving joints between groups of welded bodies, those of their ``body0`` and ``body1``.
     moving = (joint for joint in joints if joint.kind != "fixed")
     links = [replace(j, parent=group[j.parent], child=group[j.child]) for j in moving]
-    sizes = [len(mesh.faces) for _, mesh in pieces]
-    face_group = np.repeat([group[index[body]] for body, _ in pieces], sizes)
     roots = {group[index[body]] for body in stage.roots if body in index}
     world = group[index[WORLD]] if WORLD in index else None
     moved = {link.child for link in links}
-    count = Counter(face_group.tolist())
+    count = Counter[int]()
+    for body, mesh in pieces:
+        count[group[index[body]]] += len(mesh.faces)
 
     def rank(g: int) -> tuple[bool, bool, bool, int, int]:
         """Rank groups, the best root first: world, articulation root, no ``body1``, then size."""
@@ -65,11 +65,14 @@ def annotation_of(
 
     order = sorted(set(group), key=rank)
     number = {g: part for part, g in enumerate(order)}
-    return Annotation(
-        face_part=np.repeat([number[group[index[body]]] for body, _ in pieces], sizes),
+    return Imported(
+        pieces=tuple((number[group[index[body]]], mesh) for body, mesh in pieces),
         part_names=tuple(bodies[g].rsplit("/", 1)[-1] or "base" for g in order),
         joints=tuple(_hung(links, number, file)),
+        digests=(),
+        notes=(),
         source="usd",
+        frame=frame,
     )
 
 

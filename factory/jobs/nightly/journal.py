@@ -11,9 +11,8 @@ from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 
-from filelock import FileLock, Timeout
-
 from ...errors import ConfigError
+from ...registry.claims import claim
 from ...report.nightly.formats import stamp
 from ...report.nightly.night import NightResult, attempt_from
 
@@ -73,14 +72,12 @@ def locked(nights: Path) -> Iterator[Callable[[str], None]]:
     Raises:
         ConfigError: another night runs there; says which, where and what to do.
     """
-    lock = FileLock(nights / ".lock", blocking=False)
+    held = claim(nights, ".lock")
     holder = nights / ".holder"
-    try:
-        lock.acquire()
-    except Timeout:
+    if held is None:
         who = holder.read_text(encoding="utf-8") if holder.is_file() else "a process"
         advice = "wait for it, end it, or name another --output"
-        raise ConfigError(f"{nights}: another night runs here ({who}); {advice}") from None
+        raise ConfigError(f"{nights}: another night runs here ({who}); {advice}")
     process = f"process {os.getpid()} on {platform.node() or 'this machine'}"
 
     def announce(night: str) -> None:
@@ -91,4 +88,4 @@ def locked(nights: Path) -> Iterator[Callable[[str], None]]:
         yield announce
     finally:
         holder.unlink(missing_ok=True)
-        lock.release()
+        held.release()

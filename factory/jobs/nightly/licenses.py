@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from ...config import IntakeConfig
+from ...errors import InputRejected
+from ...intake.files import InputFiles
 from ...intake.licenses import UNKNOWN, is_allowed
 from ...intake.naming import well_formed
-from ...intake.sidecar import sidecar_paths
+from ...intake.sidecar import read_sidecar
 from ...report.nightly.report import LeftOut
-
-_MAX_BYTES = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -51,11 +52,6 @@ def sort_out(
 
 def _stated(path: Path) -> str:
     """Return what an input's sidecar states; empty where none can be read: loading says why."""
-    try:
-        found = [sidecar for sidecar in sidecar_paths(path) if sidecar.is_file()]
-        if not found or found[0].stat().st_size > _MAX_BYTES:
-            return ""
-        stated = tomllib.loads(found[0].read_text(encoding="utf-8")).get("license")
-    except (OSError, ValueError, RecursionError):
-        return ""
-    return stated.strip() if isinstance(stated, str) else ""
+    with suppress(InputRejected, OSError):
+        return read_sidecar(path, InputFiles(path.parent, IntakeConfig())).license or ""
+    return ""

@@ -116,10 +116,8 @@ class Work:
     def job(self, inputs: tuple[Path, ...], damaged: frozenset[str] = frozenset()) -> Job:
         """Return the job over some inputs; those of damaged assets are built again, and first."""
         config = self._config
-        executor = self.executor()
-        here = config.executor == LOCAL
         budget = replace(self.budget(), damaged=damaged)
-        return Job(inputs, config.output, config.build, executor, budget, one_network=here)
+        return Job(inputs, config.output, config.build, self.executor(), budget)
 
     def executor(self) -> Executor:
         """Return where workers run."""

@@ -12,7 +12,7 @@ from .executor import RayExecutor
 def ray_executor(
     config: BuildConfig, *, workers: int | None = None, address: str = LOCAL, exchange: str = ""
 ) -> RayExecutor:
-    """Return the executor to give to a :class:`~.job.Job`, with ``one_network=False``.
+    """Return the executor to give to a :class:`~.job.Job`.
 
     ``exchange`` is fsspec's URL through which bundles come back; inputs and checkpoints are sent to
     nodes then. It is empty if the registry's folder and the inputs lie where all nodes see them,

@@ -177,26 +177,6 @@ def finish(hidden: Tensor, updates: tuple[PointUpdate, ...], masks: PairHead) ->
 
 
 @torch.inference_mode()  # type: ignore[untyped-decorator]
-def own_parts(
-    hidden: Tensor, head: PairHead, part_ids: IntArray, rows: IntArray | None = None
-) -> Float32Array:
-    """Return a head's outputs for some points and their parts, shape [row_count, outputs].
-
-    Arguments: see :class:`..particulate.prediction.ClosestPoints`.
-    """
-    if np.shape(part_ids) != (len(hidden),):
-        raise ValueError(f"part_ids: shape {np.shape(part_ids)}, want [{len(hidden)}]")
-    picked = torch.arange(len(hidden)) if rows is None else torch.tensor(rows, dtype=torch.int64)
-    picked = picked.to(hidden.device)
-    ids = torch.tensor(part_ids, dtype=torch.int64, device=hidden.device)
-    found = np.empty((len(picked), head.outputs), dtype=np.float32)
-    for part in chunks(len(picked), CHUNK):
-        at = picked[part]
-        found[part] = head.own_part(hidden[at], ids[at]).cpu().numpy()
-    return found
-
-
-@torch.inference_mode()  # type: ignore[untyped-decorator]
 def part_outputs(
     network: PartArticulationTransformer, queries: Tensor
 ) -> dict[str, Float32Array | None]:
@@ -239,10 +219,22 @@ class PairHead:
         return logits.add_(self._last.bias)
 
     @torch.inference_mode()  # type: ignore[untyped-decorator]
-    def own_part(self, hidden: Tensor, part_ids: Tensor) -> Tensor:
-        """Return the head for each point and its part, [n, width] and [n] to [n, outputs]."""
-        of_points = self._of_points(hidden).add_(self._of_parts[part_ids])
-        return self._last(F.silu(of_points, inplace=True))
+    def own_parts(
+        self, hidden: Tensor, part_ids: IntArray, rows: IntArray | None = None
+    ) -> Float32Array:
+        """Return the head for some points and their parts, shape [row_count, outputs].
+
+        Arguments: see :class:`..particulate.prediction.ClosestPoints`.
+        """
+        if np.shape(part_ids) != (len(hidden),):
+            raise ValueError(f"part_ids: shape {np.shape(part_ids)}, want [{len(hidden)}]")
+        picked = np.arange(len(hidden)) if rows is None else np.asarray(rows)
+        ids = torch.tensor(np.asarray(part_ids)[picked], device=hidden.device)
+        found = np.empty((len(picked), self.outputs), dtype=np.float32)
+        for some in chunks(len(picked), CHUNK):
+            of_points = self._of_points(hidden[picked[some]]).add_(self._of_parts[ids[some]])
+            found[some] = self._last(F.silu(of_points, inplace=True)).cpu().numpy()
+        return found
 
     def _of_points(self, hidden: Tensor) -> Tensor:
         return F.linear(hidden.to(self._dtype), self._to_hidden).float().add_(self._bias)

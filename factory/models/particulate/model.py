@@ -17,7 +17,6 @@ from ..network.streaming import (
     drive,
     embed_chunks,
     finish,
-    own_parts,
     part_outputs,
 )
 from ..network.transformer import PartArticulationTransformer
@@ -131,7 +130,7 @@ class Model:
         closest = None
         if moment is None:
             head = PairHead(self._network.point_motion_decoder, driven.queries, self.dtype)
-            closest = partial(own_parts, hidden, head)
+            closest = partial(head.own_parts, hidden)
         return Prediction(
             mask_logits=mask_logits, closest_points=closest, revolute_moment=moment, **parts
         )

@@ -77,14 +77,10 @@ class ModelService:
 
     Whoever asks while it is dead waits for the next one, and asks a network of its own once it is
     given up.
-
-    Args:
-        at_once: see :func:`load_answering`.
     """
 
-    def __init__(self, config: ParticulateConfig, at_once: int | None = None) -> None:
+    def __init__(self, config: ParticulateConfig) -> None:
         self._config = config
-        self._at_once = at_once
         self._folder = Path(tempfile.mkdtemp(prefix="model-", dir=sockets()))
         self._stopping = threading.Event()
         self._child = WarmChild()
@@ -114,8 +110,8 @@ class ModelService:
         deaths = 0
         while not self._stopping.is_set() and deaths < MOST_DEATHS:
             started = time.monotonic()
-            asked = (self._config, self.address.path, self._at_once)
-            outcome = self._child.call(serve, *asked, limits=Limits(wall_s=LIFE_S))
+            limits = Limits(wall_s=LIFE_S)
+            outcome = self._child.call(serve, self._config, self.address.path, limits=limits)
             self._child.close()
             if outcome.failure is Failure.RAISED:
                 break
@@ -124,22 +120,19 @@ class ModelService:
         shutil.rmtree(self._folder, ignore_errors=True)
 
 
-def serve(config: ParticulateConfig, path: str, at_once: int | None) -> None:
+def serve(config: ParticulateConfig, path: str) -> None:
     """Answer at a socket for ever; the main of the service's process."""
-    answer_all(listening_socket(path), LateAnswering(partial(load_answering, config, at_once)))
+    answer_all(listening_socket(path), LateAnswering(partial(load_answering, config)))
 
 
-def load_answering(config: ParticulateConfig, at_once: int | None = None) -> Answering:
+def load_answering(config: ParticulateConfig) -> Answering:
     """Return the network that a configuration names, ready for questions.
 
-    Args:
-        config: names it.
-        at_once: clouds worked on at the same time; by default as many as there are processors, on
-            another device one.
+    It works on as many clouds at the same time as there are processors, on another device on one.
 
     Raises:
         ConfigError: it cannot be loaded.
     """
-    at_once = at_once or (processors() if device_for(config.device) == "cpu" else 1)
+    at_once = processors() if device_for(config.device) == "cpu" else 1
     digests = tuple(digest_file(fetch(file)) for file in weight_files(config))
     return Answering(load_network(config), identity_of(config, digests), at_once)

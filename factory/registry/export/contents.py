@@ -8,7 +8,7 @@ import json
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from ...errors import RegistryError
 from ...runtime.layout import ASSETS, MANIFEST, NOTES, REJECTED, REPORT
@@ -22,7 +22,7 @@ from .card import card_text, licenses_text
 
 #: ``plain``: assets and lists. ``huggingface``: the same with a card and tables as its hub shows
 #: them.
-LAYOUTS = ("plain", "huggingface")
+Layout = Literal["plain", "huggingface"]
 ENTRIES_NAME = "entries.jsonl"
 SUMS_NAME = "SHA256SUMS"
 LICENSES_NAME = "LICENSES.md"
@@ -42,7 +42,7 @@ _COLUMNS = (
 
 
 def contents(
-    registry: Registry, entries: Iterable[Entry], layout: str = "plain"
+    registry: Registry, entries: Iterable[Entry], layout: Layout = "plain"
 ) -> Iterator[tuple[str, bytes]]:
     """Yield an export's files, path and content; the last, ``SHA256SUMS``, has all digests.
 
@@ -60,7 +60,7 @@ def contents(
 
 
 def _files(
-    registry: Registry, entries: Iterable[Entry], layout: str
+    registry: Registry, entries: Iterable[Entry], layout: Layout
 ) -> Iterator[tuple[str, bytes]]:
     exported: list[Entry] = []
     rows: list[dict[str, Any]] = []
@@ -92,7 +92,7 @@ def _asset(registry: Registry, listed: Entry) -> tuple[Entry, dict[str, bytes]] 
         if not folder.is_dir():
             return None
         try:
-            return read_record(folder, note_path(registry.root, listed.id)).entry, _whole(folder)
+            return read_record(folder).entry, _whole(folder)
         except (RegistryError, OSError) as error:
             # Somebody may have published it anew between two files.
             if attempt == _TRIES - 1:

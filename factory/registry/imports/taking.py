@@ -98,7 +98,7 @@ def _require_digests(source: Path, content: Path) -> None:
 def _arrival(source: Path, folder: Path, *, trusted: bool) -> _Arrival:
     """Return an asset that is what it says. Raises RegistryError otherwise."""
     try:
-        entry = read_record(folder, note_path(folder.parents[1], folder.name)).entry
+        entry = read_record(folder).entry
         stored = read_report(folder)
         registered = stored.files
         told = stored.told

@@ -107,4 +107,4 @@ def test_replay_wants_a_registry_after_its_flag(capsys):
     with pytest.raises(SystemExit) as left:
         replay(["--traj-path", "a.h5", "--registry"])
     assert left.value.code == Exit.USAGE
-    assert "--registry: names no folder" in capsys.readouterr().err
+    assert "--registry: expected one argument" in capsys.readouterr().err

@@ -195,8 +195,8 @@ def test_rebuild_and_gc(root, run):
     assert run("registry", "rebuild", "--output", root) == told
     Store(root / ".cache").save("stage-0", {"zeros": np.zeros(10)})
     _, told = run("gc", "--output", root, "--older-than", 30)
-    assert "freed 0 B" in told
-    assert re.search(r"the cache holds 1 results, \d+ B; --keep-gb 1 makes it smaller", told)
+    assert "freed 0 bytes" in told
+    assert re.search(r"the cache holds 1 results, \d+ bytes; --keep-gb 1 makes it smaller", told)
 
 
 def test_out_and_in_and_the_difference(root, run, tmp_path):

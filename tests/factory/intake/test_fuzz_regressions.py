@@ -107,7 +107,7 @@ def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(monk
     path.write_text("mtllib cube.mtl\n" * 500 + path.read_text())
     (tmp_path / "cube.mtl").write_text("newmtl red wood\n" + "map_Kd wood.png\n" * 500)
     libraries = counted(monkeypatch, obj, "read_mtl")
-    pictures = counted(monkeypatch, obj, "load_texture")
+    pictures = counted(monkeypatch, obj, "read_texture")
     assert any(material.texture for material in load(path, IntakeConfig()).mesh.materials)
     assert (len(libraries), len(pictures)) == (1, 1)
 

@@ -10,14 +10,14 @@ from plain_solids import parted
 
 from asset_factory.factory.articulation import Joint
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.intake.importers import primitives
-from asset_factory.factory.mesh import Material
+from asset_factory.factory.mesh import Material, Mesh
 from asset_factory.learn.datasets.categories import categories_of, prefix_of
 from asset_factory.learn.datasets.description import find_descriptions, find_partnet, words
 from asset_factory.learn.datasets.predictions import find_predictions, read_prediction_item
 from asset_factory.learn.datasets.settings import SourceSettings
 from asset_factory.learn.datasets.split import is_held_out
 from asset_factory.learn.objects.export import write_annotation, write_obj, write_sidecar
+from asset_factory.sim_checks.read.primitives import box
 
 
 def touch(path, text="<robot/>"):
@@ -92,9 +92,10 @@ def chest():
     material = Material("wood")
     lid = np.eye(4)
     lid[:3, 3] = 0.0, 0.0, 0.55
-    top = primitives.box([1, 1, 0.1], material).transformed(lid)
+    top = Mesh.from_triangles(*box(np.array([1, 1, 0.1])), material).transformed(lid)
+    chest = Mesh.from_triangles(*box(np.ones(3)), material)
     hinge = Joint("lid", "revolute", 0, 1, [-1.0, 0, 0], [0, 0.5, 0.5], 0.0, 1.5)
-    return parted({"base": [primitives.box([1, 1, 1], material)], "lid": [top]}, hinge)
+    return parted({"base": [chest], "lid": [top]}, hinge)
 
 
 @pytest.mark.parametrize("named", ["sidecar", "stem", "alone"])

@@ -75,9 +75,9 @@ def test_a_path_moves_points_as_the_kinematics_do():
 @pytest.mark.parametrize(
     ("links", "pairs", "message"),
     [
-        ("ab", [], "2 root links"),
+        ("ab", [], r"2 root links \('a', 'b'\)"),
         ("ab", [("a", "b"), ("b", "a")], "0 root links"),
-        ("abc", [("a", "b"), ("a", "b")], "child of two"),
+        ("abc", [("a", "b"), ("a", "b")], "child of joints"),
         ("ab", [("a", "ghost")], "not there"),
         ("abc", [("b", "c"), ("c", "b")], "loop"),
     ],

@@ -138,7 +138,7 @@ def test_three_nights_make_a_trend(workshop, config):
     assert [c.now.id for c in third.changes.passing] == ["d-00", "e-00"]
     assert [point.name for point in third.trend] == ["0001", "0002", "0003"]
     nights = config.output / "nights"
-    wanted = [".lock", "0001", "0002", "0003", "index.html", "message.txt"]
+    wanted = ["0001", "0002", "0003", "index.html", "message.txt"]
     assert sorted(path.name for path in nights.iterdir()) == wanted
     names = {"summary.json", "attempts.parquet", "index.html", "message.txt", "night.log"}
     assert {path.name for path in (nights / "0003").iterdir()} == names

@@ -44,10 +44,10 @@ def test_a_registry_built_on_ray_is_the_one_built_locally(inputs, local, tmp_pat
     url = "" if through == "folder" else between.as_uri()
     executor = ray_executor(CONFIG, workers=1, exchange=url)
     output = tmp_path / "out"
-    results = list(Job(inputs, output, CONFIG, executor, one_network=False).run())
+    results = list(Job(inputs, output, CONFIG, executor).run())
     assert sorted(Path(result.input).name for result in results) == [path.name for path in inputs]
     assert all(result.attempts == 1 for result in results)
     require_same(output, local)
     assert not list(between.iterdir())
-    again = list(Job(inputs, output, CONFIG, executor, one_network=False).run())
+    again = list(Job(inputs, output, CONFIG, executor).run())
     assert all(result.known for result in again)

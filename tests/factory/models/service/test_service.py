@@ -240,7 +240,7 @@ def test_who_dawdles_is_not_waited_for():
 def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(config):
     own = load_network(config)
     cloud = cloud_of(600)
-    with ModelService(config, at_once=1) as service:
+    with ModelService(config) as service:
         for _ in range(2):
             with asking(service.address):
                 served = load_articulator(config).network
@@ -256,7 +256,7 @@ def test_a_killed_service_starts_again_and_a_stopped_one_leaves_nothing(config):
 
 
 def test_a_service_that_nobody_asks_loads_nothing(config):
-    with ModelService(config, at_once=1) as service:
+    with ModelService(config) as service:
         while not os.path.exists(service.address.path):
             time.sleep(0.01)
         with open(f"/proc/{service.pid}/maps") as loaded:
