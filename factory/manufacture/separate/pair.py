@@ -14,7 +14,7 @@ from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of
-from ..decompose.solids import volume_within
+from ..decompose.solids import thickness_m, volume_within
 from ..hinges import is_crooked
 from ..poses import held_by, jointed, joints_between, moved, relative_poses
 from ..repair import Pair
@@ -22,7 +22,7 @@ from .along import Sides, hull_depth
 from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
 from .clip import SHEET_M
 from .hung import at_an_edge, stands_out_m, trimmed_limit, well_hung
-from .overlap import overlap_m, part_solid, thickness_m
+from .overlap import overlap_m, part_solid
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06

@@ -9,6 +9,7 @@ from manifold3d import Manifold
 from plain_solids import sized_hull
 
 from asset_factory.factory.config import SeparateConfig
+from asset_factory.factory.manufacture.decompose.solids import thickness_m
 from asset_factory.factory.manufacture.separate.budget import (
     CutLimits,
     Excuse,
@@ -19,7 +20,6 @@ from asset_factory.factory.manufacture.separate.budget import (
     too_bare,
 )
 from asset_factory.factory.manufacture.separate.clip import SHEET_M, clipped
-from asset_factory.factory.manufacture.separate.overlap import thickness_m
 
 CONFIG = SeparateConfig()
 LIMITS = CutLimits(free_m=0.006, trimmed_m=0.025)
