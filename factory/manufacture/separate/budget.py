@@ -22,7 +22,7 @@ from ..poses import arms_from
 MOST_CORNERS = 3000
 #: So many hulls are remembered with how far points of a surface lie beyond them.
 MOST_KNOWN = 500
-#: Points that are bared by less are not looked at [m].
+#: What is cut off by less is all there: points that are bared by it are not looked at [m].
 SHAVED_M = 1e-4
 
 

@@ -10,11 +10,11 @@ from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .carve import block_insides, surface_points
-from .knobs import CLEAR_M, clear_of_bumps, give_way, keep_clear
+from .knobs import clear_of_bumps, give_way, keep_clear
 from .lattice import marked
 from .pieces import MOST_CORNERS
 from .reach import covering
-from .sweep import entered, hung, motions
+from .sweep import CLEAR_M, entered, hung, motions
 from .work import Workpiece
 
 #: Hinges moved by less than this are not spoken of [m].

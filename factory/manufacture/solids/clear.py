@@ -12,7 +12,7 @@ from ...asset import Hull
 from ...mesh import FloatArray
 from ..poses import joints_between
 from ..separate.along import cut_apart_along
-from .bump import CLEAR_M
+from .bump import APART_M
 from .sweep import DENSER
 from .work import Workpiece
 
@@ -32,7 +32,7 @@ def cleared(work: Workpiece) -> dict[int, tuple[Hull, ...]]:
         for poses in (POSES, 1):
             before = (hulls[a], hulls[b])
             way = _relative(articulation, a, b, poses)
-            after = cut_apart_along(*before, way, CLEAR_M)
+            after = cut_apart_along(*before, way, APART_M)
             if all(map(_enough, before, after)):
                 hulls[a], hulls[b] = after
                 break

@@ -12,11 +12,9 @@ from ..poses import moved
 from ..separate.clip import carved, clipped, meeting
 from .box import Box
 from .bump import Bump
-from .sweep import entered, motions
+from .sweep import CLEAR_M, entered, motions
 from .work import Workpiece
 
-#: Around what turns or slides within its host, before the exact cut [m].
-CLEAR_M = 0.003
 #: Thickness of the layer of cells at the foot of a knob [m].
 LAYER_M = 0.006
 #: Poses along the way of a button.

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...asset import Hull, Target
+from ..hinges import ALIKE
 from .handles import handle_of
 from .holds import HoldSearch, exposed, grasp, poke
 from .poses import AGAINST, find_poses, spread_against
@@ -25,7 +26,6 @@ GOOD = 0.8
 FEW = (32, 8)
 #: Targets of one kind nearer than this, to be reached from one side, are one [m].
 APART_M = 0.025
-ALIKE = 0.9
 #: What is left of a place that nothing can hold: better than none.
 HOPELESS = 0.05
 
