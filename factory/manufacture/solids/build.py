@@ -188,7 +188,7 @@ def _made(work: Workpiece) -> None:
             hollow_behind(work, part)
     hang_panels(work)
     make_rest(work, work.config.most_pieces // 2)
-    make_body(work, 0, work.config.most_pieces)
+    make_body(work, work.config.most_pieces)
     add_shelves(work)
 
 
