@@ -10,7 +10,6 @@ from operator import itemgetter
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
 from scipy.spatial import ConvexHull
 
 from ...asset import Hull
@@ -64,7 +63,8 @@ def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
     trifle = matter.trifle
     waiting: list[tuple[float, int, _Node]] = []
     done: list[_Node] = []
-    fresh = [_node(matter, span, matter.points) for span in _islands(matter.solid)]
+    everywhere = tuple(slice(0, size) for size in matter.solid.shape)
+    fresh = [_node(matter, everywhere, matter.points)]
     number = 0
     while True:
         for node in filter(None, fresh):
@@ -81,21 +81,6 @@ def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
             done.append(node)
     done += [entry[2] for entry in waiting]
     return tuple(limit_vertices(node.hull, MOST_CORNERS) for node in done)
-
-
-def _islands(solid: BoolArray) -> list[Span]:
-    """Return boxes around what hangs together; one around all of it where these overlap."""
-    label, count = ndimage.label(solid)
-    if not count:
-        return []
-    spans = [span for span in ndimage.find_objects(label) if span is not None]
-    if count > 1 and not any(_meet(a, b) for i, a in enumerate(spans) for b in spans[:i]):
-        return spans
-    return [tuple(slice(0, size) for size in solid.shape)]
-
-
-def _meet(a: Span, b: Span) -> bool:
-    return all(p.start < q.stop and q.start < p.stop for p, q in zip(a, b, strict=True))
 
 
 def _node(matter: Matter, span: Span, points: FloatArray) -> _Node | None:
@@ -200,26 +185,24 @@ def filled(lattice: Lattice, weights: Weights, span: Span, hull: Hull) -> float:
 
     Walls thinner than cells may pass between their centres: they fill the cells they cross.
     """
-    if not weights[span].any():
-        return 0.0
     wrong = weights[span]
-    planes = _within(hull.planes * [1.0, 1.0, 1.0, -1.0], hull.vertices, lattice.step)
-    at = lattice.below(planes, span) & (wrong > 0)
+    if not wrong.any():
+        return 0.0
+    at = lattice.below(_within(hull, lattice.step), span) & (wrong > 0)
     return float((lattice.volumes[span][at] * wrong[at]).sum())
 
 
-def _within(planes: FloatArray, corners: FloatArray, step: float) -> FloatArray:
+def _within(hull: Hull, step: float) -> FloatArray:
     """Return planes below which a hull fills cells; of one thinner than cells, those it crosses.
 
-    The hull's planes have outward normals and offsets, shape [n, 4], its corners shape [n, 3];
-    cells are as large as ``step`` [m].
+    As of :meth:`~.lattice.Lattice.below`, shape [n, 4]; cells are as large as ``step`` [m].
     """
+    corners = hull.vertices
     middle = corners.mean(axis=0)
     axes = np.linalg.svd(corners - middle, full_matrices=False)[2]
     heights = (corners - middle) @ axes[2]
-    sides = planes + np.array([0.0, 0.0, 0.0, REACH_M])
     if np.ptp(heights) >= step:
-        return np.asarray(sides)
+        return np.asarray(hull.planes * [1.0, 1.0, 1.0, -1.0] + [0.0, 0.0, 0.0, REACH_M])
     flat = ConvexHull(corners @ axes[:2].T).equations
     sides = np.column_stack([flat[:, :2] @ axes[:2], flat[:, 2] + REACH_M])
     at = float(middle @ axes[2]) + 0.5 * (heights.min() + heights.max())
@@ -232,10 +215,10 @@ def _best_cut(matter: Matter, node: _Node) -> list[_Node | None]:
     """Return the two halves of that cut after which least is left to be cut; none if none helps."""
     best: list[_Node | None] = []
     least = np.inf
-    for axis, plane in _planes(matter, node.span):
+    for spans in _halves(matter, node.span):
         halves = []
         cost = 0.0
-        for span in _halves(node.span, axis, plane):
+        for span in spans:
             halves.append(_node(matter, span, node.points))
             cost += _cost(matter, span, halves[-1])
             if cost >= least:
@@ -244,14 +227,6 @@ def _best_cut(matter: Matter, node: _Node) -> list[_Node | None]:
             best = halves
             least = cost
     return best
-
-
-def _halves(span: Span, axis: int, plane: int) -> tuple[Span, Span]:
-    first = list(span)
-    second = list(span)
-    first[axis] = slice(span[axis].start, plane)
-    second[axis] = slice(plane, span[axis].stop)
-    return tuple(first), tuple(second)
 
 
 def _cost(matter: Matter, span: Span, node: _Node | None) -> float:
@@ -266,8 +241,8 @@ def _cost(matter: Matter, span: Span, node: _Node | None) -> float:
     return TIE * min(waste, size) + (size if waste > matter.trifle else 0.0)
 
 
-def _planes(matter: Matter, span: Span) -> Iterator[tuple[int, int]]:
-    """Yield the planes worth trying: where much begins or ends, and the middle; axis and line."""
+def _halves(matter: Matter, span: Span) -> Iterator[tuple[Span, Span]]:
+    """Yield both sides of the planes worth trying: where much begins or ends, and the middle."""
     for axis in range(3):
         length = span[axis].stop - span[axis].start
         if length < 2:
@@ -279,4 +254,8 @@ def _planes(matter: Matter, span: Span) -> Iterator[tuple[int, int]]:
             order = np.argsort(-change, kind="stable")[:count]
             lines |= {int(at) + 1 for at in order if change[at] > 0}
         for line in sorted(lines):
-            yield axis, span[axis].start + line
+            before = list(span)
+            behind = list(span)
+            before[axis] = slice(span[axis].start, span[axis].start + line)
+            behind[axis] = slice(span[axis].start + line, span[axis].stop)
+            yield tuple(before), tuple(behind)
