@@ -204,11 +204,8 @@ def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Target | N
 
 def _best(holds: Iterable[Target | None]) -> Target | None:
     """Return the first hold that no later one beats; ``None`` if there is none."""
-    best: Target | None = None
-    for hold in holds:
-        if hold is not None and (best is None or hold.score > best.score + 1e-6):
-            best = hold
-    return best
+    found = [hold for hold in holds if hold is not None]
+    return max(found, key=lambda hold: round(hold.score, 6), default=None)
 
 
 def _hooked(
