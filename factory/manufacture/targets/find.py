@@ -12,7 +12,7 @@ from ...articulation import Articulation
 from ...asset import Hull, Target
 from ..hinges import ALIKE
 from .handles import handle_of
-from .holds import HoldSearch, exposed, grasp, poke
+from .holds import HoldSearch, exposed, grasp, hand_axes, poke
 from .poses import AGAINST, find_poses, spread_against
 from .shape import Moving, shape_of
 from .surroundings import surroundings_of
@@ -82,10 +82,7 @@ def _last_resort(moving: Moving) -> Target:
     normal = handle.normal
     pull = handle.pull
     kind = "push" if float(normal @ pull) < AGAINST else "hook"
-    side = np.cross(pull, normal)
-    if np.linalg.norm(side) < 0.1:
-        side = np.cross(np.eye(3)[int(np.abs(normal).argmin())], normal)
-    fingers = np.asarray(side / np.linalg.norm(side))
+    fingers = hand_axes(moving.joint, normal)[0]
     score = HOPELESS * float(moving.place(handle.point))
     held = (moving.joint.name, moving.shape.part)
     return Target(*held, kind, handle.point, normal, pull, fingers, 0.0, score)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...articulation import Joint
 from ...asset import Target
 from ...mesh import FloatArray
 from .gripper import GRIPPER
@@ -177,7 +178,7 @@ def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
 def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
     """Return whether there is any room for a fingertip before a point of the surface."""
     room = min(gap for gap, _ in GRIPPER.gaps)
-    view = task.view(point, _frame(task, outward), 2.0 * room)
+    view = task.view(point, hand_axes(task.moving.joint, outward), 2.0 * room)
     half = room / 4.0
     return view.free((-half, -half, GRIPPER.off), (half, half, room))
 
@@ -187,7 +188,7 @@ def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Target | N
 
     ``point`` is on the surface [m] and ``outward`` its normal there, shape [3] each.
     """
-    axes = _frame(task, outward)
+    axes = hand_axes(task.moving.joint, outward)
     view = task.view(point, axes)
     half = GRIPPER.finger_width / 2.0
     if view.free((-half, -half, GRIPPER.off), (half, half, GRIPPER.length)):
@@ -243,9 +244,9 @@ def _fits(view: HandView, palm: tuple[float, float], aside: float, base: float) 
     return view.free((aside - across, -along, base), (aside + across, along, end))
 
 
-def _frame(task: HoldSearch, outward: FloatArray) -> FloatArray:
-    """Return a hand's axes, as rows: across ``outward`` to fit the joint, and ``outward``."""
-    for candidate in (task.moving.joint.axis, *np.eye(3)[[2, 0, 1]]):
+def hand_axes(joint: Joint, outward: FloatArray) -> FloatArray:
+    """Return a hand's axes, as rows: across ``outward`` to fit a joint, and ``outward``."""
+    for candidate in (joint.axis, *np.eye(3)[[2, 0, 1]]):
         side = candidate - (candidate @ outward) * outward
         if np.linalg.norm(side) > 0.3:
             side = side / np.linalg.norm(side)
