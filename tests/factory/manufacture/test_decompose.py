@@ -77,10 +77,13 @@ def test_boards_that_touch_are_one_hull_each_and_keep_their_cavity():
     assert max(depth_below(hull, inside).max() for hull in result.hulls) < 0.0
 
 
-def test_a_hollow_body_keeps_its_cavity():
+@pytest.mark.parametrize("inside_out", [False, True])
+def test_a_hollow_body_keeps_its_cavity(inside_out):
     outer = boxes(((0.4, 0.4, 0.4), (0, 0, 0)))
     inner = boxes(((0.36, 0.36, 0.36), (0, 0, 0)))
     faces = np.concatenate([outer[1], inner[1][:, ::-1] + len(outer[0])])
+    if inside_out:
+        faces = faces[:, ::-1]
     result = only(np.concatenate([outer[0], inner[0]]), faces)
     assert result.method == "exact"
     assert cover_volume(result) == pytest.approx(0.4**3 - 0.36**3)

@@ -100,6 +100,15 @@ def test_a_box_that_is_wound_wrongly_weighs_what_a_box_weighs(wound):
     assert inertial(wound(UNIT)).mass == pytest.approx(inertial(UNIT).mass)
 
 
+def test_a_box_with_a_fin_on_an_edge_weighs_what_both_weigh():
+    fin = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.2), (-0.1, 0.0, 0.0)]
+    corners = np.concatenate([UNIT.vertices[UNIT.faces].reshape(-1, 3), fin])
+    vertices, index = np.unique(np.round(corners, 9), axis=0, return_inverse=True)
+    found = inertial(Mesh.from_triangles(vertices, index.reshape(-1, 3)))
+    of_the_fin = DENSITY * 0.01 * CONFIG.shell_thickness_m
+    assert found.mass == pytest.approx(inertial(UNIT).mass + of_the_fin)
+
+
 def test_overlapping_boxes_count_their_overlap_once():
     other = UNIT.transformed([[1, 0, 0, 0.2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
     found = inertial(concatenate([UNIT, other]))
