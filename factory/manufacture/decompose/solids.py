@@ -52,7 +52,7 @@ class Gated:
 
     @property
     def body(self) -> Manifold:
-        """Return all solids as one without its cavities, but with what lies loose in these."""
+        """Return all solids as one, without cavities but with the bodies loose in these."""
         found = union(list(self.solids))
         for cavity in sorted(self.cavities, key=lambda cavity: -cavity.volume()):
             found -= cavity

@@ -230,7 +230,7 @@ def _best_cut(matter: Matter, node: _Node) -> list[_Node | None]:
 
 
 def _cost(matter: Matter, span: Span, node: _Node | None) -> float:
-    """Return what is left to be cut: all of a hull that must be cut again, and a share of waste.
+    """Return the volume left to be cut [m3]: a hull that must be cut again, and a share of waste.
 
     Slivers of a sheet, of which no foil is made, are lost.
     """
