@@ -135,7 +135,8 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
     """Sort triangles, of welded positions [m], into solids, cavities and sheets.
 
     Duplicated faces count once, double-sided ones too; where the rest closes without these they are
-    sheets. Inverted bodies are turned; an inverted body inside another one is a cavity.
+    sheets. Inverted bodies are turned; a body that faces the other way than the outermost around it
+    is a cavity.
     """
     faces = _without_repeats(vertices, faces)
     closed: list[Manifold] = []
@@ -227,7 +228,7 @@ def _compact(vertices: FloatArray, faces: IntArray) -> OpenSurface:
 def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]:
     """Return the bodies and the cavities among closed manifolds of either sign.
 
-    A cavity is turned the other way than the outermost body around it, inverted or not.
+    A cavity faces the other way than the outermost body around it, inverted or not.
     """
     positive = [m for m in closed if m.volume() > LEAST_VOLUME_M3]
     negative = [flipped(m) for m in closed if m.volume() < -LEAST_VOLUME_M3]
@@ -237,10 +238,13 @@ def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]
     order = sorted(range(len(bodies)), key=lambda number: -bodies[number].volume())
     hollow = set()
     for place, number in enumerate(order):
-        around = (other for other in order[:place] if contains(bodies[other], bodies[number]))
-        outermost = next(around, number)
-        if (outermost < len(positive)) != (number < len(positive)):
-            hollow.add(number)
+        larger = order[:place]
+        upright = number < len(positive)
+        turned = [other for other in larger if (other < len(positive)) != upright]
+        if any(contains(bodies[other], bodies[number]) for other in turned):
+            around = (other for other in larger if contains(bodies[other], bodies[number]))
+            if next(around) in turned:
+                hollow.add(number)
     solids = [body for number, body in enumerate(bodies) if number not in hollow]
     return solids, [bodies[number] for number in sorted(hollow)]
 
