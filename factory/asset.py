@@ -186,7 +186,7 @@ class InnerSurface:
     Attributes:
         part: name of the part that it belongs to.
         kind: ``rim``, ``slab back``, ``opening``, ``frame``, ``hollow``, ``lid hollow``,
-            ``drawer box``, ``shelf``, ``knob base``, ``wheel`` or ``body``.
+            ``drawer box``, ``shelf``, ``knob base`` or ``wheel``.
         rule: where its place comes from.
         thickness_m: of the matter that it bounds [m]; ``None`` where the rule does not say.
         depth_m: of a hollow or a box [m]; ``None`` for other surfaces.

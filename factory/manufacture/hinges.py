@@ -17,7 +17,7 @@ from ..mesh import FloatArray
 EDGE = 0.1
 #: Hinges that lie this close to that edge are there already [m].
 THERE_M = 0.0005
-#: A handle before a door turns what is taken for its plane: directions are alike to this cosine.
+#: Directions are alike to this cosine: a handle before a door turns what is taken for its plane.
 ALIKE = 0.9
 #: And at right angles to this one.
 ACROSS = 0.02

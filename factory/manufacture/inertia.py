@@ -6,7 +6,7 @@ integral of ``x x^T``. The inertia tensor is ``trace(C) 1 - C`` about the centre
 floor away.
 
 Closed surfaces: exact polyhedral integrals (Mirtich 1996; here as sums over signed tetrahedra) over
-the union of all closed components. Open surfaces: laminae of an assumed thickness.
+the body that decomposition sees in them. Open surfaces: laminae of an assumed thickness.
 """
 
 from __future__ import annotations
@@ -20,11 +20,9 @@ import numpy as np
 from ..asset import Hull, Inertial
 from ..config import InertiaConfig
 from ..errors import InvalidAsset
-from ..geometry.edges import label_linked, shared_edges
-from ..geometry.rows import distinct_rows
-from ..geometry.triangles import areas_of, doubled_normals
+from ..geometry.triangles import doubled_normals
 from ..mesh import FloatArray, IntArray, Mesh
-from .decompose.solids import flips, grouped, triangles_of, union, wound_around
+from .decompose.solids import gate, thickness_m, triangles_of, union
 
 #: Lighter bodies make constraint solvers ill-conditioned beside furniture of many kilograms [kg].
 MIN_MASS_KG = 0.005
@@ -137,49 +135,17 @@ def _inertial(moments: _Moments, reference: FloatArray) -> Inertial:
 
 def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _Moments:
     """Return moments per unit of density: mass is a volume [m3]."""
-    closed: list[tuple[FloatArray, IntArray]] = []
+    gated = gate(vertices, faces)
     total = _NOTHING
-    for component in _components(_without_repeats(vertices, faces)):
-        used, compact = np.unique(component, return_inverse=True)
-        points = vertices[used]
-        triangles = compact.reshape(-1, 3)
-        oriented = _consistently_wound(triangles)
-        area = float(areas_of(points[triangles]).sum())
-        volume = 0.0 if oriented is None else abs(_solid_moments(points, oriented).mass)
-        if oriented is None:
-            total += _sheet_moments(points, triangles, thickness)
-        elif 2.0 * volume < SHEET_THICKNESS_M * area:
-            total += _sheet_moments(points, triangles, thickness).scaled(0.5)
+    for sheet in gated.sheets:
+        total += _sheet_moments(sheet.vertices, sheet.faces, thickness)
+    thick = []
+    for solid in gated.solids:
+        if thickness_m(solid) < SHEET_THICKNESS_M:
+            total += _sheet_moments(*triangles_of(solid), thickness).scaled(0.5)
         else:
-            closed.append((points, oriented))
-    return total + _union_moments(closed)
-
-
-def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
-    """Return faces with an area, one of each set of corners: back-to-back copies are one."""
-    real = faces[areas_of(vertices[faces]) > 0.0]
-    first, _ = distinct_rows(np.sort(real, axis=1))
-    return real[np.sort(first)]
-
-
-def _components(faces: IntArray) -> list[IntArray]:
-    """Group faces over edges of exactly two faces: solids that merely touch stay apart."""
-    label = label_linked(len(faces), shared_edges(faces).faces)
-    return [faces[component] for component in grouped(label)]
-
-
-def _consistently_wound(faces: IntArray) -> IntArray | None:
-    """Return the faces of one component, wound alike; ``None`` if it is open or one-sided."""
-    shared = shared_edges(faces)
-    if 2 * len(shared.faces) < 3 * len(faces):
-        return None
-    if shared.alike.all():
-        return faces
-    turned = flips(shared, len(faces), [np.arange(len(faces))])
-    one, other = turned[shared.faces].T
-    if ((one == other) != shared.alike).any():
-        return None
-    return np.where(turned[:, None], faces[:, ::-1], faces)
+            thick.append(solid)
+    return total + _manifold_moments(replace(gated, solids=tuple(thick)).body)
 
 
 def _solid_moments(vertices: FloatArray, faces: IntArray) -> _Moments:
@@ -203,52 +169,8 @@ def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _
     return _Moments(float(volume.sum()), (volume @ total) / 3.0, np.asarray(second + across))
 
 
-def _union_moments(closed: list[tuple[FloatArray, IntArray]]) -> _Moments:
-    """Add up closed, consistently wound components: solids united, cavities removed."""
-    signed = np.array([_solid_moments(*component).mass for component in closed])
-    order = np.argsort(-np.abs(signed), kind="stable")
-    hollow = _cavities(closed, signed)
-    total = _NOTHING
-    body = manifold3d.Manifold()
-    run: list[manifold3d.Manifold] = []
-    for index in order:
-        vertices, faces = closed[index]
-        outward = faces if signed[index] > 0.0 else faces[:, ::-1]
-        solid = manifold3d.Manifold(
-            manifold3d.Mesh64(vertices, np.ascontiguousarray(outward, dtype=np.uint64))
-        )
-        if solid.status() != manifold3d.Error.NoError:
-            # What manifold3d refuses still has exact integrals; only its overlaps with others count
-            # twice.
-            total += _solid_moments(vertices, outward).scaled(-1.0 if hollow[index] else 1.0)
-        elif hollow[index]:
-            body = union([body, *run]) - solid
-            run = []
-        else:
-            run.append(solid)
-    return total + _manifold_moments(union([body, *run]))
-
-
 def _manifold_moments(body: manifold3d.Manifold) -> _Moments:
     return _NOTHING if body.is_empty() else _solid_moments(*triangles_of(body))
-
-
-def _cavities(closed: list[tuple[FloatArray, IntArray]], signed: FloatArray) -> list[bool]:
-    """Find components that bound a cavity: they face opposite to the outermost one around."""
-    hollow = [False] * len(closed)
-    if not (signed > 0.0).any() or not (signed < 0.0).any():
-        return hollow
-    low = np.array([points.min(axis=0) for points, _ in closed])
-    high = np.array([points.max(axis=0) for points, _ in closed])
-    by_size = np.argsort(-np.abs(signed), kind="stable")
-    for index in range(len(closed)):
-        around = (low < low[index]).all(axis=1) & (high > high[index]).all(axis=1)
-        for outer in by_size[around[by_size]]:
-            vertices, faces = closed[outer]
-            if wound_around(vertices, faces, closed[index][0][:1]).any():
-                hollow[index] = bool(signed[outer] * signed[index] < 0.0)
-                break
-    return hollow
 
 
 def _hull_moments(hulls: Sequence[Hull], center: FloatArray) -> _Moments:

@@ -163,14 +163,11 @@ def _relocated(before: Articulation, made: Articulation) -> Articulation:
     }
     if not ended:
         return made
-    parts = [
+    parts = tuple(
         replace(part, kind=PartKind.PART) if index in ended else part
         for index, part in enumerate(made.parts)
-    ]
-    told = located(replace(made, parts=tuple(parts))).parts
-    kept = zip(made.parts, told, strict=True)
-    parts = [new if index in ended else part for index, (part, new) in enumerate(kept)]
-    return replace(made, parts=tuple(parts))
+    )
+    return located(replace(made, parts=parts))
 
 
 def dispensable_joints(articulation: Articulation, share: float) -> Spare:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
+from ..runtime.packing import from_json
+
 Pair = tuple[str, str]
 
 
@@ -101,7 +103,6 @@ class RepairKind(StrEnum):
     OTHER = "other", "other", "{why}"
 
 
-_KINDS: Mapping[str, RepairKind] = {kind.value: kind for kind in RepairKind}
 #: Reports that hold sentences alone: a repair's kind by the first words of its sentence.
 _OLDER: Mapping[str, RepairKind] = {
     "cut the": RepairKind.HULLS_CUT_APART,
@@ -175,25 +176,8 @@ class Repair:
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Repair:
-        """Return what :meth:`to_dict` wrote. Raises KeyError, TypeError or ValueError."""
-        kind = _KINDS[data["kind"]]
-
-        def number(name: str) -> float | None:
-            return float(data[name]) if name in data else None
-
-        return cls(
-            kind,
-            parts=tuple(map(str, data.get("parts", ()))),
-            pairs=tuple((str(one), str(other)) for one, other in data.get("pairs", ())),
-            joints=tuple(map(str, data.get("joints", ()))),
-            before=number("before"),
-            after=number("after"),
-            unit=str(data.get("unit", "")),
-            free_share=number("free_share"),
-            code=str(data.get("code", "")),
-            why=str(data.get("why", "")),
-            told=str(data.get("told", "")),
-        )
+        """Return what :meth:`to_dict` wrote. Raises ValueError at anything else."""
+        return from_json(cls, data)
 
 
 def older_repair(sentence: str) -> Repair:

@@ -82,11 +82,10 @@ def _hulls(
     planned: Articulation, known: Sequence[SolidPieces | None], plan: Plan, stages: Stages
 ) -> tuple[tuple[SolidPieces, ...], list[Finding]]:
     """Decompose every part, joined where the asset has many hulls; and say which were joined."""
-    config = replace(stages.config, hulls=_wanted(plan, stages.config))
     rooms = Rooms(planned)
-    plain = decompose(planned, config.decompose, stages.store, known, plan.hollow, rooms)
-    found, errors_m = fewer(plain, config, stages.store, rooms)
-    limit = config.decompose.max_hulls
+    plain = decompose(planned, stages, known, plan.hollow, rooms)
+    found, errors_m = fewer(plain, _wanted(plan, stages.config), stages, rooms)
+    limit = stages.config.decompose.max_hulls
     for part, piece in zip(planned.parts, found, strict=True):
         if len(piece.hulls) > limit:
             raise InputRejected(

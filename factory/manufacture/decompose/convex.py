@@ -12,8 +12,11 @@ from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
 from ...runtime.numbers import DECIMALS
 
-#: Bodies thinner than this are planes: qhull and the simulators' cookers lose them [m].
+#: Bodies thinner than this are planes: qhull and the simulators' cookers lose them. Gaps that are
+#: narrower or wider by less are so by rounding [m].
 THINNEST_M = 1e-5
+#: Places nearer to one another are one [m].
+SAME_M = 1e-6
 
 
 def hull_of(points: FloatArray) -> Hull | None:

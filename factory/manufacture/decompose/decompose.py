@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from functools import partial
 
 from ...articulation import Articulation
-from ...config import BuildConfig, DecomposeConfig
+from ...config import DecomposeConfig
 from ...errors import InputRejected
 from ...mesh import Mesh
 from ...runtime.keys import Stage
-from ...runtime.packing import pack, unpack
-from ...runtime.store import Store
+from ...runtime.stages import Stages
 from .part import split_part
 from .pieces import SolidPieces
 from .room import Room, Rooms
@@ -26,8 +25,7 @@ DECOMPOSE = Stage(
 
 def decompose(
     articulation: Articulation,
-    config: DecomposeConfig,
-    store: Store | None = None,
+    stages: Stages,
     known: Sequence[SolidPieces | None] = (),
     hollow: Collection[str] = (),
     rooms: Rooms | None = None,
@@ -37,8 +35,7 @@ def decompose(
     Args:
         articulation: whose parts are decomposed, in the object frame at rest, each where no other
             one is or passes.
-        config: see :class:`DecomposeConfig`.
-        store: results are kept here by content; without it everything is computed anew.
+        stages: with the settings and the cache.
         known: hulls of parts that have them already, ``None`` for the others; empty: of none.
         hollow: names of parts whose open surfaces are walls, never closed or filled.
         rooms: of that articulation, where somebody else asks them, too.
@@ -48,7 +45,7 @@ def decompose(
         Unjudged: an engine hung, or somebody ended it.
     """
     rooms = rooms or Rooms(articulation)
-    build = BuildConfig(decompose=config)
+    config = stages.config.decompose
     results = []
     for index, part in enumerate(articulation.parts):
         given = known[index] if known else None
@@ -61,21 +58,10 @@ def decompose(
         mesh = articulation.part_mesh(index)
         room = rooms.around(index)
         how = ("hollow",) if part.name in hollow else ()
-        key = DECOMPOSE.key(build, mesh.vertices, mesh.faces, room.points, *how)
+        key = DECOMPOSE.key(stages.config, mesh.vertices, mesh.faces, room.points, *how)
         make = partial(_decompose_part, part.name, mesh, config, room, bool(how))
-        results.append(recalled(store, key, make))
+        results.append(stages.recall("decompose", SolidPieces, key, make))
     return tuple(results)
-
-
-def recalled(store: Store | None, key: str, make: Callable[[], SolidPieces]) -> SolidPieces:
-    """Return the hulls of a part that a store keeps, else make them, and keep them there."""
-    kept = None if store is None else store.load(key)
-    if kept is not None:
-        return unpack(SolidPieces, kept)
-    made = make()
-    if store is not None:
-        store.save(key, pack(made))
-    return made
 
 
 def error_for(mesh: Mesh, config: DecomposeConfig) -> float:

@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from ...config import BuildConfig
+from ...config import HullsConfig
 from ...runtime.keys import Stage
 from ...runtime.packing import contents
-from ...runtime.store import Store
+from ...runtime.stages import Stages
 from .convex import limit_vertices
-from .decompose import recalled
 from .merge import merge
 from .methods import slot_of
 from .pieces import SolidPieces
@@ -24,16 +23,14 @@ FEWER = Stage(
 )
 #: Multiples of the error that are tried, one after another, until there are few enough.
 COARSER = (1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0)
-#: Up to this multiple slots stay as open as the decomposition left them.
-GENTLE = 2.0
 #: Parts of fewer hulls than this are left as they are.
 FEW = 8
 
 
 def fewer(
     pieces: tuple[SolidPieces, ...],
-    config: BuildConfig,
-    store: Store | None = None,
+    wanted: HullsConfig,
+    stages: Stages,
     rooms: Rooms | None = None,
 ) -> tuple[tuple[SolidPieces, ...], dict[int, float]]:
     """Join the hulls of parts, those of most hulls first, until all together are few enough.
@@ -42,37 +39,42 @@ def fewer(
 
     Args:
         pieces: hulls per part.
-        config: how many there may be, and of the decomposition.
-        store: results are kept here by content; without it everything is computed anew.
+        wanted: how many there may be.
+        stages: with the settings and the cache.
         rooms: what others take of each part's: no joined hull takes more of it.
 
     Returns:
         The parts, and the error [m] of each one that was joined, by its index.
     """
+    config = stages.config.decompose
     joined = list(pieces)
     errors_m: dict[int, float] = {}
     many = sorted(range(len(pieces)), key=lambda part: -len(pieces[part].hulls))
-    for times in (each for each in COARSER if each <= config.hulls.coarsest):
-        most = config.hulls.wanted if times <= config.hulls.coarse else config.hulls.most
+    for times in (each for each in COARSER if each <= wanted.coarsest):
+        gentle = times <= wanted.coarse
+        most = wanted.wanted if gentle else wanted.most
+        # Slots stay as open as the decomposition left them while that is asked of any asset.
+        slot_m = slot_of(config) if gentle else None
         for part in many:
             if sum(len(piece.hulls) for piece in joined) <= most:
                 return tuple(joined), errors_m
-            if len(pieces[part].hulls) >= FEW:
-                error_m = times * config.decompose.error_m
+            piece = pieces[part]
+            if len(piece.hulls) >= FEW:
+                error_m = times * config.error_m
                 room = rooms.around(part) if rooms else NOWHERE
-                key = FEWER.key(config, *contents(pieces[part]), error_m, room.points)
-                make = partial(_joined, pieces[part], error_m, config, room)
-                joined[part] = recalled(store, key, make)
-                if len(joined[part].hulls) < len(pieces[part].hulls):
+                key = FEWER.key(stages.config, *contents(piece), error_m, slot_m, room.points)
+                make = partial(_joined, piece, error_m, slot_m, config.max_vertices, room)
+                joined[part] = stages.recall("decompose", SolidPieces, key, make)
+                if len(joined[part].hulls) < len(piece.hulls):
                     errors_m[part] = error_m
     return tuple(joined), errors_m
 
 
-def _joined(piece: SolidPieces, error_m: float, config: BuildConfig, room: Room) -> SolidPieces:
-    """Return one part with its hulls joined, up to an error [m]; itself where none can be."""
-    slot_m = slot_of(config.decompose) if error_m <= GENTLE * config.decompose.error_m else None
+def _joined(
+    piece: SolidPieces, error_m: float, slot_m: float | None, max_vertices: int, room: Room
+) -> SolidPieces:
+    """Return one part with its hulls joined, see ``merge``; itself where none can be."""
     merged = merge(list(piece.hulls), error_m, slot_m, room)
     if len(merged) == len(piece.hulls):
         return piece
-    hulls = tuple(limit_vertices(hull, config.decompose.max_vertices) for hull in merged)
-    return replace(piece, hulls=hulls)
+    return replace(piece, hulls=tuple(limit_vertices(hull, max_vertices) for hull in merged))

@@ -18,11 +18,9 @@ from ...errors import Unjudged
 from .child import Triangles, coacd_pieces, vhacd_pieces
 from .convex import hull_of
 from .pieces import NOTHING, SolidPieces
-from .simplify import simplified
+from .simplify import VOLUME_SHARE, simplified
 from .solids import manifold_of_hull, triangles_of, union
 
-#: A decomposition may leave this share of the solid uncovered; simplifying shaves some off.
-BARE_LIMIT = 0.02
 #: CoACD is not asked of solids that keep more faces than this when simplified by the error. Its
 #: time goes by the pieces it makes, 0.1 to 0.3 s each: a torus that keeps 1,234 took 5 s for 28,
 #: blobs of 1,196 and 1,282 26 s for 101 and 172, one of 2,702 42 s for 515 with a sixth of the
@@ -132,10 +130,10 @@ def complaint(solid: Manifold, hulls: list[Hull], outside_m: float) -> str | Non
         return "no piece is a body"
     cover = union([manifold_of_hull(hull) for hull in hulls])
     bare = (solid - cover).volume() / solid.volume()
-    if bare > BARE_LIMIT:
+    if bare > VOLUME_SHARE:
         return (
             f"{100 * bare:.1f} % of the volume is left uncovered, "
-            f"want at most {100 * BARE_LIMIT:g} %"
+            f"want at most {100 * VOLUME_SHARE:g} %"
         )
     outside = (cover - solid).volume() / solid.surface_area()
     if outside > outside_m:

@@ -16,7 +16,8 @@ from .pockets import fills_little
 from .room import NOWHERE, Room
 from .solids import manifold_of_hull
 
-#: More hulls than this are first merged in two halves of space each, so that the pairs stay few.
+#: More hulls than this are many: even exact ones are joined where that fills little, and all are
+#: first joined in two halves of space each, so that the pairs stay few.
 TOGETHER = 24
 #: Pairs that might be joined, before the rest stay as they are: a count, not a clock, so that the
 #: same hulls always end the same.

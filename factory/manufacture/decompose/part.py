@@ -11,9 +11,9 @@ from manifold3d import Manifold
 from ...asset import Hull
 from ...config import DecomposeConfig
 from ...mesh import FloatArray, IntArray
-from .convex import concavity, depth_below, hull_of, limit_vertices, surface_points
+from .convex import SAME_M, concavity, depth_below, hull_of, limit_vertices, surface_points
 from .cut import opened
-from .merge import merge
+from .merge import TOGETHER, merge
 from .methods import slot_of, split_closely
 from .openings import as_shell, closed
 from .outside import uncovered
@@ -23,12 +23,8 @@ from .sheets import slabs
 from .simplify import lighter
 from .solids import Gated, OpenSurface, contains, gate, union
 
-#: Of more hulls than this even exact ones are joined where that fills little.
-MANY_HULLS = 24
 #: How far a simplified open surface may leave the original bare, as a share of the error.
 COVER_SHARE = 0.6
-#: A hull this little below another one's surface lies in it [m].
-TOUCHING_M = 1e-6
 #: A slab over an open surface adds nothing to a hull that it stands out of by this share of the
 #: error.
 PROUD_SHARE = 0.2
@@ -81,7 +77,7 @@ def _finished(
 ) -> SolidPieces:
     """Return pieces of one part joined where that fills little, none in another, none too fine."""
     hulls = list(found.hulls)
-    if found.method != "exact" or len(hulls) > MANY_HULLS:
+    if found.method != "exact" or len(hulls) > TOGETHER:
         hulls = merge(hulls, error_m, slot_of(config), room)
     limited = [limit_vertices(each, config.max_vertices) for each in _not_inside_others(hulls)]
     return replace(found, hulls=tuple(limited))
@@ -129,7 +125,7 @@ def _cover(sheet: OpenSurface, center: FloatArray, config: DecomposeConfig) -> l
     return hulls
 
 
-def _not_inside_others(hulls: list[Hull], proud_m: float = TOUCHING_M) -> list[Hull]:
+def _not_inside_others(hulls: list[Hull], proud_m: float = SAME_M) -> list[Hull]:
     """Return the hulls that stand out of every larger one by more than ``proud_m`` [m]."""
     low = [hull.vertices.min(axis=0) for hull in hulls]
     high = [hull.vertices.max(axis=0) for hull in hulls]

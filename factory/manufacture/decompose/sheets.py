@@ -79,12 +79,11 @@ def _grow(surface: OpenSurface, vectors: FloatArray, error_m: float) -> list[_Pa
         i: _Patch(surface.vertices[face], vector)
         for i, (face, vector) in enumerate(zip(surface.faces, vectors, strict=True))
     }
-    for a, b in shared_edges(surface.faces).faces.tolist():
+    queue: list[tuple[float, int, int]] = []
+    for a, b in np.unique(shared_edges(surface.faces).faces, axis=0).tolist():
         patches[a].near.add(b)
         patches[b].near.add(a)
-    queue: list[tuple[float, int, int]] = []
-    for a in patches:
-        _offer(queue, patches, a, error_m, only_above=True)
+        _offer(queue, patches, a, b, error_m)
     fresh = len(patches)
     while queue:
         _, a, b = heapq.heappop(queue)
@@ -94,7 +93,7 @@ def _grow(surface: OpenSurface, vectors: FloatArray, error_m: float) -> list[_Pa
         for other in patches[fresh].near:
             patches[other].near -= {a, b}
             patches[other].near.add(fresh)
-        _offer(queue, patches, fresh, error_m)
+            _offer(queue, patches, fresh, other, error_m)
         fresh += 1
     return list(patches.values())
 
@@ -107,18 +106,11 @@ def _join(patches: dict[int, _Patch], a: int, b: int) -> _Patch:
 
 
 def _offer(
-    queue: list[tuple[float, int, int]],
-    patches: dict[int, _Patch],
-    a: int,
-    error_m: float,
-    only_above: bool = False,
+    queue: list[tuple[float, int, int]], patches: dict[int, _Patch], a: int, b: int, error_m: float
 ) -> None:
-    for b in patches[a].near:
-        if only_above and b < a:
-            continue
-        cost = _cost(patches[a], patches[b], error_m)
-        if cost <= 1.0:
-            heapq.heappush(queue, (cost, min(a, b), max(a, b)))
+    cost = _cost(patches[a], patches[b], error_m)
+    if cost <= 1.0:
+        heapq.heappush(queue, (cost, min(a, b), max(a, b)))
 
 
 def _cost(first: _Patch, second: _Patch, error_m: float) -> float:

@@ -8,7 +8,8 @@ from manifold3d import Manifold
 from ...mesh import FloatArray, IntArray
 from .solids import OpenSurface, manifold_of, triangles_of
 
-#: The volume may change by this share when triangles are taken away.
+#: The volume may change by this share when triangles are taken away, and pieces may leave as much
+#: of a solid uncovered.
 VOLUME_SHARE = 0.02
 
 

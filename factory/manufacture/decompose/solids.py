@@ -50,6 +50,15 @@ class Gated:
     cavities: tuple[Manifold, ...]
     sheets: tuple[OpenSurface, ...]
 
+    @property
+    def body(self) -> Manifold:
+        """Return all solids as one, without cavities but with the bodies loose in these."""
+        found = union(list(self.solids))
+        for cavity in sorted(self.cavities, key=lambda cavity: -cavity.volume()):
+            found -= cavity
+            found += union([solid for solid in self.solids if contains(cavity, solid)])
+        return found
+
 
 def manifold_of(vertices: FloatArray, faces: IntArray) -> Manifold | None:
     """Return a manifold of these triangles [m]; ``None`` unless they close and enclose something.
@@ -111,6 +120,11 @@ def union(solids: list[Manifold]) -> Manifold:
     return Manifold.batch_boolean(solids, manifold3d.OpType.Add) if solids else Manifold()
 
 
+def thickness_m(solid: Manifold | None) -> float:
+    """Return the mean thickness of a solid of sheets [m]; 0 of what encloses nothing."""
+    return 0.0 if solid is None else 2.0 * float(solid.volume()) / float(solid.surface_area())
+
+
 def volume_within(hulls: Iterable[Hull], others: Iterable[Hull]) -> float:
     """Return the volume of hulls that lies in any of others [m3]."""
     room = union([manifold_of_hull(other) for other in others])
@@ -121,12 +135,13 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
     """Sort triangles, of welded positions [m], into solids, cavities and sheets.
 
     Duplicated faces count once, double-sided ones too; where the rest closes without these they are
-    sheets. Inverted bodies are turned; an inverted body inside another one is a cavity.
+    sheets. Inverted bodies are turned; a body that faces the other way than the outermost around it
+    is a cavity.
     """
     faces = _without_repeats(vertices, faces)
     closed: list[Manifold] = []
     sheets: list[OpenSurface] = []
-    for group in grouped(component_labels(faces)):
+    for group in _grouped(component_labels(faces)):
         manifold = manifold_of(vertices, faces[group])
         if manifold is not None:
             closed += manifold.decompose()
@@ -167,7 +182,7 @@ def component_labels(faces: IntArray) -> IntArray:
     return label_linked(len(used), links)[corners[:, 0]]
 
 
-def grouped(label: IntArray) -> list[IntArray]:
+def _grouped(label: IntArray) -> list[IntArray]:
     """Return the indices that have each label, in the order of their first ones."""
     order = np.argsort(label, kind="stable")
     splits = np.flatnonzero(np.diff(label[order])) + 1
@@ -183,13 +198,13 @@ def two_sided_patches(faces: IntArray) -> list[IntArray]:
     kept, _ = distinct_rows(np.sort(faces, axis=1))
     faces = faces[np.sort(kept)]
     shared = shared_edges(faces)
-    patches = grouped(label_linked(len(faces), shared.faces))
-    flip = flips(shared, len(faces), patches)
+    patches = _grouped(label_linked(len(faces), shared.faces))
+    flip = _flips(shared, len(faces), patches)
     wound = np.where(flip[:, None], faces[:, ::-1], faces)
     return [wound[patch] for patch in patches]
 
 
-def flips(shared: SharedEdges, count: int, patches: list[IntArray]) -> BoolArray:
+def _flips(shared: SharedEdges, count: int, patches: list[IntArray]) -> BoolArray:
     """Tell which of some faces to turn to wind each patch like its first face, shape [count]."""
     # Weight 1: wound alike, 2: not; an explicit zero would be no edge.
     weights = np.where(shared.alike, 1, 2)
@@ -211,18 +226,27 @@ def _compact(vertices: FloatArray, faces: IntArray) -> OpenSurface:
 
 
 def _inside_out(closed: list[Manifold]) -> tuple[list[Manifold], list[Manifold]]:
-    """Return the bodies and the cavities among closed manifolds of either sign."""
+    """Return the bodies and the cavities among closed manifolds of either sign.
+
+    A cavity faces the other way than the outermost body around it, inverted or not.
+    """
     positive = [m for m in closed if m.volume() > LEAST_VOLUME_M3]
     negative = [flipped(m) for m in closed if m.volume() < -LEAST_VOLUME_M3]
-    # Largest first: a body that is itself inverted may hold cavities wound the right way round.
-    solids = list(positive)
-    cavities = []
-    for body in sorted(negative, key=lambda m: -m.volume()):
-        if any(contains(solid, body) for solid in positive):
-            cavities.append(body)
-        else:
-            solids.append(body)
-    return solids, cavities
+    if not negative:
+        return positive, []
+    bodies = [*positive, *sorted(negative, key=lambda m: -m.volume())]
+    order = sorted(range(len(bodies)), key=lambda number: -bodies[number].volume())
+    hollow = set()
+    for place, number in enumerate(order):
+        larger = order[:place]
+        upright = number < len(positive)
+        turned = [other for other in larger if (other < len(positive)) != upright]
+        if any(contains(bodies[other], bodies[number]) for other in turned):
+            around = (other for other in larger if contains(bodies[other], bodies[number]))
+            if next(around) in turned:
+                hollow.add(number)
+    solids = [body for number, body in enumerate(bodies) if number not in hollow]
+    return solids, [bodies[number] for number in sorted(hollow)]
 
 
 def contains(outer: Manifold, inner: Manifold) -> bool:
@@ -240,15 +264,11 @@ def contains(outer: Manifold, inner: Manifold) -> bool:
 
 
 def inside(solid: Manifold, points: FloatArray) -> BoolArray:
-    """Return which points [m], shape [n, 3], lie in a solid, by its winding number, shape [n]."""
-    return wound_around(*triangles_of(solid), points)
-
-
-def wound_around(vertices: FloatArray, faces: IntArray, points: FloatArray) -> BoolArray:
-    """Return which points [m], shape [n, 3], a closed surface winds around, shape [n].
+    """Return which points [m], shape [n, 3], lie in a solid, by its winding number, shape [n].
 
     The solid angles are those of van Oosterom and Strackee 1983.
     """
+    vertices, faces = triangles_of(solid)
     found = np.zeros(len(points), dtype=bool)
     for start in range(0, len(points), TOGETHER):
         arms = vertices[faces][None] - points[start : start + TOGETHER, None, None]

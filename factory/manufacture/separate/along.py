@@ -11,16 +11,15 @@ import numpy as np
 
 from ...asset import Hull
 from ...mesh import FloatArray
+from ..decompose.convex import SAME_M, THINNEST_M
 from ..poses import moved
-from .clip import ROUNDING_M, carved, cut_apart, depth_at, meeting
+from .clip import carved, cut_apart, depth_at, meeting
 
 #: Most pieces that are kept of one hull around a pit: a floor and walls around what is round.
 MOST_WALLS = 10
 #: For each piece more a cut must lose less, by this share.
 PIECE_SHARE = 0.25
 
-#: Steps along a slide are as long as one another, but for rounding [m].
-EVEN_M = 1e-6
 #: A sheet that gives way may come to lie where something was before: so often all is looked at
 #: again.
 MOST_PASSES = 3
@@ -62,7 +61,7 @@ def _even(before: FloatArray, pose: FloatArray, other: FloatArray) -> bool:
         return False
     step = pose[:3, 3] - before[:3, 3]
     sides = (other[:3, 3] - pose[:3, 3], before[:3, 3] - other[:3, 3])
-    return min(float(np.abs(step - side).max()) for side in sides) < EVEN_M
+    return min(float(np.abs(step - side).max()) for side in sides) < SAME_M
 
 
 def cut_apart_along(
@@ -131,13 +130,7 @@ def hull_depth(
     Gaps up to ``margin`` are negative depths; where all hulls are further apart, minus that.
     """
     near = near_pairs(a, b, pose, margin)
-    return max([-margin, *(meeting(a[i], b[j], pose).depth for i, j in near)])
-
-
-def are_near(a: Sequence[Hull], b: Sequence[Hull], pose: FloatArray, margin: float) -> bool:
-    """Tell whether any two hulls of two parts are nearer than ``margin`` [m], or overlap."""
-    near = near_pairs(a, b, pose, margin)
-    return any(depth_at(a[i], b[j], pose) > -margin for i, j in near)
+    return max([-margin, *(depth_at(a[i], b[j], pose) for i, j in near)])
 
 
 def _all_apart(
@@ -169,7 +162,7 @@ def _apart(
 ) -> Sides:
     """Cut two hulls apart in the cheapest way: both by planes, pose by pose, or one carved."""
     depths = [meeting(one, other, step.pose, behind=step.behind).depth for step in way]
-    near = ROUNDING_M - clearance_m
+    near = THINNEST_M - clearance_m
     met = [step for step, depth in zip(way, depths, strict=True) if depth > near]
     if not met:
         return [one], [other]

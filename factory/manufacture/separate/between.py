@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from ...mesh import FloatArray
 from ..poses import relative_poses
-from .along import Sides, are_near
+from .along import Sides, hull_depth
 from .hung import reach_m
 from .pair import PartPair
 
@@ -65,7 +65,7 @@ def cut_between(
     poses = list(way)
     for _ in range(MOST_LOOKS):
         hulls = found or after
-        missed = [pose for pose in between if are_near(*hulls, pose, LEAST_M)]
+        missed = [pose for pose in between if hull_depth(*hulls, pose, LEAST_M) > -LEAST_M]
         if not missed:
             break
         # Where nearly all of a long way is missed, as that of a wheel, some of it shows the rest.

@@ -22,7 +22,7 @@ from ..poses import arms_from
 MOST_CORNERS = 3000
 #: So many hulls are remembered with how far points of a surface lie beyond them.
 MOST_KNOWN = 500
-#: Points that are bared by less are not looked at [m].
+#: What is cut off by less is all there: points that are bared by it are not looked at [m].
 SHAVED_M = 1e-4
 
 
@@ -178,34 +178,24 @@ def _bared(
     )
 
 
-@dataclass(frozen=True)
-class CutLimits:
-    """What a cut may take of two parts.
-
-    Attributes:
-        free_m: off both together where nothing excuses it [m].
-        trimmed_m: the same beside a hinge, or in a part that no joint holds it in [m].
-    """
-
-    free_m: float
-    trimmed_m: float
-
-
 def overdone(
     names: Sequence[str],
     losses: Sequence[Loss],
     solid: Sequence[bool],
-    limits: CutLimits,
     config: SeparateConfig,
+    *,
+    free_m: float,
+    trimmed_m: float,
 ) -> str | None:
     """Say why a cut of two parts takes too much, or visible surface; ``None`` if it does neither.
 
     ``solid`` tells whether each encloses a volume to speak of: the slabs over an open surface come
-    and go whole, and a thin sheet is cut back to half of itself.
+    and go whole, and a thin sheet is cut back to half of itself. Off both together may go
+    ``free_m`` where nothing excuses it, and ``trimmed_m`` where something does, see `Loss` [m].
     """
     for depths, limit in (
-        ([each.bared_m for each in losses], limits.free_m),
-        ([each.trimmed_m for each in losses], limits.trimmed_m),
+        ([each.bared_m for each in losses], free_m),
+        ([each.trimmed_m for each in losses], trimmed_m),
     ):
         if sum(depths) > limit:
             return (

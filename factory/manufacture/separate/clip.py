@@ -13,7 +13,7 @@ from ...runtime.numbers import DECIMALS
 from ..decompose.convex import edges_of, hull_of
 from ..poses import moved
 
-#: A hull no thicker than this is a sheet [m].
+#: A hull no thicker than this is a sheet, and what has no thickness is made so thick [m].
 SHEET_M = 0.003
 #: Of which at least this much is to be left by a cut [m].
 LEFT_M = 0.001
@@ -22,8 +22,6 @@ SHARES = (0.0, 0.5, 1.0)
 #: Directions with a smaller cosine are unlike one another; so many of those are tried, too.
 ALIKE = 0.7
 UNLIKE = 3
-#: What is nearer than the clearance by less is so by rounding [m].
-ROUNDING_M = 1e-5
 #: Volumes that differ by less than this share do so by rounding.
 ROUNDING_SHARE = 1e-9
 #: Corners this near to a plane lie on it [m].

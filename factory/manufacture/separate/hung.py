@@ -35,10 +35,10 @@ def well_hung(
     """
     if is_crooked(joint.axis):
         return False
-    if not joint.turns or at_an_edge(surface, joint, config) or about_its_middle(surface, joint):
+    if not joint.turns or surface is None:
         return True
-    if surface is None:
-        return False
+    if at_an_edge(surface, joint, config) or about_its_middle(surface, joint):
+        return True
     return seat_roundness(surface, joint, holder, config.clearance_m) > MIDDLE_SHARE
 
 
@@ -51,10 +51,8 @@ def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig
     return near <= trimmed_limit(config, surface.diagonal)
 
 
-def about_its_middle(surface: SeenSurface | None, joint: Joint) -> bool:
+def about_its_middle(surface: SeenSurface, joint: Joint) -> bool:
     """Tell whether a part reaches about as far to one side of its axis as to the other."""
-    if surface is None:
-        return True
     ahead, behind = _reach(arms_from(joint, surface.points))
     return behind >= MIDDLE_SHARE * ahead
 

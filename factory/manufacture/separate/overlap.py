@@ -10,10 +10,7 @@ from ...articulation import Articulation
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
 from ..decompose.convex import thickness
-from ..decompose.solids import gate, triangles_of, union
-
-#: Intersections smaller than this are rounding [m3]: a cube of a twentieth of a millimetre.
-LEAST_VOLUME_M3 = 1.25e-13
+from ..decompose.solids import LEAST_VOLUME_M3, gate, thickness_m, triangles_of
 
 
 def part_solid(articulation: Articulation, part: int) -> Manifold | None:
@@ -22,15 +19,7 @@ def part_solid(articulation: Articulation, part: int) -> Manifold | None:
         return None
     mesh = articulation.part_mesh(part)
     gated = gate(mesh.vertices, mesh.faces)
-    if not gated.solids or gated.sheets:
-        return None
-    solid = union(list(gated.solids))
-    return solid - union(list(gated.cavities)) if gated.cavities else solid
-
-
-def thickness_m(solid: Manifold | None) -> float:
-    """Return the mean thickness of a solid of sheets [m]; 0 of what encloses nothing."""
-    return 0.0 if solid is None else 2.0 * float(solid.volume()) / float(solid.surface_area())
+    return gated.body if gated.solids and not gated.sheets else None
 
 
 def overlap_m(a: Manifold, b: Manifold, pose: FloatArray) -> float:

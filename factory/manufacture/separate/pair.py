@@ -14,15 +14,15 @@ from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of
-from ..decompose.solids import volume_within
+from ..decompose.solids import thickness_m, volume_within
 from ..hinges import is_crooked
 from ..poses import held_by, jointed, joints_between, moved, relative_poses
 from ..repair import Pair
 from .along import Sides, hull_depth
-from .budget import CutLimits, Excuse, Loss, SeenSurface, loss, overdone
+from .budget import Excuse, Loss, SeenSurface, loss, overdone
 from .clip import SHEET_M
 from .hung import at_an_edge, stands_out_m, trimmed_limit, well_hung
-from .overlap import overlap_m, part_solid, thickness_m
+from .overlap import overlap_m, part_solid
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06
@@ -185,11 +185,11 @@ class PartPair:
     def overdone(self, losses: Sequence[Loss]) -> str | None:
         """Return why a cut takes too much, or what can be seen; ``None`` if it does neither."""
         config = self.bodies.config
-        limits = CutLimits(self._free_m, self._trimmed_m + config.clearance_m)
         # Of a closed sheet more may go than of a solid, where it hangs at an edge of its own.
         least_m = SHEET_M if self.hinges else 0.0
         solid = [thickness_m(self.bodies.solids[part]) > least_m for part in self.parts]
-        return overdone(self.names, losses, solid, limits, config)
+        trimmed_m = self._trimmed_m + config.clearance_m
+        return overdone(self.names, losses, solid, config, free_m=self._free_m, trimmed_m=trimmed_m)
 
     @cached_property
     def solid(self) -> bool:

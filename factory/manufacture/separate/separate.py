@@ -11,14 +11,13 @@ from ...articulation import Articulation
 from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
-from ..decompose.convex import limit_vertices
+from ..decompose.convex import THINNEST_M, limit_vertices
 from ..decompose.merge import merge
 from ..decompose.pieces import SolidPieces
 from ..repair import Pair
 from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
 from .between import Cut, cut_between, poses_between
-from .budget import Loss, too_bare
-from .clip import ROUNDING_M
+from .budget import SHAVED_M, Loss, too_bare
 from .pair import PartPair, Workpieces
 
 #: A part of whose surface planes would bare more than this is kept whole in a socket that takes so
@@ -27,9 +26,6 @@ from .pair import PartPair, Workpieces
 SOCKET_SHARE = 0.05
 SOCKET_RIM = 0.01
 SOCKET_DEEP = 0.01
-#: A plane that made room in one corner of a hull cuts through all of it: what is convex again but
-#: for this is joined [m].
-EXACT_M = 1e-4
 
 
 @dataclass(frozen=True)
@@ -123,7 +119,8 @@ def with_hulls(piece: SolidPieces, hulls: list[Hull], max_vertices: int) -> Soli
     if len(hulls) == len(piece.hulls) and all(map(is_, hulls, piece.hulls)):
         return piece
     if len(hulls) > len(piece.hulls):
-        hulls = merge(hulls, EXACT_M)
+        # A plane that made room in one corner of a hull cut through all of it.
+        hulls = merge(hulls, SHAVED_M)
     limited = tuple(limit_vertices(hull, max_vertices) for hull in hulls)
     return replace(piece, hulls=limited)
 
@@ -248,4 +245,4 @@ def _came_near(bodies: Workpieces, names: Pair) -> bool:
     least = bodies.config.clearance_m
     pair = PartPair.of(bodies, names)
     deepest = max(hull_depth(*pair.before, pose, least) for pose in pair.poses[:2])
-    return deepest > ROUNDING_M - least
+    return deepest > THINNEST_M - least

@@ -7,17 +7,15 @@ from collections.abc import Sequence
 import numpy as np
 
 from .box import Box
+from .sweep import CLEAR_M
 
-#: Between the box and the hollow that it slides in, each side [m].
-CLEAR_M = 0.003
 #: The box ends this far before the hollow's back [m].
 STOP_M = 0.006
 #: Share of the hollow's height.
 HEIGHT = 0.85
 BOTTOM_M = 0.008
 WALL_M = 0.01
-#: A box that would be lower or narrower is none [m].
-LEAST_M = 0.016
+#: Of a shelf; a box that would be lower or narrower is none [m].
 SHELF_M = 0.016
 #: Before a shelf there is room for what a door holds on its inner side [m].
 SETBACK_M = 0.03
@@ -33,7 +31,7 @@ def drawer_box(hollow: Box, back: float, up: int = 1) -> tuple[Box, ...]:
     high = hollow.high - np.array([CLEAR_M, CLEAR_M, STOP_M])
     low[2] = back
     high[up] = low[up] + HEIGHT * (high[up] - low[up])
-    if (high - low).min() < LEAST_M:
+    if (high - low).min() < SHELF_M:
         return ()
     across = 1 - up
     outer = Box(low, high)

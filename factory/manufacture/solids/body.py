@@ -10,11 +10,11 @@ from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .box import Box
 from .carve import block_insides, surface_points
-from .knobs import CLEAR_M, clear_of_bumps, give_way, keep_clear
+from .knobs import clear_of_bumps, give_way, keep_clear
 from .lattice import marked
 from .pieces import MOST_CORNERS
 from .reach import covering
-from .sweep import entered, hung, motions
+from .sweep import CLEAR_M, entered, hung, motions
 from .work import Workpiece
 
 #: Hinges moved by less than this are not spoken of [m].
@@ -68,7 +68,7 @@ def make_rest(work: Workpiece, most: int) -> None:
 
 def hang_panels(work: Workpiece) -> None:
     """Hang each panel where it swings free, and clear its way where it does not."""
-    points = _standing_points(work, 0)
+    points = _standing_points(work)
     for part, panel in work.panels.items():
         joint = work.joints[part - 1]
         hulls = work.hulls[part]
@@ -91,12 +91,12 @@ def hang_panels(work: Workpiece) -> None:
         work.clear_way(0, passed & standing)
 
 
-def make_body(work: Workpiece, part: int, most: int) -> None:
-    """Make the body, or another part that nothing moves: walls around free space."""
-    points = _standing_points(work, part)
-    block_insides(work, part, points, work.owner == part)
-    work.hulls[part] = covering(work, part, _cells(work, part, points), points, most)
-    keep_clear(work, part)
+def make_body(work: Workpiece, most: int) -> None:
+    """Make the body: walls around free space."""
+    points = _standing_points(work)
+    block_insides(work, 0, points, work.owner == 0)
+    work.hulls[0] = covering(work, 0, _cells(work, 0, points), points, most)
+    keep_clear(work, 0)
 
 
 def add_shelves(work: Workpiece) -> None:
@@ -105,10 +105,10 @@ def add_shelves(work: Workpiece) -> None:
         work.add_boards(0, boards, work.panels[part])
 
 
-def _standing_points(work: Workpiece, part: int) -> FloatArray:
-    """Return surface points of the body that holds panels and knobs, off these [m], [n, 3]."""
-    points = surface_points(work, part)
-    return points[~_in_free(work, points) & clear_of_bumps(work, part, points)]
+def _standing_points(work: Workpiece) -> FloatArray:
+    """Return surface points of the body, off the panels and knobs that it holds [m], [n, 3]."""
+    points = surface_points(work, 0)
+    return points[~_in_free(work, points) & clear_of_bumps(work, 0, points)]
 
 
 def _cells(work: Workpiece, part: int, points: FloatArray) -> BoolArray:

@@ -28,7 +28,7 @@ from .knobs import make_bumps, planes_of_bumps
 from .lattice import Lattice, enclosed
 from .recognize import cut_bases, recognize, recognize_bumps
 from .skin import parts_to_build, skin_parts
-from .visible import bump_surfaces, hull_surfaces, meshed, panel_surfaces
+from .visible import bump_surfaces, meshed, panel_surfaces
 from .work import Workpiece
 
 SOLIDS = Stage(
@@ -188,7 +188,7 @@ def _made(work: Workpiece) -> None:
             hollow_behind(work, part)
     hang_panels(work)
     make_rest(work, work.config.most_pieces // 2)
-    make_body(work, 0, work.config.most_pieces)
+    make_body(work, work.config.most_pieces)
     add_shelves(work)
 
 
@@ -198,8 +198,6 @@ def _shown(work: Workpiece) -> None:
         panel_surfaces(work, part)
     for part in work.bumps:
         bump_surfaces(work, part)
-    for part in work.rest:
-        hull_surfaces(work, part)
 
 
 def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:

@@ -8,13 +8,14 @@ import numpy as np
 
 from ...articulation import Joint, JointKind, rotation_about
 from ...asset import Hull
+from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of, limit_vertices
 from .pieces import MOST_CORNERS
 
 #: Pieces of two parts are so far apart, at rest and on the way: a knob begins this far before the
 #: surface that it stands on [m].
-CLEAR_M = 0.0025
+APART_M = SeparateConfig.clearance_m
 #: Share of its height that may be cut off below for that.
 LEAST_LEFT = 0.35
 #: Copies that make a wheel round.
@@ -70,9 +71,9 @@ def _cut(points: FloatArray, rim: FloatArray, way: FloatArray) -> Bump | None:
     if len(rim) < 3:
         return None
     height = points @ way
-    base = float(np.percentile(rim @ way, 90)) + CLEAR_M
+    base = float(np.percentile(rim @ way, 90)) + APART_M
     whole = float(np.ptp(height))
-    if height.max() - base < max(LEAST_LEFT * whole, CLEAR_M):
+    if height.max() - base < max(LEAST_LEFT * whole, APART_M):
         return None
     above = points[height >= base]
     # The section at the base is not known where the skin has no corners: the lowest ones stand in.

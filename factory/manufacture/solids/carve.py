@@ -15,6 +15,7 @@ from ...config import SolidsConfig
 from ...geometry.rows import distinct_rows
 from ...mesh import BoolArray, FloatArray
 from ..decompose.outside import outside
+from ..hinges import ALIKE
 from .boards import drawer_box, shelf_boards
 from .box import Box
 from .cavity import hollow
@@ -22,7 +23,7 @@ from .frame import turned_hull
 from .knobs import clear_of_bumps, keep_clear
 from .lattice import closed_up, marked
 from .matter import INSIDE, PATH
-from .panel import ALONG, FlatPanel, hinge_edge
+from .panel import FlatPanel, hinge_edge
 from .reach import FAR_M, covering
 from .slab import FLUSH_M, FrontRelief, handles, relief
 from .work import Workpiece
@@ -303,7 +304,7 @@ def _give_shelves(
 ) -> None:
     """Put shelves into the space behind a panel that does not lie."""
     upward = np.abs(panel.side.frame[:2, 2])
-    if upward.max() > ALONG:
+    if upward.max() > ALIKE:
         work.shelves[panel.part] = shelf_boards(boxes, spacing, int(upward.argmax()))
 
 

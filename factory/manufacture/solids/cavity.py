@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ...config import SolidsConfig
 from ...mesh import BoolArray, FloatArray
 from .box import Box
 from .lattice import Lattice
@@ -16,8 +17,8 @@ SLICES = 5
 ALIKE_M = 0.012
 #: Or by less than so many cells.
 ALIKE_CELLS = 1.5
-#: Hollows narrower or shallower than this are none [m].
-LEAST_M = 0.018
+#: Hollows narrower or shallower than a wall is thick are none [m].
+LEAST_M = SolidsConfig.wall_m
 #: Share of a hollow's cells that may lie outside what can be hollowed.
 SPILT = 0.02
 

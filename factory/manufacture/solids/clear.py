@@ -7,16 +7,13 @@ from itertools import combinations
 
 import numpy as np
 
-from ...articulation import Articulation
 from ...asset import Hull
-from ...mesh import FloatArray
-from ..poses import joints_between
+from ...config import SeparateConfig
+from ..poses import relative_poses
 from ..separate.along import cut_apart_along
-from .bump import CLEAR_M
-from .sweep import DENSER
+from .bump import APART_M
 from .work import Workpiece
 
-POSES = 31
 #: Parts that would lose more are in each other's way: their pieces are left for the judge to see.
 LEAST_LEFT = 0.5
 
@@ -29,26 +26,14 @@ def cleared(work: Workpiece) -> dict[int, tuple[Hull, ...]]:
         if not (hulls[a] and hulls[b]):
             continue
         # At rest only, where the whole way would take too much.
-        for poses in (POSES, 1):
+        for count in (SeparateConfig.poses, 1):
             before = (hulls[a], hulls[b])
-            way = _relative(articulation, a, b, poses)
-            after = cut_apart_along(*before, way, CLEAR_M)
+            way = relative_poses(articulation, a, b, count)
+            after = cut_apart_along(*before, way, APART_M)
             if all(map(_enough, before, after)):
                 hulls[a], hulls[b] = after
                 break
     return {part: tuple(_bodies(kept)) for part, kept in hulls.items()}
-
-
-def _relative(articulation: Articulation, a: int, b: int, count: int) -> list[FloatArray]:
-    """Return where one part is as seen from another, at rest and along each joint between them."""
-    closed = {joint.name: joint.lower for joint in articulation.movable_joints}
-    poses = [closed, {}]
-    for joint in joints_between(articulation, a, b):
-        share = np.linspace(0.0, 1.0, count)[1:] ** DENSER
-        values = joint.lower + share * joint.range
-        poses += [{**closed, **articulation.together(joint, float(value))} for value in values]
-    found = [articulation.poses(values) for values in poses]
-    return [np.asarray(np.linalg.inv(each[a]) @ each[b]) for each in found]
 
 
 def _enough(before: list[Hull], after: list[Hull]) -> bool:

@@ -12,11 +12,9 @@ from ..poses import moved
 from ..separate.clip import carved, clipped, meeting
 from .box import Box
 from .bump import Bump
-from .sweep import entered, motions
+from .sweep import CLEAR_M, entered, motions
 from .work import Workpiece
 
-#: Around what turns or slides within its host, before the exact cut [m].
-CLEAR_M = 0.003
 #: Thickness of the layer of cells at the foot of a knob [m].
 LAYER_M = 0.006
 #: Poses along the way of a button.
@@ -31,7 +29,7 @@ def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> list[list[fl
     """Return, per axis, where the lattice needs planes for rooms to end by knobs [m]."""
     planes: list[list[float]] = [[], [], []]
     for part, bump in bumps.items():
-        room = _box(_passed(bump.hull, joints[part - 1]))
+        room = Box.around(_passed(bump.hull, joints[part - 1])).grown(CLEAR_M)
         ends = np.stack([room.low, room.high], axis=1).tolist()
         if bump.normal is not None:
             # Pieces that end a little too high are seen to enter a thin layer at its foot; a
@@ -50,7 +48,6 @@ def make_bumps(work: Workpiece) -> None:
     for part, bump in work.bumps.items():
         work.hulls[part] = (bump.hull,)
         host = work.host(part)
-        _free_above(work, host, bump)
         inside = entered(work.lattice, [bump.hull], _way(work.joints[part - 1]), CLEAR_M)
         work.clear_way(host, inside)
 
@@ -64,22 +61,6 @@ def _way(joint: Joint) -> list[FloatArray]:
 def _passed(hull: Hull, joint: Joint) -> FloatArray:
     """Return a hull's corners all along its way [m], shape [n, 3]."""
     return np.concatenate([moved(hull.vertices, pose) for pose in _way(joint)])
-
-
-def _box(points: FloatArray) -> Box:
-    return Box.around(points).grown(CLEAR_M)
-
-
-def _free_above(work: Workpiece, host: int, bump: Bump) -> None:
-    """Take from a host the cells around a knob above its base."""
-    if bump.normal is None:
-        return
-    around = work.lattice.span(_box(bump.hull.vertices))
-    spans = zip(work.lattice.middles, around, strict=True)
-    x, y, z = np.ix_(*(middle[part] for middle, part in spans))
-    heights = bump.normal[0] * x + bump.normal[1] * y + bump.normal[2] * z
-    owner = work.owner[around]
-    work.owner[around] = np.where((heights > bump.base) & (owner == host), -1, owner)
 
 
 def clear_of_bumps(work: Workpiece, host: int, points: FloatArray) -> BoolArray:

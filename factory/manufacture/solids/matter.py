@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ...geometry.rows import distinct_rows
 from ...mesh import BoolArray, FloatArray
-from .lattice import Lattice
+from .lattice import Lattice, Span
 
 #: Filling what must stay free is so much worse than filling what is merely empty: an inside, and
 #: where something moves.
@@ -19,8 +19,6 @@ PATH = 60
 #: What a piece fills wrongly is let be below these shares of all matter, and of the whole lattice.
 TRIFLE = 0.004
 TRIFLE_OF_ALL = 0.0008
-#: Of cells that must stay free so many are looked at where all would be too many.
-SAMPLE = 6000
 
 Weights = npt.NDArray[np.uint8]
 
@@ -65,20 +63,13 @@ class Matter:
         return np.asarray(self.free + (~self.whole & ~self.solid).astype(np.uint8))
 
     @cached_property
-    def corners(self) -> BoolArray:
-        """Return cells' corners that touch the matter within the mesh; one more each way."""
-        outside = any_around(np.pad(~self.whole, 1, constant_values=True))[1:-1, 1:-1, 1:-1]
-        return np.asarray(any_around(self.solid) & ~outside)
+    def deep(self) -> BoolArray:
+        """Return cells' corners that lie within the mesh, off its rim; one more each way."""
+        return ~any_around(np.pad(~self.whole, 1, constant_values=True))[1:-1, 1:-1, 1:-1]
 
-    @cached_property
-    def sampled(self) -> tuple[FloatArray, FloatArray]:
-        """Return centres of some cells that must stay free [m] and their weighted volumes [m3]."""
-        cells = np.argwhere(self.free)
-        stride = max(len(cells) // SAMPLE, 1)
-        chosen = cells[:: stride | 1]
-        at = tuple(chosen.T)
-        sizes = self.lattice.volumes[at] * self.free[at] * (stride | 1)
-        return self.lattice.centers(chosen), sizes
+    def volume(self, span: Span) -> float:
+        """Return the volume of the matter in some cells [m3]."""
+        return float(self.lattice.volumes[span][self.solid[span]].sum())
 
 
 def any_around(cells: BoolArray) -> BoolArray:

@@ -13,6 +13,7 @@ from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import Panel
 from ...views.raster import Side
 from ...views.view import View
+from ..hinges import ALIKE
 from .box import Box
 
 #: A part that fills less of its rectangle is no panel.
@@ -25,9 +26,7 @@ BESIDE_M = 0.012
 #: How much further a panel without a frame reaches: nothing may be left standing there [m]. The
 #: post that one leaves which goes through is twice as wide.
 BEYOND_M = 0.015
-#: A panel opens along a direction, or stands, to this cosine; across one it lies to less than the
-#: next.
-ALONG = 0.9
+#: An axis lies across a direction to less than this cosine.
 ACROSS = 0.35
 #: A rim of a door is believed between these [m].
 THINNEST_M = 0.015
@@ -100,7 +99,7 @@ class FlatPanel:
 def opens(joint: Joint, panel: Panel) -> bool:
     """Tell whether a joint moves a panel out of the side that it closes."""
     if joint.kind is JointKind.PRISMATIC:
-        return float(joint.axis @ panel.outward) > ALONG
+        return float(joint.axis @ panel.outward) > ALIKE
     motion = np.cross(joint.axis, panel.center - joint.origin) * (joint.upper + joint.lower)
     swings = float(motion @ panel.outward) > ACROSS * float(np.linalg.norm(motion))
     across = abs(float(joint.axis @ panel.outward)) < ACROSS

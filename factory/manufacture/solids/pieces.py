@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from heapq import heappop, heappush
 from operator import itemgetter
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
-from scipy.spatial import ConvexHull, QhullError
+from scipy.spatial import ConvexHull
 
 from ...asset import Hull
+from ...config import DecomposeConfig
 from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
+from ..separate.clip import SHEET_M
 from .box import Box
 from .lattice import Lattice, Span
 from .matter import Matter, Weights, any_around
@@ -29,19 +29,12 @@ REACH_M = 0.001
 PLANES = 4
 #: How much waste counts beside what must be cut again: it tells cuts that are alike apart.
 TIE = 0.1
-#: Directions in which the outermost points are taken, of a piece and of a try.
-DIRECTIONS = 160
-TRIED_DIRECTIONS = 40
-#: Cells that must stay free are looked at one by one in boxes of fewer cells than this, else a
-#: sample of them.
-EXACT_BELOW = 8000
-#: A sheet is made so thick [m] if it is flatter than this share of its width, and no sliver of
-#: fewer cells.
-FOIL_M = 0.003
+#: What is flatter than this share of its width is made as thick as a sheet, but no sliver of fewer
+#: cells.
 FLAT = 1e-3
 FOIL_CELLS = 2.0
 #: Corners of a hull that engines on the GPU take.
-MOST_CORNERS = 64
+MOST_CORNERS = DecomposeConfig.max_vertices
 
 
 @dataclass(frozen=True)
@@ -61,22 +54,6 @@ class _Node:
     waste: float
 
 
-@dataclass(frozen=True)
-class _Nearby:
-    """What cuts of one node are tried with.
-
-    Attributes:
-        points: of the surface in its box [m], shape [n, 3].
-        centers: of a sample of cells in it that must stay free [m], shape [m, 3]; none where all
-            are looked at.
-        sizes: the weighted volume of each [m3], shape [m].
-    """
-
-    points: FloatArray
-    centers: FloatArray
-    sizes: FloatArray
-
-
 def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
     """Return the hulls that cover the matter, at most ``most``; the worst one is cut first.
 
@@ -86,42 +63,24 @@ def convex_pieces(matter: Matter, most: int) -> tuple[Hull, ...]:
     trifle = matter.trifle
     waiting: list[tuple[float, int, _Node]] = []
     done: list[_Node] = []
-    spans: list[Span] = _islands(matter.solid)
-    points = matter.points
+    everywhere = tuple(slice(0, size) for size in matter.solid.shape)
+    fresh = [_node(matter, everywhere, matter.points)]
     number = 0
     while True:
-        for span in spans:
-            node = _node(matter, span, points)
-            if node is not None and node.waste > trifle:
+        for node in filter(None, fresh):
+            if node.waste > trifle:
                 number += 1
                 heappush(waiting, (-node.waste, number, node))
-            elif node is not None:
+            else:
                 done.append(node)
         if not waiting or len(waiting) + len(done) >= most:
             break
         node = heappop(waiting)[2]
-        points = node.points
-        spans = list(_best_cut(matter, node))
-        if not spans:
+        fresh = _best_cut(matter, node)
+        if not fresh:
             done.append(node)
     done += [entry[2] for entry in waiting]
     return tuple(limit_vertices(node.hull, MOST_CORNERS) for node in done)
-
-
-def _islands(solid: BoolArray) -> list[Span]:
-    """Return boxes around what hangs together; one around all of it where these overlap."""
-    label, count = ndimage.label(solid)
-    if not count:
-        return []
-    spans = [span for span in ndimage.find_objects(label) if span is not None]
-    if count > 1 and not any(_meet(a, b) for i, a in enumerate(spans) for b in spans[:i]):
-        return spans
-    trimmed = _trimmed(solid, tuple(slice(0, size) for size in solid.shape))
-    return [] if trimmed is None else [trimmed]
-
-
-def _meet(a: Span, b: Span) -> bool:
-    return all(p.start < q.stop and q.start < p.stop for p, q in zip(a, b, strict=True))
 
 
 def _node(matter: Matter, span: Span, points: FloatArray) -> _Node | None:
@@ -131,7 +90,7 @@ def _node(matter: Matter, span: Span, points: FloatArray) -> _Node | None:
     corners = _corners(matter, trimmed)
     box = _box(matter.lattice, trimmed)
     surface = points[box.holds(points, 1e-9)]
-    outermost = _extreme(np.concatenate([corners, surface]), DIRECTIONS)
+    outermost = _extreme(np.concatenate([corners, surface]))
     hull = hull_of(outermost)
     if hull is not None:
         return _Node(trimmed, surface, hull, _waste(matter, trimmed, hull))
@@ -148,7 +107,7 @@ def _foils(matter: Matter, span: Span, points: FloatArray) -> Iterator[tuple[Hul
     wide = np.ptp(points @ axes.T, axis=0)[1]
     if spread[2] > FLAT * spread[1] or wide < FOIL_CELLS * matter.lattice.step:
         return
-    for thickness in (-FOIL_M, FOIL_M):
+    for thickness in (-SHEET_M, SHEET_M):
         foil = hull_of(np.concatenate([points, points + thickness * axes[2]]))
         if foil is not None:
             yield foil, _waste(matter, span, foil)
@@ -173,14 +132,9 @@ def _box(lattice: Lattice, span: Span) -> Box:
 
 def _corners(matter: Matter, span: Span) -> FloatArray:
     """Return corners of cells that touch the matter and lie within the mesh [m]."""
-    touching = any_around(matter.solid[span])
-    wide = tuple(slice(max(part.start - 1, 0), part.stop + 1) for part in span)
-    outside = any_around(np.pad(~matter.whole[wide], 1, constant_values=True))
-    offset = [part.start - other.start + 1 for part, other in zip(span, wide, strict=True)]
-    deep = ~outside[
-        tuple(slice(at, at + size) for at, size in zip(offset, touching.shape, strict=True))
-    ]
-    return matter.lattice.corners(np.argwhere(_ends(touching & deep)), span)
+    deep = matter.deep[tuple(slice(part.start, part.stop + 1) for part in span)]
+    touching = any_around(matter.solid[span]) & deep
+    return matter.lattice.corners(np.argwhere(_ends(touching)), span)
 
 
 def _ends(corners: BoolArray) -> BoolArray:
@@ -195,11 +149,11 @@ def _ends(corners: BoolArray) -> BoolArray:
     return np.asarray(np.moveaxis(ends & rows, -1, axis))
 
 
-@lru_cache(maxsize=4)
-def _directions(count: int) -> npt.NDArray[np.float32]:
+@cache
+def _directions() -> npt.NDArray[np.float32]:
     """Return unit vectors evenly over the sphere, the axes and their diagonals, shape [n, 3]."""
-    index = np.arange(count) + 0.5
-    height = 1.0 - 2.0 * index / count
+    index = np.arange(MOST_CORNERS) + 0.5
+    height = 1.0 - 2.0 * index / MOST_CORNERS
     turn = np.pi * (1.0 + np.sqrt(5.0)) * index
     radius = np.sqrt(1.0 - height**2)
     even = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
@@ -209,22 +163,20 @@ def _directions(count: int) -> npt.NDArray[np.float32]:
     return np.concatenate([exact, even]).astype(np.float32)
 
 
-def _extreme(points: FloatArray, count: int) -> FloatArray:
+def _extreme(points: FloatArray) -> FloatArray:
     """Return the outermost of many points, seen from many directions, in their box's scale."""
-    if len(points) <= count:
+    if len(points) <= MOST_CORNERS:
         return points
     size = np.maximum(np.ptp(points, axis=0), 1e-9)
     scaled = ((points - points.min(axis=0)) / size).astype(np.float32)
     outermost = np.zeros(len(points), dtype=bool)
-    outermost[(_directions(count) @ scaled.T).argmax(axis=1)] = True
+    outermost[(_directions() @ scaled.T).argmax(axis=1)] = True
     return np.asarray(points[outermost])
 
 
 def _waste(matter: Matter, span: Span, hull: Hull) -> float:
     """Return what a hull fills wrongly [m3]: beyond its matter, and more so what must stay free."""
-    volumes = matter.lattice.volumes[span]
-    own = float((volumes * matter.solid[span]).sum())
-    spare = max(hull.volume - FULLER * own, 0.0)
+    spare = max(hull.volume - FULLER * matter.volume(span), 0.0)
     return spare + filled(matter.lattice, matter.free, span, hull)
 
 
@@ -233,30 +185,24 @@ def filled(lattice: Lattice, weights: Weights, span: Span, hull: Hull) -> float:
 
     Walls thinner than cells may pass between their centres: they fill the cells they cross.
     """
-    if not weights[span].any():
-        return 0.0
-    planes = _within(hull.planes * [1.0, 1.0, 1.0, -1.0], hull.vertices, lattice.step)
-    return _filled(lattice, weights, span, planes)
-
-
-def _filled(lattice: Lattice, weights: Weights, span: Span, planes: FloatArray) -> float:
     wrong = weights[span]
-    at = lattice.below(planes, span) & (wrong > 0)
+    if not wrong.any():
+        return 0.0
+    at = lattice.below(_within(hull, lattice.step), span) & (wrong > 0)
     return float((lattice.volumes[span][at] * wrong[at]).sum())
 
 
-def _within(planes: FloatArray, corners: FloatArray, step: float) -> FloatArray:
+def _within(hull: Hull, step: float) -> FloatArray:
     """Return planes below which a hull fills cells; of one thinner than cells, those it crosses.
 
-    The hull's planes have outward normals and offsets, shape [n, 4], its corners shape [n, 3];
-    cells are as large as ``step`` [m].
+    As of :meth:`~.lattice.Lattice.below`, shape [n, 4]; cells are as large as ``step`` [m].
     """
+    corners = hull.vertices
     middle = corners.mean(axis=0)
     axes = np.linalg.svd(corners - middle, full_matrices=False)[2]
     heights = (corners - middle) @ axes[2]
-    sides = planes + np.array([0.0, 0.0, 0.0, REACH_M])
     if np.ptp(heights) >= step:
-        return np.asarray(sides)
+        return np.asarray(hull.planes * [1.0, 1.0, 1.0, -1.0] + [0.0, 0.0, 0.0, REACH_M])
     flat = ConvexHull(corners @ axes[:2].T).equations
     sides = np.column_stack([flat[:, :2] @ axes[:2], flat[:, 2] + REACH_M])
     at = float(middle @ axes[2]) + 0.5 * (heights.min() + heights.max())
@@ -265,16 +211,16 @@ def _within(planes: FloatArray, corners: FloatArray, step: float) -> FloatArray:
     return np.concatenate([sides, [above, under]])
 
 
-def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
+def _best_cut(matter: Matter, node: _Node) -> list[_Node | None]:
     """Return the two halves of that cut after which least is left to be cut; none if none helps."""
-    best: tuple[Span, ...] = ()
+    best: list[_Node | None] = []
     least = np.inf
-    nearby = _nearby(matter, node.span)
-    for axis, plane in _planes(matter, node.span):
-        halves = _halves(node.span, axis, plane)
+    for spans in _halves(matter, node.span):
+        halves = []
         cost = 0.0
-        for half in sorted(halves, key=_cells_in, reverse=True):
-            cost += _cost(matter, nearby, half, least - cost)
+        for span in spans:
+            halves.append(_node(matter, span, node.points))
+            cost += _cost(matter, span, halves[-1])
             if cost >= least:
                 break
         else:
@@ -283,76 +229,20 @@ def _best_cut(matter: Matter, node: _Node) -> tuple[Span, ...]:
     return best
 
 
-def _cells_in(span: Span) -> int:
-    return math.prod(part.stop - part.start for part in span)
+def _cost(matter: Matter, span: Span, node: _Node | None) -> float:
+    """Return the volume left to be cut [m3]: a hull that must be cut again, and a share of waste.
 
-
-def _halves(span: Span, axis: int, plane: int) -> tuple[Span, Span]:
-    first = list(span)
-    second = list(span)
-    first[axis] = slice(span[axis].start, plane)
-    second[axis] = slice(plane, span[axis].stop)
-    return tuple(first), tuple(second)
-
-
-def _nearby(matter: Matter, span: Span) -> _Nearby:
-    box = _box(matter.lattice, span)
-    points = matter.sparse[box.holds(matter.sparse, 1e-9)]
-    if _cells_in(span) < EXACT_BELOW:
-        # All cells of either half are looked at.
-        return _Nearby(points, np.zeros((0, 3)), np.zeros(0))
-    centers, sizes = matter.sampled
-    inside = box.holds(centers)
-    return _Nearby(points, centers[inside], sizes[inside])
-
-
-def _cost(matter: Matter, nearby: _Nearby, span: Span, most: float) -> float:
-    """Estimate the remaining error in some cells: a hull that must be cut again, and its waste.
-
-    A quick estimate: the corners of cells beside the box's own count as its own. From ``most`` on
-    it may be less than that: what must stay free is not looked at then.
+    Slivers of a sheet, of which no foil is made, are lost.
     """
-    trimmed = _trimmed(matter.solid, span)
-    if trimmed is None:
-        return 0.0
-    box = _box(matter.lattice, trimmed)
-    corners = tuple(slice(part.start, part.stop + 1) for part in trimmed)
-    points = matter.lattice.corners(np.argwhere(_ends(matter.corners[corners])), trimmed)
-    points = np.concatenate([points, nearby.points[box.holds(nearby.points, 1e-9)]])
-    own = float((matter.lattice.volumes[trimmed] * matter.solid[trimmed]).sum())
-    outermost = _extreme(points, TRIED_DIRECTIONS)
-    try:
-        hull = ConvexHull(outermost)
-    except (QhullError, ValueError, IndexError):
-        size = own
-        # Slivers of a sheet, of which no foil is made, are lost.
-        waste = min((each for _, each in _foils(matter, trimmed, outermost)), default=own)
-    else:
-        size = float(hull.volume)
-        waste = max(size - FULLER * own, 0.0)
-        if _weighed(waste, size, matter.trifle) < 1.01 * most:
-            waste += _blocked(matter, nearby, trimmed, box, hull)
-    return _weighed(waste, size, matter.trifle)
+    size = waste = matter.volume(span)
+    if node is not None:
+        size = node.hull.volume
+        waste = node.waste
+    return TIE * min(waste, size) + (size if waste > matter.trifle else 0.0)
 
 
-def _weighed(waste: float, size: float, trifle: float) -> float:
-    """Return what waste counts: all of a hull that must be cut again, and a share of the waste."""
-    return TIE * min(waste, size) + (size if waste > trifle else 0.0)
-
-
-def _blocked(matter: Matter, nearby: _Nearby, span: Span, box: Box, hull: ConvexHull) -> float:
-    """Return how much of what must stay free a hull fills [m3], times its weight."""
-    planes = _within(hull.equations, hull.points[hull.vertices], matter.lattice.step)
-    if _cells_in(span) < EXACT_BELOW:
-        return _filled(matter.lattice, matter.free, span, planes)
-    inside = box.holds(nearby.centers)
-    heights = nearby.centers[inside] @ planes[:, :3].T + planes[:, 3]
-    deep = heights.max(axis=1, initial=-np.inf) < 0.0
-    return float(nearby.sizes[inside][deep].sum())
-
-
-def _planes(matter: Matter, span: Span) -> Iterator[tuple[int, int]]:
-    """Yield the planes worth trying: where much begins or ends, and the middle; axis and line."""
+def _halves(matter: Matter, span: Span) -> Iterator[tuple[Span, Span]]:
+    """Yield both sides of the planes worth trying: where much begins or ends, and the middle."""
     for axis in range(3):
         length = span[axis].stop - span[axis].start
         if length < 2:
@@ -364,4 +254,8 @@ def _planes(matter: Matter, span: Span) -> Iterator[tuple[int, int]]:
             order = np.argsort(-change, kind="stable")[:count]
             lines |= {int(at) + 1 for at in order if change[at] > 0}
         for line in sorted(lines):
-            yield axis, span[axis].start + line
+            before = list(span)
+            behind = list(span)
+            before[axis] = slice(span[axis].start, span[axis].start + line)
+            behind[axis] = slice(span[axis].start + line, span[axis].stop)
+            yield tuple(before), tuple(behind)

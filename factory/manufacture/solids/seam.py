@@ -9,10 +9,8 @@ import numpy as np
 from ...geometry.cutting import cut_at_zero
 from ...geometry.triangles import areas_of, ends_of
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh
+from ..decompose.convex import SAME_M
 from .box import Box
-
-#: Corners this near to a plane lie on it, and such corners are one [m].
-SAME_M = 1e-6
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ import numpy as np
 
 from ...geometry.rows import distinct_rows
 from ...mesh import BoolArray, FloatArray
+from ..decompose.convex import SAME_M
 from ..decompose.solids import triangles_of, union
 from .box import Box
-from .seam import SAME_M
 
 #: A border this near to a column's side was cut there [m].
 AT_SIDE_M = 0.002

@@ -15,6 +15,8 @@ from .box import Box
 from .lattice import Lattice
 from .panel import FlatPanel, hinge_edge
 
+#: Around what turns or slides within what holds it, before the exact cut [m].
+CLEAR_M = 0.003
 #: Poses along a joint.
 POSES = 40
 #: They lie closer where a joint begins to open: this power of even steps.

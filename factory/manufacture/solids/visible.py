@@ -18,8 +18,6 @@ from .seam import CutSkin
 from .surfaces import boundary, flipped, inside_of, outline_of, outside_of, plate, rectangle, rim
 from .work import Workpiece
 
-#: A part whose skin covers less than this share of its pieces' surface is a shred.
-SHRED = 0.4
 #: What is shown of the body around a panel lies so near to the body's pieces [m].
 BACKED_M = 0.01
 #: Points spread within a triangle, as weights of its corners, shape [10, 3].
@@ -110,14 +108,6 @@ def _across(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
     first = np.cross(normal, np.eye(3)[int(np.abs(normal).argmin())])
     first = first / np.linalg.norm(first)
     return first, np.cross(normal, first)
-
-
-def hull_surfaces(work: Workpiece, part: int) -> None:
-    """Add all of a part's pieces, where its own surface is only a shred."""
-    triangles = [hull.vertices[hull.faces] for hull in work.hulls.get(part, ())]
-    own = areas_of(work.skin.of_part(part)).sum()
-    if triangles and own < SHRED * sum(areas_of(each).sum() for each in triangles):
-        work.add(part, np.concatenate(triangles), "body", "pieces")
 
 
 def kept_skin(work: Workpiece) -> CutSkin:

@@ -10,8 +10,9 @@ import numpy as np
 
 from ...articulation import Articulation
 from ...asset import Hull, Target
+from ..hinges import ALIKE
 from .handles import handle_of
-from .holds import HoldSearch, exposed, grasp, poke
+from .holds import HoldSearch, exposed, grasp, hand_axes, poke
 from .poses import AGAINST, find_poses, spread_against
 from .shape import Moving, shape_of
 from .surroundings import surroundings_of
@@ -25,7 +26,6 @@ GOOD = 0.8
 FEW = (32, 8)
 #: Targets of one kind nearer than this, to be reached from one side, are one [m].
 APART_M = 0.025
-ALIKE = 0.9
 #: What is left of a place that nothing can hold: better than none.
 HOPELESS = 0.05
 
@@ -82,10 +82,7 @@ def _last_resort(moving: Moving) -> Target:
     normal = handle.normal
     pull = handle.pull
     kind = "push" if float(normal @ pull) < AGAINST else "hook"
-    side = np.cross(pull, normal)
-    if np.linalg.norm(side) < 0.1:
-        side = np.cross(np.eye(3)[int(np.abs(normal).argmin())], normal)
-    fingers = np.asarray(side / np.linalg.norm(side))
+    fingers = hand_axes(moving.joint, normal)[0]
     score = HOPELESS * float(moving.place(handle.point))
     held = (moving.joint.name, moving.shape.part)
     return Target(*held, kind, handle.point, normal, pull, fingers, 0.0, score)

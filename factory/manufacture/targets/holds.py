@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...articulation import Joint
 from ...asset import Target
 from ...mesh import FloatArray
 from .gripper import GRIPPER
@@ -16,15 +17,15 @@ from .surroundings import HandView, Surroundings
 
 #: What the kinds are worth beside each other.
 WORTH = {"grasp": 1.0, "hook": 0.6, "push": 0.55}
-#: Of the worth, for widths that only the widest hand takes; a blocked palm; a blocked arm; a hold
-#: by friction alone; not on a handle.
+#: Of the worth, for what is a little harder: not on a handle, by a hand that leans, or hardly
+#: filling a grip; and for what is hard: a blocked palm, or coming from below.
+HARDER = 0.8
+HARD = 0.5
+#: For widths that only the widest hand takes; a blocked arm; a hold by friction alone; and so low
+#: that the hand would be in the ground.
 WIDE = 0.6
-PALM = 0.5
 ARM = 0.4
 FRICTION = 0.75
-PLAIN = 0.8
-#: Coming from below; and from so low that the hand would be in the ground.
-FROM_BELOW = 0.5
 IN_THE_GROUND = 0.3
 #: Upward component of a normal below which a hand would have to come from below.
 STRAIGHT_UP = -0.8
@@ -33,14 +34,12 @@ STRAIGHT_UP = -0.8
 TILT = float(np.pi / 4)
 EDGE_M = 0.012
 TIP_M = 0.014
-LEANING = 0.8
 #: A hand that comes within this of the middle of a thing is centred by its fingers [m].
 CENTRED_M = 1e-4
 #: What the whole opening costs: of two ways to hold a thing the narrower is the surer.
 NARROWER = 0.1
 #: Thinner than this hardly fills a grip [m].
 THIN_M = 0.002
-THIN = 0.8
 
 
 @dataclass(frozen=True)
@@ -91,7 +90,7 @@ class HoldSearch:
         """Rate a place, 0 to 1: how well it is pulled there, and how easily reached."""
         worth = 0.25 + 0.75 * float(self.moving.place(point))
         if normal[2] < STRAIGHT_UP:
-            worth *= FROM_BELOW
+            worth *= HARD
         hand = point + normal * GRIPPER.length
         above_ground = hand[2] >= self.everything.bounds[0, 2] + GRIPPER.palm[1]
         return worth * (1.0 if above_ground else IN_THE_GROUND)
@@ -159,10 +158,10 @@ def _rated_grasp(
     worth *= FRICTION + (1.0 - FRICTION) * firm
     worth *= 1.0 - NARROWER * width / GRIPPER.opening
     worth *= WIDE if width > GRIPPER.opening - 2.0 * GRIPPER.play else 1.0
-    worth *= THIN if width < THIN_M else 1.0
-    worth *= 1.0 if pose.protrudes else PLAIN
+    worth *= HARDER if width < THIN_M else 1.0
+    worth *= 1.0 if pose.protrudes else HARDER
     if not _fits(view, GRIPPER.palm, middle, GRIPPER.finger_length - depth):
-        worth *= PALM
+        worth *= HARD
     if not task.arm_is_free(point, view.axes):
         worth *= ARM
     return task.target("grasp", point, normal, fingers, worth, opening=width, at=reach)
@@ -179,7 +178,7 @@ def _surface_at(view: HandView, middle: float, depth: float) -> FloatArray:
 def exposed(task: HoldSearch, point: FloatArray, outward: FloatArray) -> bool:
     """Return whether there is any room for a fingertip before a point of the surface."""
     room = min(gap for gap, _ in GRIPPER.gaps)
-    view = task.view(point, _frame(task, outward), 2.0 * room)
+    view = task.view(point, hand_axes(task.moving.joint, outward), 2.0 * room)
     half = room / 4.0
     return view.free((-half, -half, GRIPPER.off), (half, half, room))
 
@@ -189,7 +188,7 @@ def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Target | N
 
     ``point`` is on the surface [m] and ``outward`` its normal there, shape [3] each.
     """
-    axes = _frame(task, outward)
+    axes = hand_axes(task.moving.joint, outward)
     view = task.view(point, axes)
     half = GRIPPER.finger_width / 2.0
     if view.free((-half, -half, GRIPPER.off), (half, half, GRIPPER.length)):
@@ -197,7 +196,7 @@ def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Target | N
             return None
         palms = (GRIPPER.palm, GRIPPER.palm[::-1])
         fits = any(_fits(view, palm, 0.0, GRIPPER.finger_length) for palm in palms)
-        return task.target("push", point, outward, axes[0], 1.0 if fits else PALM)
+        return task.target("push", point, outward, axes[0], 1.0 if fits else HARD)
     across = (axes[0], -axes[0], axes[1], -axes[1])
     return _best(_hooked(task, view, outward, ahead, 0.0) for ahead in across) or _best(
         _hooked(task, view, outward, ahead, TILT) for ahead in across
@@ -206,11 +205,8 @@ def poke(task: HoldSearch, point: FloatArray, outward: FloatArray) -> Target | N
 
 def _best(holds: Iterable[Target | None]) -> Target | None:
     """Return the first hold that no later one beats; ``None`` if there is none."""
-    best: Target | None = None
-    for hold in holds:
-        if hold is not None and (best is None or hold.score > best.score + 1e-6):
-            best = hold
-    return best
+    found = [hold for hold in holds if hold is not None]
+    return max(found, key=lambda hold: round(hold.score, 6), default=None)
 
 
 def _hooked(
@@ -236,7 +232,7 @@ def _hooked(
         if not task.arm_is_free(near.point, axes):
             return None
         free = _fits(view, GRIPPER.palm[::-1], start[0], tip + GRIPPER.finger_length)
-        worth = gap_worth * (1.0 if free else PALM) * (LEANING if tilt else 1.0)
+        worth = gap_worth * (1.0 if free else HARD) * (HARDER if tilt else 1.0)
         return task.target("hook", near.point, away, axes[1], worth)
     return None
 
@@ -248,9 +244,9 @@ def _fits(view: HandView, palm: tuple[float, float], aside: float, base: float) 
     return view.free((aside - across, -along, base), (aside + across, along, end))
 
 
-def _frame(task: HoldSearch, outward: FloatArray) -> FloatArray:
-    """Return a hand's axes, as rows: across ``outward`` to fit the joint, and ``outward``."""
-    for candidate in (task.moving.joint.axis, *np.eye(3)[[2, 0, 1]]):
+def hand_axes(joint: Joint, outward: FloatArray) -> FloatArray:
+    """Return a hand's axes, as rows: across ``outward`` to fit a joint, and ``outward``."""
+    for candidate in (joint.axis, *np.eye(3)[[2, 0, 1]]):
         side = candidate - (candidate @ outward) * outward
         if np.linalg.norm(side) > 0.3:
             side = side / np.linalg.norm(side)

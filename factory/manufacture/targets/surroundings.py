@@ -16,10 +16,7 @@ from ...geometry.cutting import clip_to_box
 from ...geometry.posing import face_parts
 from ...geometry.triangles import ends_of, meet_box
 from ...mesh import BoolArray, FloatArray, IntArray
-from ..decompose.convex import depth_below
-
-#: What only touches a box is not in it [m].
-TOUCH_M = 1e-5
+from ..decompose.convex import THINNEST_M, depth_below
 
 
 @dataclass(frozen=True)
@@ -54,7 +51,7 @@ class Surroundings:
         high = self.hull_boxes[:, 1]
         # Most hulls are nowhere near, and asking all of their planes is what takes long.
         near = np.flatnonzero(((low <= point) & (high >= point)).all(axis=1)).tolist()
-        return any(depth_below(self.hulls[hull], point[None])[0] > TOUCH_M for hull in near)
+        return any(depth_below(self.hulls[hull], point[None])[0] > THINNEST_M for hull in near)
 
     def view(
         self, own: Sequence[int], point: FloatArray, axes: FloatArray, reach: float
@@ -124,9 +121,12 @@ class HandView:
         return np.asarray(((above >= low) & (below <= high)).all(axis=1))
 
     def free(self, lowest: npt.ArrayLike, highest: npt.ArrayLike) -> bool:
-        """Return whether nothing lies in a box of the frame, between two corners [m]."""
-        low = np.asarray(lowest) + TOUCH_M
-        high = np.asarray(highest) - TOUCH_M
+        """Return whether nothing lies in a box of the frame, between two corners [m].
+
+        What only touches a box is not in it.
+        """
+        low = np.asarray(lowest) + THINNEST_M
+        high = np.asarray(highest) - THINNEST_M
         if (high <= low).any():
             return True
         met = self._local[self._met(low, high)]

@@ -9,8 +9,8 @@ from manifold3d import Manifold
 from plain_solids import sized_hull
 
 from asset_factory.factory.config import SeparateConfig
+from asset_factory.factory.manufacture.decompose.solids import thickness_m
 from asset_factory.factory.manufacture.separate.budget import (
-    CutLimits,
     Excuse,
     Loss,
     SeenSurface,
@@ -19,15 +19,14 @@ from asset_factory.factory.manufacture.separate.budget import (
     too_bare,
 )
 from asset_factory.factory.manufacture.separate.clip import SHEET_M, clipped
-from asset_factory.factory.manufacture.separate.overlap import thickness_m
 
 CONFIG = SeparateConfig()
-LIMITS = CutLimits(free_m=0.006, trimmed_m=0.025)
+LIMITS = {"free_m": 0.006, "trimmed_m": 0.025}
 NOTHING = Loss(*[0.0] * 7)
 
 
 def judged(lost, solid):
-    return overdone(("flap", "bin"), (lost, NOTHING), (solid, True), LIMITS, CONFIG)
+    return overdone(("flap", "bin"), (lost, NOTHING), (solid, True), CONFIG, **LIMITS)
 
 
 def test_a_cut_that_takes_nothing_is_fine():
@@ -39,7 +38,7 @@ def test_depths_are_limited_for_both_parts_together(name, most):
     within = replace(NOTHING, **{name: 0.5 * most})
     both = [within, replace(NOTHING, **{name: 0.6 * most})]
     assert judged(within, solid=False) is None
-    told = overdone(("flap", "bin"), both, (False, True), LIMITS, CONFIG)
+    told = overdone(("flap", "bin"), both, (False, True), CONFIG, **LIMITS)
     assert "most of it off 'bin'" in told
 
 

@@ -7,6 +7,7 @@ import pytest
 import trimesh
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from manufactured import decomposed
 from plain_solids import parted
 from refusing import refusal
 
@@ -15,7 +16,6 @@ from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.errors import Unjudged
 from asset_factory.factory.manufacture.decompose import ladder, methods
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of, surface_points
-from asset_factory.factory.manufacture.decompose.decompose import decompose
 from asset_factory.factory.manufacture.decompose.methods import SolidPieces, split_closely
 from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.room import NOWHERE
@@ -44,7 +44,7 @@ def boxes(*specs):
 
 
 def only(vertices, faces, config=CONFIG):
-    return decompose(one_part(vertices, faces), config)[0]
+    return decomposed(one_part(vertices, faces), config)[0]
 
 
 def cover_volume(result):
@@ -77,11 +77,12 @@ def test_boards_that_touch_are_one_hull_each_and_keep_their_cavity():
     assert max(depth_below(hull, inside).max() for hull in result.hulls) < 0.0
 
 
-def test_a_hollow_body_keeps_its_cavity():
+@pytest.mark.parametrize("step", [1, -1], ids=["proper", "inside_out"])
+def test_a_hollow_body_keeps_its_cavity(step):
     outer = boxes(((0.4, 0.4, 0.4), (0, 0, 0)))
     inner = boxes(((0.36, 0.36, 0.36), (0, 0, 0)))
     faces = np.concatenate([outer[1], inner[1][:, ::-1] + len(outer[0])])
-    result = only(np.concatenate([outer[0], inner[0]]), faces)
+    result = only(np.concatenate([outer[0], inner[0]]), faces[:, ::step])
     assert result.method == "exact"
     assert cover_volume(result) == pytest.approx(0.4**3 - 0.36**3)
 
@@ -95,7 +96,7 @@ def test_a_carrier_has_no_hulls():
     vertices, faces = boxes(((0.4, 0.3, 0.2), (0, 0, 0)))
     mesh = Mesh.from_triangles(vertices, faces)
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, np.array([0, 0, 1.0]), np.zeros(3), 0.0, 0.1)
-    results = decompose(parted({"body": [mesh], "carrier": []}, joint), CONFIG)
+    results = decomposed(parted({"body": [mesh], "carrier": []}, joint), CONFIG)
     assert results[1] == SolidPieces((), "none")
 
 
@@ -112,18 +113,18 @@ def test_a_curved_part_is_covered_and_a_cache_hit_equals_a_miss(tmp_path, monkey
     articulation = one_part(*torus())
     store = Store(tmp_path)
     config = replace(CONFIG, error_m=0.015)
-    first, anew = (decompose(articulation, config, place)[0] for place in (store, None))
+    first, anew = (decomposed(articulation, config, place)[0] for place in (store, None))
     assert all(len(hull.vertices) <= config.max_vertices for hull in first.hulls)
     assert uncovered(first.hulls, surface_points(*torus())) < 0.003
     monkeypatch.setattr("asset_factory.factory.manufacture.decompose.decompose.split_part", None)
-    kept = decompose(articulation, replace(config, wall_s=1.0), store)[0]
+    kept = decomposed(articulation, replace(config, wall_s=1.0), store)[0]
     for other in (kept, anew):
         assert (other.method, other.degraded) == (first.method, first.degraded)
         for a, b in zip(first.hulls, other.hulls, strict=True):
             assert a.vertices.tobytes() == b.vertices.tobytes()
             assert a.faces.tobytes() == b.faces.tobytes()
     with pytest.raises(TypeError):
-        decompose(articulation, replace(config, error_m=0.001), store)
+        decomposed(articulation, replace(config, error_m=0.001), store)
 
 
 CUBE = boxes(((0.2, 0.2, 0.2), (0, 0, 0)))
@@ -135,6 +136,7 @@ CUBE = boxes(((0.2, 0.2, 0.2), (0, 0, 0)))
         ("duplicated faces", CUBE[0], np.concatenate([CUBE[1], CUBE[1]]), 0.008),
         ("double-sided faces", CUBE[0], np.concatenate([CUBE[1], CUBE[1][:, ::-1]]), 0.008),
         ("inverted", CUBE[0], CUBE[1][:, ::-1], 0.008),
+        ("wound both ways", CUBE[0], np.concatenate([CUBE[1][::2, ::-1], CUBE[1][1::2]]), 0.008),
         ("overlapping bodies", *boxes(*(((0.2, 0.2, 0.2), [at] * 3) for at in (0, 0.1))), 0.015),
         ("unreferenced vertices", np.concatenate([CUBE[0], [[9.0, 9.0, 9.0]]]), CUBE[1], 0.008),
         ("far away", CUBE[0] + 1e4, CUBE[1], 0.008),
@@ -175,7 +177,7 @@ def test_a_wide_pipe_with_a_hidden_end_is_closed_unless_it_is_said_to_be_hollow(
         return max(float(depth_below(hull, middle).max()) for hull in result.hulls) > 0.0
 
     assert filled(only(*pipe))
-    walls = decompose(one_part(*pipe), CONFIG, hollow={"body"})[0]
+    walls = decomposed(one_part(*pipe), CONFIG, hollow={"body"})[0]
     assert not filled(walls)
     assert uncovered(walls.hulls, surface_points(*pipe)) < CONFIG.error_m
 
@@ -217,7 +219,7 @@ def test_what_a_clock_or_somebody_stopped_is_unjudged_and_not_kept(
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: outcome)
     monkeypatch.setattr(methods, "cut_along_faces", lambda *_: None)
     with pytest.raises(Unjudged) as caught:
-        decompose(one_part(*torus()), CONFIG, Store(tmp_path))
+        decomposed(one_part(*torus()), CONFIG, Store(tmp_path))
     assert caught.value.finding.code == f"decomposition_{code}"
     assert caught.value.finding.stopped
     assert outcome.detail in str(caught.value)
@@ -284,7 +286,7 @@ def test_a_hundred_thousand_faces_in_two_blobs_become_hulls(tmp_path):
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, np.array([0, 0, 1.0]), np.zeros(3), 0.0, 0.1)
     articulation = parted({"base": [base], "lid": [lid]}, joint)
     assert len(articulation.mesh.faces) > 98_000
-    for result in decompose(articulation, DecomposeConfig()):
+    for result in decomposed(articulation, DecomposeConfig()):
         assert (result.method, len(result.hulls) <= 64) == ("vhacd", True)
 
 
@@ -292,7 +294,7 @@ def test_without_memory_the_next_method_is_tried_and_that_is_kept(monkeypatch, t
     full = Outcome[object](None, Failure.RAISED, "ran out of memory", "", 0.1, error=MemoryError())
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: full)
     monkeypatch.setattr(methods, "cut_along_faces", lambda *_: None)
-    first, kept = (decompose(one_part(*torus()), CONFIG, Store(tmp_path))[0] for _ in range(2))
+    first, kept = (decomposed(one_part(*torus()), CONFIG, Store(tmp_path))[0] for _ in range(2))
     assert (first.method, first.degraded) == (kept.method, kept.degraded)
     assert "ran out of memory" in first.degraded[0]
     assert list(tmp_path.rglob("*.npz"))

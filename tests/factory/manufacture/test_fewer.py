@@ -7,12 +7,13 @@ from asset_factory.factory.config import BuildConfig, HullsConfig
 from asset_factory.factory.manufacture.decompose.fewer import fewer
 from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
+from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
 
 
 def joined(pieces, most, coarsest, store=None):
     hulls = HullsConfig(wanted=most, most=most, coarsest=coarsest)
-    return fewer(pieces, BuildConfig(hulls=hulls), store)
+    return fewer(pieces, hulls, Stages(BuildConfig(), store))
 
 
 def comb(teeth, gap_m):

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 import trimesh
 from held_parts import held
+from manufactured import decomposed
 
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.manufacture.decompose.convex import depth_below
-from asset_factory.factory.manufacture.decompose.decompose import decompose, error_for
+from asset_factory.factory.manufacture.decompose.decompose import error_for
 
 CONFIG = DecomposeConfig(resolution=300, iterations=20, nodes=5)
 
@@ -40,7 +41,7 @@ IN_GROOVE = [[x, 0.0, -0.003] for x in np.linspace(0.05, 0.95, 10)]
 def test_a_shallow_groove_of_a_large_part_is_filled_where_nobody_is():
     elsewhere = two_parts(grooved(), box((0.05, 0.05, 0.05), (0.5, 0.0, 0.5)))
     assert error_for(elsewhere.part_mesh(0), CONFIG) == pytest.approx(0.012)
-    fixed = decompose(elsewhere, CONFIG)[0]
+    fixed = decomposed(elsewhere, CONFIG)[0]
     assert len(fixed.hulls) == 1
     assert deepest(fixed, IN_GROOVE) > 0.0
 
@@ -48,7 +49,7 @@ def test_a_shallow_groove_of_a_large_part_is_filled_where_nobody_is():
 def test_a_groove_that_another_part_runs_in_stays_open_all_its_way():
     # A tongue, at one end of the groove at rest, that slides to the other.
     tongue = box((0.1, 0.05, 0.05), (0.06, 0.0, 0.018))
-    fixed = decompose(two_parts(grooved(), tongue, upper=0.85), CONFIG)[0]
+    fixed = decomposed(two_parts(grooved(), tongue, upper=0.85), CONFIG)[0]
     assert deepest(fixed, IN_GROOVE) < 0.001
 
 
@@ -61,7 +62,7 @@ def cap(radius=0.04, height=0.025):
 
 
 def test_a_knob_without_a_back_is_one_hull():
-    fixed, knob = decompose(two_parts(box((0.5, 0.5, 0.02), (0, 0, -0.05)), cap()), CONFIG)
+    fixed, knob = decomposed(two_parts(box((0.5, 0.5, 0.02), (0, 0, -0.05)), cap()), CONFIG)
     assert (knob.method, len(knob.hulls)) == ("single", 1)
     assert fixed.method == "exact"
 
@@ -69,7 +70,7 @@ def test_a_knob_without_a_back_is_one_hull():
 def test_a_knob_with_a_shaft_in_it_keeps_its_hollow():
     plate = box((0.5, 0.5, 0.02), (0, 0, -0.05))
     shaft = box((0.01, 0.01, 0.045), (0.0, 0.0, -0.0175))
-    knob = decompose(two_parts(trimesh.util.concatenate([plate, shaft]), cap()), CONFIG)[1]
+    knob = decomposed(two_parts(trimesh.util.concatenate([plate, shaft]), cap()), CONFIG)[1]
     assert len(knob.hulls) > 1
     assert deepest(knob, [[0.0, 0.0, 0.0]]) < 0.0
 
@@ -83,7 +84,7 @@ def test_what_is_open_towards_the_top_holds_things(radius, height, turned, fille
     vessel = cap(radius, height)
     if turned:
         vessel.apply_transform(trimesh.transformations.rotation_matrix(np.pi, [1, 0, 0]))
-    part = decompose(two_parts(box((0.5, 0.5, 0.02), (0, 0, -0.5)), vessel), CONFIG)[1]
+    part = decomposed(two_parts(box((0.5, 0.5, 0.02), (0, 0, -0.5)), vessel), CONFIG)[1]
     assert (deepest(part, [[0.0, 0.0, 0.0], [0.0, 0.0, height / 3.0]]) > 0.0) is filled
 
 
@@ -93,5 +94,5 @@ def test_the_gap_behind_a_handle_stays_open_on_a_large_door():
     bar = box((0.02, 0.02, 0.2), (0.8, -0.051, 0.0))
     feet = [box((0.02, 0.016, 0.02), (0.8, -0.033, z)) for z in (-0.09, 0.09)]
     whole = trimesh.boolean.union([door, bar, *feet], engine="manifold")
-    part = decompose(two_parts(box((0.1, 0.1, 0.1), (0, 3, 0)), whole), CONFIG)[1]
+    part = decomposed(two_parts(box((0.1, 0.1, 0.1), (0, 3, 0)), whole), CONFIG)[1]
     assert deepest(part, [[0.8, -0.033, 0.0]]) < 0.0

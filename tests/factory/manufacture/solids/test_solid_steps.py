@@ -15,20 +15,21 @@ from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry import posing
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.manufacture.decompose.convex import depth_below
+from asset_factory.factory.manufacture.separate.clip import SHEET_M
 from asset_factory.factory.manufacture.solids.boards import BOTTOM_M, HEIGHT, STOP_M, drawer_box
-from asset_factory.factory.manufacture.solids.boards import CLEAR_M as DRAWER_CLEAR_M
 from asset_factory.factory.manufacture.solids.box import Box
 from asset_factory.factory.manufacture.solids.build import solids
-from asset_factory.factory.manufacture.solids.bump import CLEAR_M, find_bump
+from asset_factory.factory.manufacture.solids.bump import APART_M, find_bump
 from asset_factory.factory.manufacture.solids.cavity import hollow
 from asset_factory.factory.manufacture.solids.frame import working_frame
 from asset_factory.factory.manufacture.solids.lattice import Lattice, enclosed
 from asset_factory.factory.manufacture.solids.matter import PATH, Matter
-from asset_factory.factory.manufacture.solids.pieces import FOIL_M, convex_pieces
+from asset_factory.factory.manufacture.solids.pieces import convex_pieces
 from asset_factory.factory.manufacture.solids.reach import reaching
 from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
 from asset_factory.factory.manufacture.solids.skin import border, parts_to_build, skin_parts
 from asset_factory.factory.manufacture.solids.surfaces import boundary, inside_of, outside_of, plate
+from asset_factory.factory.manufacture.solids.sweep import CLEAR_M
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.views.raster import Side
 
@@ -162,9 +163,9 @@ def test_a_drawer_box_keeps_clear_of_its_room():
     boards = drawer_box(room, -0.003)
     low = np.min([board.low for board in boards], axis=0)
     high = np.max([board.high for board in boards], axis=0)
-    assert low == pytest.approx([DRAWER_CLEAR_M, DRAWER_CLEAR_M, -0.003])
-    assert high[[0, 2]] == pytest.approx([0.4 - DRAWER_CLEAR_M, 0.5 - STOP_M])
-    assert high[1] - low[1] == pytest.approx(HEIGHT * (0.2 - 2 * DRAWER_CLEAR_M))
+    assert low == pytest.approx([CLEAR_M, CLEAR_M, -0.003])
+    assert high[[0, 2]] == pytest.approx([0.4 - CLEAR_M, 0.5 - STOP_M])
+    assert high[1] - low[1] == pytest.approx(HEIGHT * (0.2 - 2 * CLEAR_M))
     size = high - low
     inside = (size[0] - 0.02) * (size[1] - BOTTOM_M) * (size[2] - 0.01)
     total = sum(board.size.prod() for board in boards)
@@ -199,7 +200,7 @@ def test_a_wall_that_is_a_single_sheet_becomes_a_thin_piece():
     matter = Matter(cells, solid, nothing, nothing.astype(np.uint8), sheet)
     (wall,) = convex_pieces(matter, 10)
     assert depth_below(wall, sheet).min() > -1e-6
-    assert wall.volume == pytest.approx(0.8 * 0.8 * FOIL_M, rel=1e-3)
+    assert wall.volume == pytest.approx(0.8 * 0.8 * SHEET_M, rel=1e-3)
 
 
 @pytest.mark.parametrize("bent", [0.0, 0.002])
@@ -227,8 +228,8 @@ def test_a_knob_begins_clear_of_what_it_stands_on():
     joint = Joint("turn", JointKind.CONTINUOUS, 0, 1, [0, 0, 1], [0, 0, 0], -np.pi, np.pi)
     bump = find_bump(points, rim, joint)
     assert bump.rule == "cut_base"
-    assert bump.hull.vertices[:, 2].min() == pytest.approx(CLEAR_M)
-    assert bump.hull.volume == pytest.approx(np.pi * 0.02**2 * (0.03 - CLEAR_M), rel=0.02)
+    assert bump.hull.vertices[:, 2].min() == pytest.approx(APART_M)
+    assert bump.hull.volume == pytest.approx(np.pi * 0.02**2 * (0.03 - APART_M), rel=0.02)
 
 
 def test_a_button_keeps_its_height_and_its_host_a_pit_for_it():
@@ -242,7 +243,7 @@ def test_a_button_keeps_its_height_and_its_host_a_pit_for_it():
     made = solids(Articulation(mesh, parts, (joint,), "test"), SolidsConfig())
     body, pressed = made.pieces
     (hull,) = pressed.hulls
-    assert np.ptp(hull.vertices[:, 2]) == pytest.approx(0.04 - CLEAR_M, abs=1e-3)
+    assert np.ptp(hull.vertices[:, 2]) == pytest.approx(0.04 - APART_M, abs=1e-3)
     way = hull.vertices - np.array([0.0, 0.0, 0.02])
     assert max(depth_below(each, way).max() for each in body.hulls) < -0.002
     assert sum(each.volume for each in body.hulls) > 0.9 * 0.4**3
