@@ -162,7 +162,7 @@ class PartBody:
         hulls: convex pieces; empty only for a carrier.
         inertial: see :class:`Inertial`.
         handle: ``None`` for parts that no joint moves.
-        decomposition: how the hulls came about: ``exact``, ``single``, ``coacd``, ``vhacd``,
+        decomposition: how the hulls came about: ``exact``, ``single``, ``coacd``, ``halved``,
             ``built``, ``none``...
         degraded: sentences, one for each rung of the retry ladder below the first; empty when all
             went well.

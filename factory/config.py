@@ -123,8 +123,8 @@ class DecomposeConfig:
         near_convex: a part of several pieces that fills this share of its hull, with no deeper
             dent, is one hull.
         shell_m: thickness given to surfaces that enclose nothing, towards their inside [m].
-        max_faces: simplify to this many triangles before CoACD; meshes too intricate for that go
-            to V-HACD, whose work is bounded by its voxels.
+        max_faces: simplify to this many triangles before CoACD; meshes too intricate for that are
+            halved.
         max_hulls: a part that needs more, once hulls are joined as ``hulls`` says, is rejected.
         max_vertices: corners of one hull; simulators on the GPU take at most 64.
         resolution: CoACD's surface samples for its measure of concavity.

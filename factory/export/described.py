@@ -31,7 +31,7 @@ from .manifest import (
 from .resistance import Resistance
 
 #: Everything whose version can change an exported number.
-TOOLS = ("asset-factory", "coacd", "manifold3d", "numpy", "pillow", "scipy", "trimesh", "vhacdx")
+TOOLS = ("asset-factory", "coacd", "manifold3d", "numpy", "pillow", "scipy", "trimesh")
 
 
 def manifest_of(layout: Layout, provenance: Provenance) -> Manifest:

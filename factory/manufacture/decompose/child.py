@@ -1,4 +1,4 @@
-"""CoACD and V-HACD, which crash and hang: called in a child process only, and only here."""
+"""CoACD, which crashes and hangs: called in a child process only, and only here."""
 
 from __future__ import annotations
 
@@ -34,27 +34,3 @@ def coacd_pieces(solid: Triangles, error_m: float, config: DecomposeConfig) -> l
         real_metric=True,
     )
     return [(np.asarray(v, dtype=np.float64), np.asarray(f, dtype=np.int64)) for v, f in pieces]
-
-
-def vhacd_pieces(solid: Triangles, max_hulls: int) -> list[Triangles]:
-    """Return the convex pieces by V-HACD's voxels. Call through ``run_isolated`` only."""
-    import vhacdx  # optional, native, and only ever loaded in the child
-
-    vertices, faces = solid
-    pieces = vhacdx.compute_vhacd(
-        vertices,
-        np.column_stack([np.full(len(faces), 3), faces]).ravel().astype(np.uint32),
-        maxConvexHulls=max_hulls,
-        resolution=200_000,
-        minimumVolumePercentErrorAllowed=1.0,
-        maxRecursionDepth=12,
-        shrinkWrap=True,
-        maxNumVerticesPerCH=64,
-        asyncACD=False,
-        minEdgeLength=2,
-        findBestPlane=False,
-    )
-    return [
-        (np.asarray(v, dtype=np.float64), np.asarray(f, dtype=np.int64).reshape(-1, 3))
-        for v, f in pieces
-    ]

@@ -19,7 +19,7 @@ DECOMPOSE = Stage(
     "decompose",
     code=(__name__,),
     settings=("decompose",),
-    libraries=("coacd", "vhacdx", "manifold3d", "scipy"),
+    libraries=("coacd", "manifold3d", "scipy"),
 )
 
 

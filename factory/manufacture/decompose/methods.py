@@ -77,7 +77,8 @@ def split_closely(
     """Return the convex pieces of a closed manifold, those that cannot stay split again.
 
     Those take other parts' room, or fill more than the least error where slots are: they are split
-    with half the error, and so on. Where the solid itself lies in that room, nothing helps.
+    with half the error, and so on. Where the solid itself lies in that room, nothing helps. Halves
+    are as fine as may be.
     """
     found = NOTHING
     waiting = deque([(solid, error_m)])
@@ -86,7 +87,7 @@ def split_closely(
         piece, error_m = waiting.popleft()
         split = split_solid(piece, error_m, config)
         finer = error_m / 2.0
-        final = split.method == "exact" or finer < FINEST_SHARE * config.error_m
+        final = split.method in ("exact", "halved") or finer < FINEST_SHARE * config.error_m
         kept = []
         for hull in split.hulls:
             if final or again >= MOST_AGAIN or _may_stay(hull, piece, error_m, config, room):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ...asset import Hull
 
 #: How faithful pieces are, from the most to the least; a part is named after its least faithful.
-FAITHFUL = ("exact", "cut", "single", "sheets", "coacd", "vhacd", "hull")
+FAITHFUL = ("exact", "cut", "single", "sheets", "coacd", "halved", "hull")
 
 
 @dataclass(frozen=True)
@@ -19,8 +19,8 @@ class SolidPieces:
             nor of a carrier.
         method: the farthest any of its pieces had to go: ``none`` (carrier), ``exact``, ``cut``
             (along its own faces), ``single`` (one hull that fills only small dents), ``sheets``
-            (slabs over open surfaces), ``coacd``, ``vhacd``, ``hull`` (one hull, convex or not
-            ); ``built`` (made from a one-piece mesh).
+            (slabs over open surfaces), ``coacd``, ``halved`` (by planes across it), ``hull`` (one
+            hull, convex or not); ``built`` (made from a one-piece mesh).
         degraded: one sentence for each thing given up on the way; empty when all went well.
     """
 

@@ -16,6 +16,7 @@ from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.errors import Unjudged
 from asset_factory.factory.manufacture.decompose import ladder, methods
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of, surface_points
+from asset_factory.factory.manufacture.decompose.halving import halve
 from asset_factory.factory.manufacture.decompose.methods import SolidPieces, split_closely
 from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.room import NOWHERE
@@ -193,17 +194,27 @@ def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(monkeypatch):
 
     def broken(function, *args, limits):
         asked.append(function)
-        if function is ladder.coacd_pieces:
-            return Outcome(None, Failure.CRASHED, "killed by SIGSEGV", "", 0.1)
-        return Outcome([], None, "", "", 0.1)
+        return Outcome(None, Failure.CRASHED, "killed by SIGSEGV", "", 0.1)
 
     monkeypatch.setattr(ladder, "run_isolated", broken)
     found = ladder.search(torus_solid(), 0.01, CONFIG)
-    assert (found.method, len(found.hulls)) == ("hull", 1)
+    assert found.method == "halved"
     # A crash is believed when it comes again.
-    assert asked == [ladder.coacd_pieces] * 2 + [ladder.vhacd_pieces]
+    assert asked == [ladder.coacd_pieces] * 2
     assert "SIGSEGV" in found.degraded[0]
-    assert len(found.degraded) == 3
+    rough = ladder.search(torus_solid(), 1e-5, CONFIG)
+    assert (rough.method, len(rough.hulls), len(rough.degraded)) == ("hull", 1, 3)
+
+
+@pytest.mark.parametrize("outside", [0.004, 0.001])
+def test_halves_cover_a_solid_and_stand_out_of_it_no_further_than_asked(outside):
+    solid = torus_solid()
+    halves = [manifold_of_hull(hull) for hull in halve(solid, outside, 64)]
+    cover = union(halves)
+    assert 1 < len(halves) < 64
+    assert (solid - cover).volume() == pytest.approx(0.0, abs=1e-6 * solid.volume())
+    assert (cover - solid).volume() <= outside * solid.surface_area()
+    assert len(halve(solid, 0.0, 5)) in (5, 6)
 
 
 @pytest.mark.parametrize(
@@ -251,15 +262,16 @@ def test_coacd_is_asked_of_what_is_simple_within_the_error_only(monkeypatch):
     intricate = manifold_of(*blob(70))
     assert intricate is not None
     found = ladder.search(intricate, 0.01, DecomposeConfig())
-    assert [function for function, _ in asked] == [ladder.vhacd_pieces]
+    assert not asked
     assert "faces, want at most 1300" in found.degraded[0]
     asked.clear()
     # The same with many more faces that say nothing more.
     smooth = torus_solid().refine(8)
     assert smooth.num_tri() > 30_000
     ladder.search(smooth, 0.01, DecomposeConfig())
-    assert [function for function, _ in asked] == [ladder.coacd_pieces, ladder.vhacd_pieces]
-    assert all(faces <= 2000 for _, faces in asked)
+    ((function, faces),) = asked
+    assert function is ladder.coacd_pieces
+    assert faces <= 2000
 
 
 def test_pieces_are_split_again_up_to_a_count(monkeypatch):
@@ -281,13 +293,13 @@ def test_pieces_are_split_again_up_to_a_count(monkeypatch):
 
 @pytest.mark.full
 def test_a_hundred_thousand_faces_in_two_blobs_become_hulls(tmp_path):
-    """It takes 43 s of processor time, V-HACD's included, and took minutes of CoACD."""
+    """It takes 13 s of processor time, and took minutes of CoACD."""
     base, lid = (Mesh.from_triangles(*blob(112, at=at)) for at in (0.0, 0.8))
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, np.array([0, 0, 1.0]), np.zeros(3), 0.0, 0.1)
     articulation = parted({"base": [base], "lid": [lid]}, joint)
     assert len(articulation.mesh.faces) > 98_000
     for result in decomposed(articulation, DecomposeConfig()):
-        assert (result.method, len(result.hulls) <= 64) == ("vhacd", True)
+        assert (result.method, len(result.hulls) <= 64) == ("halved", True)
 
 
 def test_without_memory_the_next_method_is_tried_and_that_is_kept(monkeypatch, tmp_path):

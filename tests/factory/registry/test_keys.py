@@ -42,7 +42,6 @@ LIBRARIES = {
     "manifold3d": {"load", "solids", "decompose", "finish"},
     "python-fcl": {"inspect"},
     "coacd": {"decompose"},
-    "vhacdx": {"decompose"},
     "torch": {"articulate"},
     "sapien": {"validate"},
     "mujoco": {"load", "validate"},
