@@ -201,15 +201,13 @@ class DetectedArticulator(HypothesisMaker):
         alone = False
         for joint in guess.joints:
             part = guess.parts[joint.child]
-            asked = part.kind in ASKED
-            support = cells.support(joint.child, detection.dense) if asked else None
+            support = cells.support(joint.child, detection.dense) if part.kind in ASKED else None
             confidence = part.confidence or 0.0
-            ruled = _is_ruled(part)
+            ruled = part.kind is not PartKind.PART and _is_by(part, Proposer.RULES, Proposer.SIDES)
             if support is None:
-                if _is_by(part, Proposer.SIDES) and detection.kind not in KNOBBED:
-                    continue
-                kept.append(joint.child)
-                alone |= ruled
+                if not _is_by(part, Proposer.SIDES) or detection.kind in KNOBBED:
+                    kept.append(joint.child)
+                    alone |= ruled
                 continue
             chance = self.agreement.of_proposed(support)
             if ruled or (
@@ -329,11 +327,6 @@ def _pulls(cells: CellParts, beside: Sequence[DetectedPart]) -> list[int]:
         if guess.parts[joint.child].kind in CARRIED
         and any(cells.lies_in(joint.child, f) for part in beside for f in part.found)
     ]
-
-
-def _is_ruled(part: Part) -> bool:
-    """Tell whether rules of shape found a part, or a row of knobs, and say what it is."""
-    return _is_by(part, Proposer.RULES, Proposer.SIDES) and part.kind is not PartKind.PART
 
 
 def _is_by(part: Part, *proposers: Proposer) -> bool:

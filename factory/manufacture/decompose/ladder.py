@@ -64,7 +64,7 @@ def search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPie
 def _asked(
     solid: Manifold, light: Manifold, error_m: float, config: DecomposeConfig
 ) -> tuple[list[Triangles], str | None]:
-    """Ask CoACD, of what is simple enough: its pieces, or why it has none on any machine.
+    """Ask CoACD for pieces of a solid, if it is simple; else, say why there are none.
 
     It is given the solid with fewer faces, ``light``, unless that has too many.
 

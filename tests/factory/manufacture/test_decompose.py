@@ -198,10 +198,9 @@ def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(monkeypatch):
 
     monkeypatch.setattr(ladder, "run_isolated", broken)
     found = ladder.search(torus_solid(), 0.01, CONFIG)
-    assert found.method == "halved"
+    assert (found.method, "SIGSEGV" in found.degraded[0]) == ("halved", True)
     # A crash is believed when it comes again.
     assert asked == [ladder.coacd_pieces] * 2
-    assert "SIGSEGV" in found.degraded[0]
     rough = ladder.search(torus_solid(), 1e-5, CONFIG)
     assert (rough.method, len(rough.hulls), len(rough.degraded)) == ("hull", 1, 3)
 
@@ -209,8 +208,8 @@ def test_a_crashing_engine_costs_a_found_and_leaves_a_sentence(monkeypatch):
 @pytest.mark.parametrize("outside", [0.004, 0.001])
 def test_halves_cover_a_solid_and_stand_out_of_it_no_further_than_asked(outside):
     solid = torus_solid()
-    halves = [manifold_of_hull(hull) for hull in halve(solid, outside, 64)]
-    cover = union(halves)
+    halves = halve(solid, outside, 64)
+    cover = union([manifold_of_hull(hull) for hull in halves])
     assert 1 < len(halves) < 64
     assert (solid - cover).volume() == pytest.approx(0.0, abs=1e-6 * solid.volume())
     assert (cover - solid).volume() <= outside * solid.surface_area()
@@ -269,9 +268,7 @@ def test_coacd_is_asked_of_what_is_simple_within_the_error_only(monkeypatch):
     smooth = torus_solid().refine(8)
     assert smooth.num_tri() > 30_000
     ladder.search(smooth, 0.01, DecomposeConfig())
-    ((function, faces),) = asked
-    assert function is ladder.coacd_pieces
-    assert faces <= 2000
+    assert [(function, faces <= 2000) for function, faces in asked] == [(ladder.coacd_pieces, True)]
 
 
 def test_pieces_are_split_again_up_to_a_count(monkeypatch):

@@ -4,6 +4,7 @@ import importlib.util
 import json
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -55,10 +56,7 @@ def dataset(tmp_path):
 
 @pytest.mark.parametrize("accident", [TimeoutError(), ChildProcessError()])
 def test_an_accident_of_a_reader_is_no_refusal_to_keep(dataset, monkeypatch, accident):
-    def read(*_, **__):
-        raise accident
-
-    monkeypatch.setattr(making, "sampled_item", read)
+    monkeypatch.setattr(making, "sampled_item", Mock(side_effect=accident))
     with pytest.raises(type(accident)):
         making.make_sampled("description", None, None, "key-0000000000000000", dataset / "x.npz")
 

@@ -83,8 +83,7 @@ def test_hulls_that_share_one_corner_have_no_gap():
     corners, _ = box(np.ones(3))
     diagonal = np.full(3, 3.0**-0.5)
     found = widest_gap(convex_hull(corners - 0.5), convex_hull(corners + 0.5), diagonal)
-    assert found.depth == pytest.approx(0.0, abs=1e-12)
-    np.testing.assert_array_equal(found.direction, diagonal)
+    assert (found.depth, *found.direction) == pytest.approx((0.0, *diagonal), abs=1e-12)
 
 
 @settings(max_examples=30, deadline=None)

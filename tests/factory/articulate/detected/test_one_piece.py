@@ -35,11 +35,8 @@ OPENS = {
     "tall_drawers": [(SLIDES, (0, -1, 0), None)] * 3,
     "filing_cabinet": [(SLIDES, (0, -1, 0), None)] * 5,
     "proud_drawers": [(SLIDES, (0, -1, 0), None)] * 2,
-    "doors_with_grown_knobs": [
-        (HINGED, (0, 0, -1), (0.03, 0, 0)),
-        (HINGED, (0, 0, 1), (0.87, 0, 0)),
-    ],
 }
+OPENS["doors_with_grown_knobs"] = OPENS["doors"]
 STAYS = ("plain_box", "table", "buttons")
 #: Turned so far about the vertical [degrees], then scaled along x, y and z.
 PLACES = (
