@@ -49,7 +49,7 @@ def first(cabinet, judge, tmp_path_factory):
 def test_the_first_build_does_everything(first):
     product, _ = first
     assert product.entry.status == "passed", product.told.report.findings
-    assert product.done == ("articulate", "finish", "inspect", "validate")
+    assert product.done == ("articulate", "decompose", "finish", "inspect", "validate")
     assert product.result.reused == ()
     assert "cabinet.urdf" in product.reads
 
@@ -64,12 +64,12 @@ CHANGES = {
     # The boxes' hulls are exact whatever the error, and from equal hulls equal things follow.
     "decompose, the same hulls": (
         replace(BASE, decompose=replace(BASE.decompose, error_m=0.004)),
-        (),
+        ("decompose",),
     ),
     "articulator": (replace(BASE, articulator="annotated"), ("articulate",)),
     "intake": (
         replace(BASE, intake=replace(BASE.intake, height=1.0)),
-        ("articulate", "finish", "inspect", "validate"),
+        ("articulate", "decompose", "finish", "inspect", "validate"),
     ),
 }
 
@@ -82,7 +82,7 @@ def test_a_change_redoes_its_stage_and_what_follows(what, first, cabinet, tmp_pa
         product = make_asset(cabinet, tmp_path / "staging", config, cache, judge)
     assert product.entry.status == "passed", product.told.report.findings
     assert product.done == redone
-    stages = {"articulate", "finish", "inspect", "validate"}
+    stages = {"articulate", "decompose", "finish", "inspect", "validate"}
     assert set(product.result.reused) == stages - set(redone)
 
 
