@@ -85,7 +85,7 @@ def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
     normals = doubled_normals(vertices[faces])
     area = np.linalg.norm(normals, axis=1)
     normal = normals[area.argmax()] / area.max()
-    return _halves(hollow, normal, float(vertices.mean(axis=0) @ normal))
+    return halves_of(hollow, normal, float(vertices.mean(axis=0) @ normal))
 
 
 def _best_cut(piece: Manifold) -> list[Manifold] | None:
@@ -96,16 +96,16 @@ def _best_cut(piece: Manifold) -> list[Manifold] | None:
     least = np.inf
     for normal, offset in _candidate_planes(*triangles_of(piece)):
         halves = [
-            half for half in _halves(piece, normal, offset) if half.volume() > LEAST_VOLUME_M3
+            half for half in halves_of(piece, normal, offset) if half.volume() > LEAST_VOLUME_M3
         ]
-        waste = _waste(halves)
+        waste = waste_of(halves)
         if len(halves) > 1 and waste < least:
             best = halves
             least = waste
     return best
 
 
-def _halves(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold]:
+def halves_of(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold]:
     """Return a solid's two sides of a plane, in connected pieces.
 
     A plane along a face would leave films of rounding's thickness on the wrong side, so a layer
@@ -133,7 +133,7 @@ def _stretch(
     return stretched
 
 
-def _waste(pieces: list[Manifold]) -> float:
+def waste_of(pieces: list[Manifold]) -> float:
     """Return the volume between pieces and their hulls [m3]."""
     return float(sum(piece.hull().volume() - piece.volume() for piece in pieces))
 

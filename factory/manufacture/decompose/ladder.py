@@ -17,7 +17,7 @@ from .child import Triangles, coacd_pieces
 from .convex import hull_of
 from .halving import halve
 from .pieces import NOTHING, SolidPieces
-from .simplify import VOLUME_SHARE, simplified
+from .simplify import VOLUME_SHARE, smoothed
 from .solids import manifold_of_hull, triangles_of, union
 
 #: CoACD is not asked of solids that keep more faces than this when simplified by the error. Its
@@ -27,7 +27,7 @@ from .solids import manifold_of_hull, triangles_of, union
 INTRICATE = 1300
 #: Halves are no more than this, and may lie outside by so many times the error asked for.
 MOST_HALVES = 64
-COARSER = 2.0
+HALVED_FACTOR = 2.0
 
 
 def search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:
@@ -41,7 +41,7 @@ def search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPie
     at all, say because the main module runs on import. Unjudged: CoACD hung, or somebody ended
     it; a clock makes no hulls coarser.
     """
-    light = simplified(solid, config.max_faces, 0.1 * error_m)
+    light = smoothed(solid, error_m, config)
     found, fault = _asked(solid, light, error_m, config)
     hulls = [hull for vertices, _ in found if (hull := hull_of(vertices)) is not None]
     fault = fault or complaint(solid, hulls, error_m)
@@ -51,7 +51,7 @@ def search(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPie
     # As fine as may be: nothing splits them again.
     fine = min(error_m, config.error_m)
     hulls = halve(light, fine, min(config.max_hulls, MOST_HALVES))
-    fault = complaint(solid, hulls, COARSER * error_m)
+    fault = complaint(solid, hulls, HALVED_FACTOR * error_m)
     if fault is None:
         return SolidPieces(tuple(hulls), "halved", degraded)
     whole = hull_of(triangles_of(solid)[0])

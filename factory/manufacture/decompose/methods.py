@@ -15,7 +15,7 @@ from .ladder import search
 from .pieces import NOTHING, SolidPieces
 from .pockets import fills_little
 from .room import Room
-from .simplify import simplified
+from .simplify import smoothed
 from .solids import LEAST_VOLUME_M3, inside, manifold_of_hull
 
 __all__ = ["METHODS", "SolidPieces", "slot_of", "split_closely", "split_solid"]
@@ -24,8 +24,6 @@ __all__ = ["METHODS", "SolidPieces", "slot_of", "split_closely", "split_solid"]
 FEW_PIECES = 32
 #: Pieces that cutting along faces may leave of one solid before CoACD is asked instead.
 MOST_CUTS = 96
-#: How far the surface may move when a solid is simplified, as a share of the error.
-SMOOTHING_SHARE = 0.1
 #: No solid is split more finely than to this share of the least error.
 FINEST_SHARE = 0.5
 #: Hulls of one solid that are split again at most: a search for pieces of one takes seconds.
@@ -53,7 +51,7 @@ def along_simplified_faces(
     solid: Manifold, error_m: float, config: DecomposeConfig
 ) -> SolidPieces | None:
     """Return more pieces, cut along the faces of a smoother solid."""
-    light = simplified(solid, config.max_faces, SMOOTHING_SHARE * error_m)
+    light = smoothed(solid, error_m, config)
     cut = cut_along_faces(light, error_m, MOST_CUTS, slot_of(config))
     return None if cut is None else replace(cut, method="cut")
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 import numpy as np
 from manifold3d import Manifold
 
+from ...config import DecomposeConfig
 from ...mesh import FloatArray, IntArray
 from .solids import OpenSurface, manifold_of, triangles_of
 
 #: The volume may change by this share when triangles are taken away, and pieces may leave as much
 #: of a solid uncovered.
 VOLUME_SHARE = 0.02
+#: How far the surface may move when a solid is smoothed, as a share of the error.
+SMOOTHING_SHARE = 0.1
 
 
 def simplified(solid: Manifold, max_faces: int, tolerance_m: float) -> Manifold:
@@ -23,6 +26,11 @@ def simplified(solid: Manifold, max_faces: int, tolerance_m: float) -> Manifold:
         return light
     again = manifold_of(*_decimated(*triangles_of(light), max_faces))
     return (again and _accepted(again, solid)) or light
+
+
+def smoothed(solid: Manifold, error_m: float, config: DecomposeConfig) -> Manifold:
+    """Return a solid simplified as far as the error of its hulls [m] allows."""
+    return simplified(solid, config.max_faces, SMOOTHING_SHARE * error_m)
 
 
 def lighter(surface: OpenSurface, max_faces: int) -> OpenSurface:
