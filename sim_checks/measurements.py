@@ -91,12 +91,14 @@ class MeasuredNeighbour(MeasuredPair):
     Attributes:
         joint, unit: the one that moves, and the unit of its values.
         open, open_at: the one that stands open, and its value; ``None`` for upper.
+        free_until: how far ``joint`` goes from lower there before it fails; ``None``: all the way.
     """
 
     joint: str
     open: str
     unit: str
     open_at: float | None = None
+    free_until: float | None = None
 
 
 @dataclass(frozen=True)

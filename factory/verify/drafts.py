@@ -18,8 +18,6 @@ from .validate import Verdict
 #: So many faces take as long as a hull, in the rounds of 27 objects of 400 to 65,000 faces.
 FACES_PER_HULL = 400
 
-_VERBS = {"revolute": "turns", "continuous": "turns", "prismatic": "slides"}
-
 
 @dataclass(frozen=True)
 class HypothesisDraft:
@@ -103,7 +101,9 @@ def _lost(draft: HypothesisDraft) -> Finding:
 def _told_of(articulation: Articulation, why: str) -> Finding:
     """Return the finding on a hypothesis that did not become the asset."""
     joints = articulation.movable_joints
-    told = [f"{articulation.parts[joint.child].name} {_VERBS[joint.kind]}" for joint in joints]
+    told = [
+        f"{articulation.parts[j.child].name} {'turns' if j.turns else 'slides'}" for j in joints
+    ]
     if any(joint.confidence is not None for joint in joints):
         told.append(f"probability {Hypothesis(articulation).probability:.2f}")
     said = f"read otherwise ({', '.join(told)}), it {why}"

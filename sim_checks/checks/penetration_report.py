@@ -63,13 +63,11 @@ def report(study: PenetrationStudy, rest: RestingSolids) -> CheckResult:
 
 def told_parts(sweeps: Sequence[JointSweep], config: PenetrationConfig) -> frozenset[PartPair]:
     """Return the pairs of parts that meet too deeply while all joints but one are closed."""
-    swept = (pair for sweep in sweeps for pair in sweep.pairs)
-    return frozenset(pair.parts for pair in swept if pair.excess > config.excess_m)
+    return frozenset(p.parts for each in sweeps for p in each.pairs if p.excess > config.excess_m)
 
 
 def _rest_findings(study: PenetrationStudy, config: PenetrationConfig) -> Findings:
-    at_rest = {contact.parts: contact.depth for contact in study.rest}
-    again = {parts: depth + config.excess_m for parts, depth in at_rest.items()}
+    again = {contact.parts: contact.depth + config.excess_m for contact in study.rest}
     found = [("with every joint at its lower limit", each) for each in study.rest]
     for contact in study.zero or ():
         if contact.depth > again.get(contact.parts, config.excess_m):
@@ -213,8 +211,7 @@ def _pair(pair: PairSweep) -> dict[str, Any]:
 def _measured_joint(sweep: JointSweep) -> MeasuredJoint:
     gaps = [-pair.excess for pair in sweep.pairs if pair.depth < 0.0]
     touching = any(pair.depth >= 0.0 for pair in sweep.pairs)
-    seen = (pair.visual for pair in sweep.pairs if pair.visual is not None)
-    visual = min(seen, default=None)
+    visual = min((p.visual for p in sweep.pairs if p.visual is not None), default=None)
     alternative = sweep.alternative
     return MeasuredJoint(
         joint=sweep.joint.name,
@@ -224,7 +221,7 @@ def _measured_joint(sweep: JointSweep) -> MeasuredJoint:
         excess_mm=mm(max(0.0, sweep.excess)),
         clearance_mm=0.0 if touching else mm(min(gaps)) if gaps else None,
         visual_clearance_mm=None if visual is None else mm(max(0.0, visual)),
-        clear_until=None if sweep.clear_until is None else round(sweep.clear_until, 6),
+        clear_until=sweep.clear_until and round(sweep.clear_until, 6),
         looks=sweep.looks,
         pairs=tuple(MeasuredPair(**_pair(pair)) for pair in sweep.pairs),
         needs_open=sweep.needs_open,
@@ -253,6 +250,7 @@ def measured(study: PenetrationStudy, rest: RestingSolids) -> MeasuredPenetratio
                 open=item.other.name,
                 unit=item.joint.unit,
                 open_at=round(item.other_at, 6),
+                free_until=item.free_until and round(item.free_until, 6),
             )
             for item in study.neighbours.met
         ),

@@ -246,8 +246,9 @@ def hollow_behind(work: Workpiece, part: int) -> None:
         work.take(0, work.lattice.span(placed))
     if panel.slides:
         _give_box(work, panel, boxes)
-    elif work.usual.shelves is not None:
-        _give_shelves(work, panel, boxes, work.usual.shelves)
+    elif work.usual.shelves is not None and (upward := np.abs(frame[:2, 2])).max() > ALIKE:
+        # What lies has none.
+        work.shelves[part] = shelf_boards(boxes, work.usual.shelves, int(upward.argmax()))
 
 
 def _taken(work: Workpiece, part: int) -> Iterator[Box]:
@@ -297,15 +298,6 @@ def _give_box(work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...]) -> None
     work.add_boards(panel.part, boards, panel)
     if boards:
         _keep_in(work, panel.part, max(float(board.high[2]) for board in boards) - panel.back)
-
-
-def _give_shelves(
-    work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...], spacing: float
-) -> None:
-    """Put shelves into the space behind a panel that does not lie."""
-    upward = np.abs(panel.side.frame[:2, 2])
-    if upward.max() > ALIKE:
-        work.shelves[panel.part] = shelf_boards(boxes, spacing, int(upward.argmax()))
 
 
 def _keep_in(work: Workpiece, part: int, depth: float) -> None:

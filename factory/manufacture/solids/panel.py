@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import ndimage
 
-from ...articulation import Joint, JointKind
+from ...articulation import Articulation, Joint, JointKind
 from ...geometry.triangles import doubled_normals
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 from ...part import Panel
@@ -107,13 +107,15 @@ def opens(joint: Joint, panel: Panel) -> bool:
 
 
 def find_panel(
-    mesh: Mesh, faces: IntArray, part: int, joint: Joint, view: View, opposite: View | None
+    articulation: Articulation, part: int, view: View, opposite: View | None
 ) -> FlatPanel | None:
     """Measure a part that is a panel, on the view of the side on which it opens.
 
     The view of the side across is ``None`` of a lid. Returns ``None`` where the part is no panel
     after all: ragged, or thicker than wide.
     """
+    mesh = articulation.mesh
+    joint = articulation.joints[part - 1]
     seen = view.part == part
     rectangle = _rectangle(view, seen)
     if rectangle is None:
@@ -127,14 +129,15 @@ def find_panel(
     front = float(np.percentile(face[known], 20))
     deepest = float(np.percentile(face[known], 95))
     is_lid = view.side is Side.TOP
-    rim = _rim(mesh, faces, view, (low, high), whole=is_lid)
+    rim = _rim(mesh, articulation.parts[part].faces, view, (low, high), whole=is_lid)
     far = float((mesh.bounds @ view.side.frame.T)[:, 2].max())
     slides = joint.kind is JointKind.PRISMATIC and not is_lid
     end = np.inf if slides or opposite is None else _end(opposite, low, high)
     thin = THIN_SHARE * float((high - low).min())
     # Handles of the other side stand out; a case that is open behind is not thin.
     through = end - front <= thin and far - front <= 2.0 * thin
-    back, rule = (end, "through") if through else _back(is_lid, front, deepest, rim, far)
+    given = articulation.parts[part].panel
+    back, rule = (end, "through") if through else _back(is_lid, front, deepest, rim, far, given)
     if back - front > float((high - low).max()) and not is_lid:
         return None
     frame = _frames(view, part, low, high, back)
@@ -188,7 +191,7 @@ def _rim(
     view: View,
     rectangle: tuple[FloatArray, FloatArray],
     whole: bool,
-) -> float | None:
+) -> float:
     """Return the depth down to which nine tenths of the faces around a part's rim reach [m].
 
     If ``whole``, down to which all would, were the last tenth as even as the four before: a ragged
@@ -204,7 +207,7 @@ def _rim(
     level = np.abs(normals[:, 2]) < 0.5 * area
     chosen = near & level
     if area[chosen].sum() <= 0.0:
-        return None
+        return np.inf
     # A modelled door's side is two triangles from its front to its back: where those end counts.
     deep = np.ptp(corners[chosen, :, 2], axis=1) > THINNEST_M
     depth = np.where(deep, corners[chosen, :, 2].max(axis=1), middle[chosen, 2])
@@ -217,11 +220,14 @@ def _rim(
 
 
 def _back(
-    is_lid: bool, front: float, deepest: float, rim: float | None, far: float
+    is_lid: bool, front: float, deepest: float, rim: float, far: float, given: Panel | None
 ) -> tuple[float, str]:
     room = far - front
     most = 0.8 * room if is_lid else min(max(THICKEST_M, THICKEST_SHARE * room), 0.4 * room)
-    if rim is not None and THINNEST_M <= rim - front <= most:
+    thickness = (given and given.thickness) or 0.0
+    # A fridge's door may be thicker than any other: two ways to measure it agree.
+    most = room if abs(rim - front - thickness) <= SOLID_M else most
+    if THINNEST_M <= rim - front <= most:
         back = rim
         rule = "rim"
     else:

@@ -63,7 +63,7 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
         if view is None or not (view.part == index).any():
             continue
         opposite = views.get(side_facing(-given.outward))
-        panel = find_panel(mesh, articulation.parts[index].faces, index, joint, view, opposite)
+        panel = find_panel(articulation, index, view, opposite)
         if panel is not None:
             panels[index] = panel
     panels = _apart(panels)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 from asset_factory.sim_checks import Finding
-from asset_factory.sim_checks.measurements import MeasuredContact, MeasuredJoint, penetrations
+from asset_factory.sim_checks.measurements import MeasuredJoint, MeasuredPenetration, penetrations
 
 from ...asset import Asset
 from ...config import RepairConfig
@@ -45,15 +46,31 @@ class RepairEvidence:
         """Yield the findings of one code, errors and warnings."""
         return (each for each in self.verdict.report.findings if each.code == code)
 
-    def contacts(self) -> Iterator[MeasuredContact]:
-        """Yield every two parts that come near, at rest and along the joints."""
-        for measured in penetrations(self.verdict.report.measurements):
-            yield from measured.contacts
+    @cached_property
+    def measured(self) -> tuple[MeasuredPenetration, ...]:
+        """Return how deep parts get into each other, by file."""
+        return penetrations(self.verdict.report.measurements)
 
-    def joints(self) -> Iterator[MeasuredJoint]:
-        """Yield every joint over its range."""
-        for measured in penetrations(self.verdict.report.measurements):
-            yield from measured.joints
+    def jammed(self) -> dict[str, tuple[MeasuredJoint, float]]:
+        """Return the joints that never reach their range, by name, and how far they go."""
+        return {
+            joint.joint: (joint, joint.clear_until)
+            for measured in self.measured
+            for joint in measured.joints
+            if joint.clear_until is not None
+        }
+
+    def blocked(self) -> dict[str, tuple[MeasuredJoint, float]]:
+        """Return those, and joints that another one stops as soon as it is a little open."""
+        told = {finding.joints for finding in self.found("joint_obstructed")}
+        found = self.jammed()
+        for measured in self.measured:
+            joints = {joint.joint: joint for joint in measured.joints}
+            for near in measured.neighbours:
+                if near.free_until is not None and (near.joint, near.open) in told:
+                    _, end = found.get(near.joint, (None, near.free_until))
+                    found[near.joint] = joints[near.joint], min(end, near.free_until)
+        return found
 
 
 def ordered(one: str, other: str) -> Pair:

@@ -36,11 +36,11 @@ def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     mimics = {j.name: j.mimic for j in asset.articulation.joints if j.mimic is not None}
     coupled = mimics.keys() | {mimic.leader for mimic in mimics.values()}
     least = evidence.config.least_range_share * np.pi / 2.0
-    for measured in evidence.joints():
-        joint = asset.articulation.joint(measured.joint)
+    for name in evidence.jammed():
+        joint = asset.articulation.joint(name)
         # Guesses are hung anew by those who made them.
         stated = joint.confidence is None and joint.name not in coupled
-        if measured.clear_until is None or joint.kind is not JointKind.CONTINUOUS or not stated:
+        if joint.kind is not JointKind.CONTINUOUS or not stated:
             continue
         low, drawn, high = _sizes(asset.articulation, joint, (-np.pi / 2.0, 0.0, np.pi / 2.0))
         if max(low, high) <= (1.0 + CLEAR_DIFFERENCE) * drawn:

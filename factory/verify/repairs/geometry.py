@@ -8,15 +8,13 @@ from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
 from .evidence import RepairEvidence, ordered
 
-#: What says that parts are in one another's way.
-STUCK = frozenset({"rest_penetration", "sweep_penetration", "interior_filled"})
-
 
 def separate_hulls(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Cut hulls that nearly touch apart, once, even where validation lets them: engines do not."""
     near = {
         ordered(*contact.links)
-        for contact in evidence.contacts()
+        for measured in evidence.measured
+        for contact in measured.contacts
         if contact.depth_mm > -evidence.config.near_mm
     }
     new = frozenset(near) - plan.separate
@@ -54,8 +52,7 @@ def build_fronts(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Rebuild front plates that stick in their surroundings, once, with room for each."""
     if plan.build_fronts or not evidence.spare.fronts:
         return None
-    stuck = [finding for finding in evidence.errors if finding.code in STUCK]
-    if not stuck:
+    if evidence.codes.isdisjoint({"rest_penetration", "sweep_penetration", "interior_filled"}):
         return None
     built = Repair(RepairKind.FRONTS_BUILT, parts=tuple(sorted(evidence.spare.fronts)))
     return replace(

@@ -57,8 +57,7 @@ def rehang_doors(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Return all blocked hinges that were guessed at the front edges of their doors, once each."""
     if "sweep_penetration" not in evidence.codes:
         return None
-    blocked = {joint.joint for joint in evidence.joints() if joint.clear_until is not None}
-    new = (blocked & evidence.spare.hinges) - plan.rehung
+    new = (evidence.jammed().keys() & evidence.spare.hinges) - plan.rehung
     if not new:
         return None
     moved = Repair(RepairKind.GUESSED_HINGE_MOVED, joints=tuple(sorted(new)))
@@ -102,9 +101,8 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     if asset is None or "sweep_penetration" not in evidence.codes:
         return None
     shares = {
-        measured.joint: (measured.clear_until - measured.lower) / (measured.upper - measured.lower)
-        for measured in evidence.joints()
-        if measured.clear_until is not None
+        name: (until - measured.lower) / (measured.upper - measured.lower)
+        for name, (measured, until) in evidence.jammed().items()
     }
     joints = [asset.articulation.joint(name) for name in shares if name not in plan.mended]
     # Guesses are hung anew by those who made them.

@@ -20,30 +20,27 @@ FREE_M = 1e-4
 
 def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Return every blocked joint shortened or frozen; nothing if one can be neither."""
-    if evidence.codes != {"sweep_penetration"}:
+    if not evidence.codes or not evidence.codes <= {"sweep_penetration", "joint_obstructed"}:
         return None
     upper = dict(plan.upper)
     frozen = set(plan.frozen)
     repairs = list(plan.repairs)
 
-    for joint in evidence.joints():
-        if joint.clear_until is None:
-            continue
-        free = _free_end(evidence.asset, joint.joint, joint.clear_until)
-        end = joint.clear_until if free is None else free
+    for name, (joint, until) in evidence.blocked().items():
+        free = _free_end(evidence.asset, name, until)
+        end = until if free is None else free
         share = (end - joint.lower) / (joint.upper - joint.lower)
         # What is never clear of anything jams wherever it ends; it goes if it can be spared.
-        ends = free is not None or joint.joint not in evidence.spare.joints
+        ends = free is not None or name not in evidence.spare.joints
+        long_enough = share >= evidence.config.least_range_share
         # Nor may it end before the pose as modelled.
-        ends = ends and end >= 0.0
-        long_enough = ends and share >= evidence.config.least_range_share
-        if joint.joint not in plan.upper and long_enough:
-            upper[joint.joint] = end
+        if name not in plan.upper and ends and end >= 0.0 and long_enough:
+            upper[name] = end
             kind = RepairKind.RANGE_SHORTENED
-            repairs.append(record_change(kind, joint.joint, joint.upper, end, joint.unit))
-        elif joint.joint in evidence.spare.joints:
-            frozen.add(joint.joint)
-            repairs.append(Repair(RepairKind.JOINT_FROZEN, joints=(joint.joint,), free_share=share))
+            repairs.append(record_change(kind, name, joint.upper, end, joint.unit))
+        elif name in evidence.spare.joints:
+            frozen.add(name)
+            repairs.append(Repair(RepairKind.JOINT_FROZEN, joints=(name,), free_share=share))
         else:
             return None
 
