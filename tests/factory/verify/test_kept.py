@@ -5,7 +5,15 @@ from dataclasses import replace
 from test_mend import cabinet
 
 from asset_factory.factory.articulation import JointKind
-from asset_factory.factory.verify.kept import kept_of
+from asset_factory.factory.verify.kept import KEPT, with_kept
+from asset_factory.factory.verify.validate import Verdict
+from asset_factory.sim_checks import Report
+
+
+def kept_of(reading, made, measured):
+    """What the report tells of an asset, measured so."""
+    verdict = Verdict(Report("asset.urdf", measurements={"asset.urdf": measured}))
+    return with_kept(verdict, reading, made).report.measurements[KEPT]
 
 
 def test_ranges_and_coverage_are_shares_of_what_was_read():
