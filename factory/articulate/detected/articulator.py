@@ -47,7 +47,7 @@ LEAST_CHANCE = 0.05
 #: of the held-out parts none of these is wrong for want of being seen.
 BELIEVED = 0.85
 #: Kinds of object of which the detector learned too little to fix anything.
-STRANGE = frozenset({"gadget", "window", "box", "door"})
+STRANGE = frozenset({"gadget", "window", "box"})
 #: Kinds of object whose rows of knobs are turned; on others, such as cabinets, they are pulled.
 KNOBBED = frozenset({"oven", "microwave", "dishwasher", "washer"})
 #: The line that a lid turns about is this far from its middle to its side.
