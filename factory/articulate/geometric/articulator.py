@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ...articulation import Articulation
+from ...articulation import Articulation, rotation_about
 from ...config import BuildConfig
 from ...geometry.components import connected_components
+from ...geometry.posing import UP as UPWARD
 from ...intake.intake import Intake
 from ...mesh import IntArray, Mesh
 from ...part import PartKind
@@ -79,11 +80,7 @@ def _level_scene(mesh: Mesh, labels: IntArray) -> Scene:
     triangles = mesh.vertices[mesh.faces]
     yaw = level_yaw(triangles)
     scene = Scene(triangles, labels, np.eye(3))
-    if yaw == 0.0:
-        return scene
-    c = np.cos(-yaw)
-    s = np.sin(-yaw)
-    return scene.turned(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
+    return scene if yaw == 0.0 else scene.turned(rotation_about(UPWARD, -yaw))
 
 
 def _best_view(scene: Scene) -> tuple[Mover, ...]:

@@ -129,7 +129,10 @@ class SeenPieces:
         outlines = self.seen_from(side)
         boxes = outlines.ends[..., :2].swapaxes(0, 1)
         off = (np.abs(boxes - corners) / reach).max(axis=(1, 2))
-        off = np.where(outlines.shown(*corners) >= OWN, off, np.inf)
+        # What ends where all of the mesh does is its body, or found by that outline.
+        whole = np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+        part = np.abs(boxes - whole).max(axis=(1, 2)) > outlines.view.raster.pixel
+        off = np.where(part & (outlines.shown(*corners) >= OWN), off, np.inf)
         best = int(off.argmin())
         return np.asarray(boxes[best]) if off[best] <= 1.0 else None
 

@@ -51,6 +51,16 @@ def test_a_door_is_hinged_where_it_is_said():
         assert box_of(made, 1)[0][2] == pytest.approx(1.1, abs=FINE)
 
 
+def test_a_door_leaves_its_narrow_frame_though_the_mesh_has_a_crumb():
+    groove = block([0.05, -0.01, -1.0], [0.95, 0.02, 1.95]) - block([0.07, -1, -2], [0.93, 1, 1.93])
+    crumb = block([0.8, -0.03, 1.0], [0.82, -0.01, 1.02])
+    mesh = mesh_of(block([0.0, 0.0, 0.0], [1.0, 0.1, 2.0]) - groove + crumb, 0.05)
+    part = {"kind": "door", "side": "front", "box": [0.055, 0, 0.945, 0.97], "hinge": "left"}
+    low, high = box_of(articulated(mesh, part)[0], 1)
+    assert low[0] == pytest.approx(0.05, abs=1.5 * FINE)
+    assert high[[0, 2]] == pytest.approx([0.95, 1.95], abs=1.5 * FINE)
+
+
 @pytest.mark.parametrize(("depth", "whole"), [(0.06, True), (0.5, False)])
 def test_a_door_that_nothing_lies_behind_moves_whole(depth, whole):
     frame = block((0.0, 0.0, 0.0), (1.0, depth, 2.0))
