@@ -85,3 +85,12 @@ def test_meshes_beside_the_folder_of_a_description_belong_to_it(tmp_path, before
     (main := path.with_name("main.urdf.xacro")).write_text("<robot/>")
     alone = [tmp_path / "alone" / f"{name}.obj" for name in ("drawer", "shell")]
     assert find_inputs([tmp_path]) == (*alone, path, main)
+
+
+def test_the_root_of_an_xml_file_is_looked_for_at_its_beginning_only(tmp_path):
+    mesh = _touch(tmp_path / "cube.glb")
+    late = _touch(tmp_path / "a.xml", f"<!--{'x' * 3_000_000}--><mujoco/>")
+    assert find_inputs([tmp_path]) == (mesh,)
+    # It names no mesh, so the one beside it is an input too.
+    late.write_text(f"<!--{'x' * 3000}--><mujoco>")
+    assert find_inputs([tmp_path]) == (late, mesh)
