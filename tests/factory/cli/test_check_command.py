@@ -14,8 +14,14 @@ from asset_factory.sim_checks import Disagreement, Report
 from asset_factory.sim_checks.judge import Judge
 
 
+@pytest.fixture
+def bad(tmp_path):
+    """A drawer that lies 4 mm deep in its shell."""
+    return write_drawer(tmp_path / "asset.urdf", -0.004)
+
+
 def test_a_folder_is_judged_file_by_file_with_its_path_as_the_name(tmp_path, capsys):
-    write_drawer(tmp_path / "good" / "asset.urdf", 0.004)
+    good = write_drawer(tmp_path / "good" / "asset.urdf", 0.004)
     write_drawer(tmp_path / "bad" / "asset.urdf", -0.004)
     (tmp_path / "notes.xml").write_text("<notes/>")
     assert run(["check", str(tmp_path), "--sim", "", "--json", str(tmp_path / "report.json")]) == 0
@@ -26,15 +32,11 @@ def test_a_folder_is_judged_file_by_file_with_its_path_as_the_name(tmp_path, cap
     heads = [line.split(" (")[0] for line in lines[:-1] if not line.startswith(" ")]
     assert heads == ["rejected bad/asset.urdf", "passed good/asset.urdf"]
     assert lines[-1].startswith("2 files: 1 passed, 1 rejected, 0 could not be validated; 1 error")
-
-
-def test_one_file_gives_one_report_and_no_other_output(tmp_path, capsys):
-    path = write_drawer(tmp_path / "asset.urdf", 0.004)
-    assert run(["check", str(path), "--sim", "", "--json", "-"]) == 0
+    # Of one file there is one report, and no other output.
+    assert run(["check", str(good), "--sim", "", "--json", "-"]) == 0
     report = json.loads(capsys.readouterr().out)
-    assert report["description"] == "asset.urdf"
-    assert report["passed"] is True
-    assert report["disagreements"] == []
+    told = (report["description"], report["passed"], report["disagreements"])
+    assert told == ("asset.urdf", True, [])
 
 
 def test_reports_are_printed_as_they_come(tmp_path, monkeypatch):
@@ -134,27 +136,25 @@ def test_a_format_that_no_engine_reads_is_judged_by_the_file_beside_it_that_says
     assert ("z.urdf, which has the same joints" in out) is (code == 0)
 
 
-def test_findings_are_told_once_by_code_with_the_worst_first(tmp_path, capsys):
-    path = write_drawer(tmp_path / "asset.urdf", -0.004)
-    text = path.read_text()
+def test_findings_are_told_once_by_code_with_the_worst_first(bad, capsys):
+    text = bad.read_text()
     first, second = (text.replace('axis xyz="1 0 0"', f'axis xyz="{n} 0 0"') for n in (2, 5))
     tray = second[second.index('<link name="drawer"') : second.index("</robot>")]
     tray = tray.replace("drawer", "tray").replace("slide", "other").replace("0.196", "0.5")
-    path.write_text(first.replace("</robot>", f"{tray}</robot>"))
-    assert run(["check", str(tmp_path), "--sim", ""]) == 0
+    bad.write_text(first.replace("</robot>", f"{tray}</robot>"))
+    assert run(["check", str(bad), "--sim", ""]) == 0
     lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
     axes = [line for line in lines if "axis_not_unit" in line]
     assert len(axes) == 1
     assert axes[0].startswith("error axis_not_unit (2 of them, the worst): joint 'other'")
     severities = [line.split()[0] for line in lines if line.split()[0] in ("error", "warning")]
     assert severities == sorted(severities)
-    assert run(["check", str(tmp_path), "--sim", "", "--verbose"]) == 0
+    assert run(["check", str(bad), "--sim", "", "--verbose"]) == 0
     assert capsys.readouterr().out.count("error axis_not_unit: ") == 2
 
 
-def test_what_the_urdf_was_told_for_is_not_told_again_of_the_mjcf(tmp_path, capsys):
-    urdf = write_drawer(tmp_path / "asset.urdf", -0.004)
-    path = mjcf_beside(urdf, 0.3)
+def test_what_the_urdf_was_told_for_is_not_told_again_of_the_mjcf(bad, tmp_path, capsys):
+    path = mjcf_beside(bad, 0.3)
     path.write_text(path.read_text().replace("0.204", "0.196"))
     assert run(["check", str(tmp_path), "--sim", ""]) == 0
     out = capsys.readouterr().out
@@ -163,16 +163,15 @@ def test_what_the_urdf_was_told_for_is_not_told_again_of_the_mjcf(tmp_path, caps
     assert "2 files: 0 passed, 2 rejected, 0 could not be validated; 1 error" in out
 
 
-def test_only_what_the_baseline_does_not_know_fails(tmp_path, capsys):
-    path = write_drawer(tmp_path / "asset.urdf", -0.004)
+def test_only_what_the_baseline_does_not_know_fails(bad, tmp_path, capsys):
     known = str(tmp_path / "known.json")
-    check = ["check", str(path), "--sim", "", "--strict"]
+    check = ["check", str(bad), "--sim", "", "--strict"]
     assert run(check) == 1
     assert run([*check, "--write-baseline", known]) == 0
     capsys.readouterr()
     assert run([*check, "--baseline", known]) == 0
     assert "rest_penetration" not in capsys.readouterr().out
-    path.write_text(path.read_text().replace('axis xyz="1 0 0"', 'axis xyz="2 0 0"'))
+    bad.write_text(bad.read_text().replace('axis xyz="1 0 0"', 'axis xyz="2 0 0"'))
     assert run([*check, "--baseline", known]) == 1
     assert re.findall(r"error (\w+)", capsys.readouterr().out) == ["axis_not_unit"]
     Path(known).write_text('{"version": 7}')

@@ -1,6 +1,7 @@
 """``factory edit`` finds the mesh of what it is given, or says what is missing."""
 
 import json
+from pathlib import Path
 
 import pytest
 from shown_registry import make_registry
@@ -40,3 +41,4 @@ def test_a_build_is_given_what_was_typed():
     _, edit = parse(["edit", "chest.glb", *typed, "--vlm-url", "http://here/v1"])
     _, build = parse(["build", "--input", "x", "--output", "y", *_said(edit.loading)])
     assert build.loading == edit.loading
+    assert edit.loading.roots.root == (Path("a"), Path("b"))

@@ -62,24 +62,6 @@ def test_conditions_choose(where, ids, root, run):
     assert [row["id"] for row in json.loads(out)] == ids
 
 
-@pytest.mark.parametrize(
-    ("where", "told"),
-    [
-        ("status = good", "status is 'good'; there are passed, rejected, unjudged"),
-        ("catgory = fridge", "no column 'catgory'; did you mean 'category'?"),
-        ("category = fridge or joints > 1", "cannot read 'category = fridge or joints > 1'"),
-        ("category = fridge and", "cannot read 'and'"),
-        ("joints > many", "joints must be a whole number, not 'many'"),
-        ("category > fridge", "is no number"),
-        ("category = a and category = b", "is there twice"),
-        ("status = passed; drop table assets", "cannot read"),
-    ],
-)
-def test_conditions_that_cannot_be_say_what_can(where, told, root, capsys):
-    assert factory(["list", "--output", str(root), "--where", where]) == 2
-    assert told in capsys.readouterr().err
-
-
 def test_a_value_that_no_asset_has_is_told(root, capsys):
     assert factory(["list", "--output", str(root), "--where", "category = frige"]) == 0
     printed = capsys.readouterr()
