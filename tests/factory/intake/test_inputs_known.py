@@ -27,7 +27,7 @@ from asset_factory.factory.report.nightly.night import attempt_of
 from asset_factory.factory.runtime.store import digest_file
 from asset_factory.sim_checks.judge import Judge
 
-CONFIG = BuildConfig(articulator="geometric", simulators=())
+CONFIG = BuildConfig(simulators=())
 
 
 def loaded(path):
@@ -288,12 +288,13 @@ def test_a_reader_that_was_stopped_gives_no_verdict(error, code, tmp_path, monke
     def stopped(*arguments):
         raise error(f"{path.name}: no answer within 60 s")
 
+    config = replace(CONFIG, articulator="geometric")
     monkeypatch.setattr(source_module, "load", stopped)
-    result = build_asset(path, tmp_path / "out", CONFIG)
+    result = build_asset(path, tmp_path / "out", config)
     assert (result.entry.status, result.entry.reason) == ("unjudged", code)
     assert "no answer within 60 s" in result.entry.message
     monkeypatch.undo()
-    assert build_asset(path, tmp_path / "out", CONFIG).entry.status == "rejected"
+    assert build_asset(path, tmp_path / "out", config).entry.status == "rejected"
 
 
 def test_a_name_that_is_no_utf8_is_an_input_like_any_other(tmp_path):
