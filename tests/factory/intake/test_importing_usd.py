@@ -18,30 +18,20 @@ CONFIG = BuildConfig(articulator="annotated")
 ROOM = 10_000_000
 
 
-@pytest.fixture
-def cabinet(tmp_path):
-    """One that is written in centimetres, y up."""
-    return write(tmp_path, stage(CABINET, 'metersPerUnit = 0.01\nupAxis = "Y"'))
-
-
-def test_its_parts_and_joints_come_with_it_in_metres_and_z_up(cabinet):
-    intake = load(cabinet, CONFIG.intake)
-    assert intake.provenance.scale == pytest.approx(0.01)
-    made = articulator_for(intake, CONFIG).articulate(intake.mesh)
-    assert [part.name for part in made.parts] == ["base", "door"]
-    (hinge,) = made.movable_joints
-    np.testing.assert_allclose([hinge.lower, hinge.upper], [0.0, np.pi / 2.0], atol=1e-6)
-
-
-def test_a_sidecar_counts_for_it_as_for_any_input(cabinet):
+def test_its_parts_joints_and_sidecar_come_with_it_in_metres_and_z_up(tmp_path):
+    path = write(tmp_path, stage(CABINET, 'metersPerUnit = 0.01\nupAxis = "Y"'))
+    assert load(path, CONFIG.intake).provenance.scale == pytest.approx(0.01)
     stated = 'category = "fridge"\nheight = 1.24\nlicense = "MIT"\ndensity = 300.0\n'
-    cabinet.with_suffix(".toml").write_text(stated)
-    intake = load(cabinet, CONFIG.intake)
+    path.with_suffix(".toml").write_text(stated)
+    intake = load(path, CONFIG.intake)
     told = intake.provenance
     assert (told.category, told.license, told.density) == ("fridge", "MIT", 300.0)
     assert (told.scale_source, told.scale) == ("sidecar", pytest.approx(2.0))
     assert intake.mesh.extents[2] == pytest.approx(1.24)
-    (hinge,) = articulator_for(intake, CONFIG).articulate(intake.mesh).movable_joints
+    made = articulator_for(intake, CONFIG).articulate(intake.mesh)
+    assert [part.name for part in made.parts] == ["base", "door"]
+    (hinge,) = made.movable_joints
+    np.testing.assert_allclose([hinge.lower, hinge.upper], [0.0, np.pi / 2.0], atol=1e-6)
     np.testing.assert_allclose(np.abs(hinge.axis), [0.0, 1.0, 0.0], atol=1e-6)
     np.testing.assert_allclose(hinge.origin[[0, 2]], [-1.0, -0.62], atol=1e-6)
 

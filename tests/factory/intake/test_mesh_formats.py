@@ -278,13 +278,3 @@ def test_collada_applies_its_unit_and_nodes(tmp_path):
     (tmp_path / "t.dae").write_text(lifted)
     bounds = _load(tmp_path / "t.dae").mesh.bounds
     np.testing.assert_allclose(bounds, [[0.0, 0.0, 0.03], [0.01, 0.01, 0.03]], rtol=1e-6)
-
-
-def test_same_file_gives_the_same_intake(tmp_path):
-    path = write_obj(tmp_path)
-    first = load_mesh(path, LIMITS)
-    second = load_mesh(path, LIMITS)
-    assert first.provenance == second.provenance
-    for name in ("vertices", "faces", "corner_uv", "corner_normals", "face_material"):
-        assert getattr(first.mesh, name).tobytes() == getattr(second.mesh, name).tobytes()
-    assert first.mesh.materials == second.mesh.materials
