@@ -3,12 +3,15 @@
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from asset_factory import __version__
 from asset_factory.factory.cli import flags as flags_module
 from asset_factory.factory.cli import run
+from asset_factory.factory.cli.commands import parse
+from asset_factory.factory.cli.edit import _said
 from asset_factory.factory.report import machine
 from asset_factory.factory.report.machine import Ability, Health, Library, abilities
 from asset_factory.learn.commands.evaluation_printing import COLUMNS, _fitting
@@ -25,6 +28,14 @@ def test_a_reader_that_has_seen_enough_gets_no_traceback():
         process.stdout.close()
         assert process.stderr.read() == b""
         assert process.wait() == 141
+
+
+def test_a_build_is_given_what_was_typed():
+    typed = ["--root", "a", "--root", "b", "--allow-outside", "--height", "0.5", "--up=-x"]
+    _, edit = parse(["edit", "chest.glb", *typed, "--vlm-url", "http://here/v1"])
+    _, build = parse(["build", "--input", "x", "--output", "y", *_said(edit.loading)])
+    assert build.loading == edit.loading
+    assert edit.loading.roots.root == (Path("a"), Path("b"))
 
 
 def test_the_help_is_short_and_begins_with_the_first_hour(capsys):
