@@ -2,28 +2,24 @@
 
 import io
 import time
+from dataclasses import replace
 from pathlib import Path
+
+from registry_samples import REJECTED, named
 
 from asset_factory.factory.cli import console
 from asset_factory.factory.jobs.executor import UnderWay
-from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.result import Result
 from asset_factory.factory.report.summary import Summary
-from asset_factory.sim_checks import Status
 
 
 def results(known, built):
     """So many that were known, then so many that were built, the last of them rejected."""
-    old = [Result(f"{number}.glb", entry(f"old-{number}"), attempts=0) for number in range(known)]
-    new = [Result(f"new_{number}.glb", entry(f"new-{number}")) for number in range(built)]
+    old = [Result(f"{number}.glb", named(f"old-{number}"), attempts=0) for number in range(known)]
+    new = [Result(f"new_{number}.glb", named(f"new-{number}")) for number in range(built)]
     if new:
-        bad = entry("bad", status=Status.REJECTED, reason="rest_penetration", message="5 mm deep")
-        new[-1] = Result("bad.glb", bad)
+        new[-1] = Result("bad.glb", replace(REJECTED, id="bad"))
     return old + new
-
-
-def entry(asset_id, status=Status.PASSED, **said):
-    return Entry(asset_id, "thing", "", status, said.pop("reason", ""), 1, 1, 1, **said)
 
 
 def test_what_was_known_is_counted_in_a_line(capsys):
@@ -97,7 +93,7 @@ def test_an_edit_is_offered_of_meshes_that_were_read(tmp_path, capsys):
         console.print_results(Summary(tuple(rejected)), tmp_path)
         return capsys.readouterr().out
 
-    bad = {name: entry(name, status=Status.REJECTED, reason="empty") for name in ("a", "b", "c")}
+    bad = {name: replace(REJECTED, id=name) for name in ("a", "b", "c")}
     rejected = [Result("a.glb", bad["a"]), Result("b.urdf", bad["b"])]
     for name in ("b", "c"):
         (tmp_path / "rejected" / name).mkdir(parents=True)

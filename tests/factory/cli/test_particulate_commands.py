@@ -33,8 +33,13 @@ def told_of(source, checkpoint=None, **settings):
     return predict(source, replace(BuildConfig(), particulate=particulate))
 
 
-def test_the_articulation_alone(checkpoint):
-    told = told_of(FRIDGE, checkpoint, points=1500, context_points=200)
+@pytest.fixture(scope="module")
+def told(checkpoint):
+    """What it says of the fridge."""
+    return told_of(FRIDGE, checkpoint, points=1500)
+
+
+def test_the_articulation_alone(told, checkpoint):
     assert told["articulator"] == "particulate"
     assert sum(part["faces"] for part in told["parts"]) == 384
     assert len(told["parts"]) == 3
@@ -97,10 +102,10 @@ def test_without_torch_auto_is_refused_before_anything_is_made(monkeypatch, tmp_
     assert (told["articulator"], told["weights"]) == ("geometric", [])
 
 
-def test_predict_prints_what_it_was_told(capsys, checkpoint):
+def test_predict_prints_what_it_was_told(capsys, told, checkpoint):
     arguments = ["predict", str(FRIDGE), "--checkpoint", str(checkpoint), "--points", "1500"]
     assert run([*arguments, "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == told_of(FRIDGE, checkpoint, points=1500)
+    assert json.loads(capsys.readouterr().out) == told
 
 
 def test_predict_refuses_more_faces_than_the_limit_with_both_numbers(capsys, tmp_path):

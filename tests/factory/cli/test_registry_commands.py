@@ -37,10 +37,7 @@ def run(capsys):
     return ask
 
 
-def test_listing(root, run):
-    code, out = run("list", "--output", root, "--json")
-    ids = [row["id"] for row in json.loads(out)]
-    assert (code, ids) == (0, ["cabinet-1", "chest-1", "fridge-1"])
+def test_a_list_goes_on_after_its_limit(root, run):
     _, out = run("list", "--output", root, "--limit", 1)
     assert "the first 1; --after cabinet-1 goes on" in out
     _, out = run("list", "--output", root, "--limit", 2, "--after", "cabinet-1")
@@ -50,6 +47,7 @@ def test_listing(root, run):
 @pytest.mark.parametrize(
     ("where", "ids"),
     [
+        ("", ["cabinet-1", "chest-1", "fridge-1"]),
         ('category != "fridge" and parts >= 1', ["cabinet-1", "chest-1"]),
         ("status != passed", ["chest-1"]),
         ("status = passed and category=fridge", ["fridge-1"]),
@@ -58,26 +56,8 @@ def test_listing(root, run):
     ],
 )
 def test_conditions_choose(where, ids, root, run):
-    _, out = run("list", "--output", root, "--where", where, "--json")
-    assert [row["id"] for row in json.loads(out)] == ids
-
-
-@pytest.mark.parametrize(
-    ("where", "told"),
-    [
-        ("status = good", "status is 'good'; there are passed, rejected, unjudged"),
-        ("catgory = fridge", "no column 'catgory'; did you mean 'category'?"),
-        ("category = fridge or joints > 1", "cannot read 'category = fridge or joints > 1'"),
-        ("category = fridge and", "cannot read 'and'"),
-        ("joints > many", "joints must be a whole number, not 'many'"),
-        ("category > fridge", "is no number"),
-        ("category = a and category = b", "is there twice"),
-        ("status = passed; drop table assets", "cannot read"),
-    ],
-)
-def test_conditions_that_cannot_be_say_what_can(where, told, root, capsys):
-    assert factory(["list", "--output", str(root), "--where", where]) == 2
-    assert told in capsys.readouterr().err
+    code, out = run("list", "--output", root, "--json", *(["--where", where] if where else []))
+    assert (code, [row["id"] for row in json.loads(out)]) == (0, ids)
 
 
 def test_a_value_that_no_asset_has_is_told(root, capsys):

@@ -85,26 +85,19 @@ def test_a_target_that_cannot_be_written_is_refused(released, tmp_path, target):
         convert(released, tmp_path / target)
 
 
-@pytest.mark.parametrize(
-    ("address", "told"),
-    [
-        *(
-            (f"hf:{name}", PARTICULATE.source)
-            for name in ("model.pt", "own/model.pt", "", "own//m")
-        ),
-        # A branch or half a digest is no pin.
-        *(
-            (f"hf:a/b/file.pt{pin}", "40 hexadecimal digits")
-            for pin in ("@main", "@v1.0", "#abc", "@", f"#{'0' * 64}@{'0' * 40}")
-        ),
-    ],
-)
-def test_a_malformed_address_shows_a_good_one(address, told):
-    with pytest.raises(ConfigError, match=told):
-        fetch(address)
-
-
 COMMIT = "0123456789abcdef" * 2 + "01234567"
+
+
+@pytest.mark.parametrize("name", ["model.pt", "own/model.pt", "", "own//m"])
+def test_a_malformed_address_shows_a_good_one(name):
+    with pytest.raises(ConfigError, match=PARTICULATE.source):
+        fetch(f"hf:{name}")
+
+
+@pytest.mark.parametrize("pin", ["@main", "@v1.0", "#abc", "@", f"#{'0' * 64}@{COMMIT}"])
+def test_a_branch_or_half_a_digest_is_no_pin(pin):
+    with pytest.raises(ConfigError, match="40 hexadecimal digits"):
+        fetch(f"hf:a/b/file.pt{pin}")
 
 
 class DownloadError(OSError):

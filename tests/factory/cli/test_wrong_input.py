@@ -38,11 +38,17 @@ TABLE = {
     "build --input text.txt --output new --max-hours -1": "time must be 0 or more, not -1 h",
     "build --input text.txt --output new --max-hours nan": "time must be 0 or more, not nan h",
     "build --input text.txt --output new --since lately": "--since must be seconds ago, a date",
+    "build --input text.txt --input text.txt --output new": "--input is there twice",
+    "buidl --output new": "did you mean 'build'?",
+    "zzz --output new": "there are build, check",
     "check": "no URDF, MJCF or USD file given",
     "check text.txt --workers 0": "--workers must be at least 1, not 0",
     "check nowhere": "nowhere: no such file; want a URDF, MJCF or USD file",
     "check folder": "no URDF, MJCF or USD file in folder",
     "check text.txt --json folder": "folder: cannot be written; want a file in a folder",
+    "check text.txt --format yaml": "--format must be one of text, json, sarif, junit, markdown",
+    "check text.txt --format json,sarif": "or FORMAT=FILE, not 'json,sarif'",
+    "check text.txt --format text=a.txt": "or FORMAT=FILE, not 'text=a.txt'",
     "check text.txt --format junit=nowhere/x.xml": "nowhere/x.xml: cannot be written; want",
     "check text.txt --write-baseline nowhere/x.json": "nowhere/x.json: cannot be written",
     "check text.txt --srdf nowhere.srdf": "--srdf: nowhere.srdf is no file",
@@ -61,6 +67,14 @@ TABLE = {
     "list --output nowhere": NO_REGISTRY,
     "list --output out --limit -1": "--limit must be at least 0, not -1",
     "list --output out --where colour=red": "no column 'colour'; there are status",
+    "list --output out --where 'status = good'": "status is 'good'; there are passed, rejected,",
+    "list --output out --where 'catgory = fridge'": "no column 'catgory'; did you mean 'category'?",
+    "list --output out --where 'parts = 1 or joints > 1'": "cannot read 'parts = 1 or joints > 1'",
+    "list --output out --where 'category = fridge and'": "cannot read 'and'",
+    "list --output out --where 'joints > many'": "joints must be a whole number, not 'many'",
+    "list --output out --where 'category > fridge'": "is no number",
+    "list --output out --where 'category = a and category = b'": "is there twice",
+    "list --output out --where 'status = passed; drop table assets'": "cannot read",
     "show nobody --output out": NO_ASSET,
     "solve nobody --output out": NO_ASSET,
     "solve --output out --joint nobody": "no joint 'nobody' in out; there are 'hinge', 'slide'",
@@ -116,7 +130,7 @@ def place(tmp_path_factory):
 
 
 def test_the_table_has_every_command():
-    assert {typed.split()[0] for typed in TABLE} == {command.name for command in COMMANDS}
+    assert {typed.split()[0] for typed in TABLE} >= {command.name for command in COMMANDS}
 
 
 @pytest.mark.parametrize("typed", TABLE)

@@ -36,11 +36,9 @@ def test_links_are_where_the_articulation_puts_them(scene):
 def test_a_glb_says_the_whole_scene(scene):
     again = scene_from(glb_of(scene))
     assert (again.name, again.links) == (scene.name, scene.links)
-    assert len(again.visuals) == len(scene.visuals) == 3
-    assert len(again.hulls) == len(scene.hulls) == 4
-    for before, after in zip(
-        (*scene.visuals, *scene.hulls), (*again.visuals, *again.hulls), strict=True
-    ):
+    assert (len(scene.visuals), len(scene.hulls), len(again.hulls)) == (3, 4, 4)
+    surfaces = [(*each.visuals, *each.hulls) for each in (scene, again)]
+    for before, after in zip(*surfaces, strict=True):
         for field in fields(before):
             one, other = getattr(before, field.name), getattr(after, field.name)
             if isinstance(one, np.ndarray):

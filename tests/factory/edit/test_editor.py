@@ -1,17 +1,25 @@
-"""The editor answers its own page alone, reads strictly, and writes nothing but the sidecar."""
+"""The editor finds a mesh and its parts, answers its own page alone, and writes a sidecar alone."""
 
 import http.client
 import json
+from pathlib import Path
 
 import pytest
 from edited_mesh import write_oven
+from msgspec import to_builtins
+from one_piece import doors, drawers, fridge
+from shown_registry import make_registry
 from waiting import running
 
+from asset_factory.factory.articulate.stated import StatedArticulator
 from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.display.made import scene_of_articulation
 from asset_factory.factory.edit.builds import Builds
 from asset_factory.factory.edit.editor import editing
-from asset_factory.factory.edit.subject import Subject
-from asset_factory.factory.intake.stated import MOST_BYTES
+from asset_factory.factory.edit.found import found_parts
+from asset_factory.factory.edit.subject import Subject, subject_of
+from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.intake.stated import MOST_BYTES, stated_from
 from asset_factory.factory.report.site.server import HOST
 
 DOOR = {"kind": "flap", "side": "front", "box": [0.0, 0.0, 1.0, 0.82], "hinge": "bottom"}
@@ -163,3 +171,51 @@ def test_a_statement_in_toml_is_kept_and_outranked(tmp_path):
     assert (subject.existing.name, subject.sidecar.name) == ("oven.parts.toml", "oven.parts.json")
     (tmp_path / "oven.glb.parts.json").touch()
     assert subject.sidecar.name == "oven.glb.parts.json"
+
+
+def test_the_input_of_an_asset_is_found_by_the_log(tmp_path):
+    registry = make_registry(tmp_path / "out")
+    (tmp_path / "chest.glb").touch()
+    lines = [{"id": "hitting-2", "input": name} for name in ("old.glb", "chest.glb")]
+    log = registry.root / "logs" / "builds.jsonl"
+    log.parent.mkdir()
+    log.write_text("\n".join(["hitting-2 {", '["hitting-2"]', *map(json.dumps, lines)]))
+    folder = registry.rejected / "hitting-2"
+    for given, output in ((folder, None), (folder.name, registry.root)):
+        found = subject_of(Path(given), output, tmp_path / "usual")
+        assert found.mesh.resolve() == (tmp_path / "chest.glb").resolve()
+        assert (found.output.resolve(), found.asset) == (registry.root.resolve(), folder)
+    (tmp_path / "chest.glb").unlink()
+    with pytest.raises(ConfigError, match=r"chest\.glb: hitting-2 was made of it"):
+        subject_of(folder, None, tmp_path)
+    log.unlink()
+    with pytest.raises(RegistryError, match="its log does not say"):
+        subject_of(folder, None, tmp_path)
+
+
+DRAWER = {"kind": "drawer", "side": "front", "box": [0.05, 0.38, 0.95, 0.67]}
+HATCH = {"kind": "flap", "side": "right", "box": [0.1, 0.1, 0.9, 0.5], "hinge": "top"}
+COFFER = {"kind": "lid", "side": "top", "box": [0.1, 0.2, 0.4, 0.8], "hinge": "back"}
+LID = {"kind": "lid", "side": "front", "box": [0.0, 0.67, 1.0, 1.0], "hinge": "back"}
+LEAF = {"kind": "door", "side": "front", "box": [0.03, 0.04, 0.5, 0.96], "hinge": "left"}
+PULL = {"kind": "knob", "side": "front", "box": [0.42, 0.44, 0.47, 0.71], "parent": "west"}
+
+
+@pytest.mark.parametrize(
+    ("mesh", "parts"),
+    [
+        (drawers(), [DRAWER]),
+        (drawers(), [HATCH]),
+        (doors(), [COFFER]),
+        (fridge(), [LID]),
+        (doors(), [{**LEAF, "name": "west"}, PULL]),
+    ],
+)
+def test_what_was_stated_is_found_in_what_it_became(mesh, parts):
+    made = StatedArticulator(stated_from({"parts": parts})).articulate(mesh)
+    kinds = {part.name: part.kind for part in made.parts}
+    found = to_builtins(found_parts(mesh, scene_of_articulation("it", made), kinds))["parts"]
+    for part, again in zip(parts, found, strict=True):
+        # Handles belong to their panels, and reach beyond their outlines.
+        assert again.pop("box") == pytest.approx(part["box"], abs=0.05)
+        assert again == {name: value for name, value in part.items() if name != "box"}

@@ -36,28 +36,21 @@ def said(request, tmp_path_factory):
     """What a file of the exported asset says."""
     pytest.importorskip("mujoco", reason="mujoco is not installed")
     bundle = export_bundle(lopsided_asset(), PROVENANCE, tmp_path_factory.mktemp("bundle"))
-    path = getattr(bundle, request.param)
-    return read_here(path)
+    return read_here(getattr(bundle, request.param))
 
 
-def test_every_link_has_the_mass_the_center_and_the_whole_tensor(said):
+def test_every_link_has_its_mass_its_center_the_whole_tensor_and_its_hull(said):
     asset = lopsided_asset()
     links = {link.name: link for link in said.links}
     for part, body in enumerate(asset.bodies):
+        frame = asset.articulation.link_frame(part)
         inertia = links[f"part_{part}"].inertia
-        center = body.inertial.center - asset.articulation.link_frame(part)
         assert inertia.mass == pytest.approx(body.inertial.mass)
-        assert inertia.center == pytest.approx(center)
+        assert inertia.center == pytest.approx(body.inertial.center - frame)
         assert inertia.tensor == pytest.approx(body.inertial.tensor, abs=1e-7)
-
-
-def test_every_link_s_hulls_lie_where_the_asset_has_them(said):
-    asset = lopsided_asset()
-    links = {link.name: link for link in said.links}
-    for part, body in enumerate(asset.bodies):
         (shape,) = links[f"part_{part}"].collisions
         (hull,) = body.hulls
-        there = shape.vertices + asset.articulation.link_frame(part)
+        there = shape.vertices + frame
         assert there.min(axis=0) == pytest.approx(hull.vertices.min(axis=0), abs=1e-6)
         assert there.max(axis=0) == pytest.approx(hull.vertices.max(axis=0), abs=1e-6)
 

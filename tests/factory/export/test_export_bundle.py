@@ -17,16 +17,19 @@ from asset_factory.factory.mesh import Material
 from asset_factory.factory.part import PartKind, PartSource, Proposer
 from asset_factory.factory.runtime.store import folder_digests
 
+#: A picture for each part, of one colour each.
+PICTURES = [image(color) for color in ((255, 0, 0), (0, 255, 0), (0, 0, 255))]
+
 
 def textured_cabinet():
-    colors = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
-    return cabinet([Material("wood", texture=image(color)) for color in colors])
+    return cabinet([Material("wood", texture=picture) for picture in PICTURES])
 
 
 def test_exporting_again_leaves_nothing_of_the_bundle_before(tmp_path):
+    plain = boxes_asset([box([0, 0, 0], [1, 1, 1])], ())
     export_bundle(textured_cabinet(), PROVENANCE, tmp_path / "bundle")
-    export_bundle(boxes_asset([box([0, 0, 0], [1, 1, 1])], ()), PROVENANCE, tmp_path / "bundle")
-    export_bundle(boxes_asset([box([0, 0, 0], [1, 1, 1])], ()), PROVENANCE, tmp_path / "fresh")
+    export_bundle(plain, PROVENANCE, tmp_path / "bundle")
+    export_bundle(plain, PROVENANCE, tmp_path / "fresh")
     assert folder_digests(tmp_path / "bundle") == folder_digests(tmp_path / "fresh")
 
 
@@ -44,7 +47,7 @@ def test_the_urdf_names_what_is_in_the_folder_asks_for_no_renderer_and_each_part
         library = (tmp_path / f"meshes/visual/part_{part}_0.mtl").read_text()
         name = next(line.split()[1] for line in library.splitlines() if line.startswith("map_Kd"))
         pictures.append((tmp_path / "meshes/visual" / name).read_bytes())
-    assert pictures == [image(c).data for c in ((255, 0, 0), (0, 255, 0), (0, 0, 255))]
+    assert pictures == [picture.data for picture in PICTURES]
 
 
 def test_a_part_of_two_materials_is_written_as_two_visuals(tmp_path):

@@ -16,62 +16,66 @@ def one_joint(joint, child_center=(0.0, 0.0, 2.0)):
     return boxes_asset([box([0, 0, 0], [1, 1, 1]), box(child_center, [0.4, 0.02, 0.6])], (joint,))
 
 
+def hinge(**stated):
+    return Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, **stated)
+
+
+def slide(upper=0.3, **stated):
+    return Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, upper, **stated)
+
+
+def resisted(asset):
+    """What resists the asset's only joint, and what is told of it."""
+    (resistance,) = resistances = joint_resistances(asset)
+    return resistance, "".join(resistance_notes(asset, resistances))
+
+
 def test_what_the_articulation_states_wins_and_a_fixed_joint_resists_nothing():
-    place = (0, 1, [0, 0, 1], [0, 0, 2])
-    joint = Joint("j", JointKind.REVOLUTE, *place, 0, 1, damping=0.25, friction=0.0)
-    (resistance,) = joint_resistances(one_joint(joint))
-    assert (resistance.damping, resistance.friction) == (0.25, 0.0)
-    assert joint_resistances(one_joint(Joint("j", JointKind.FIXED, *place)))[0].friction == 0.0
+    resistance, note = resisted(one_joint(hinge(damping=0.25, friction=0.0)))
+    assert (resistance.damping, resistance.friction, note) == (0.25, 0.0, "")
+    fixed = Joint("j", JointKind.FIXED, 0, 1, [0, 0, 1], [0, 0, 2])
+    assert resisted(one_joint(fixed))[0].friction == 0.0
 
 
 def test_damping_that_explicit_engines_cannot_bear_is_lowered_and_told():
-    joint = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, damping=500.0)
-    asset = one_joint(joint)
-    (resistance,) = resistances = joint_resistances(asset)
+    resistance, note = resisted(one_joint(hinge(damping=500.0)))
     # Explicit integration keeps 1 - c dt / I of the speed each step: it must neither overshoot nor
     # explode.
     assert resistance.damping / 240.0 / resistance.inertia == pytest.approx(0.5)
-    (note,) = resistance_notes(asset, resistances)
     assert "'j': damping 500" in note
-    assert resistance_notes(cabinet(), joint_resistances(cabinet())) == ()
 
 
 def test_friction_that_stops_all_that_bullet_can_turn_is_lowered_and_told():
-    hinge = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [0, 0, 2], 0, 1, friction=0.01)
-    asset = one_joint(hinge)
+    asset = one_joint(hinge(friction=0.01))
     flap = Inertial(0.005, np.array([0.0, 0.0, 2.0]), np.eye(3) * 2e-7)
     light = replace(asset, bodies=(asset.bodies[0], replace(asset.bodies[1], inertial=flap)))
-    (resistance,) = resistances = joint_resistances(light)
+    resistance, note = resisted(light)
     # In one step it takes half of the 100 rad/s that Bullet allows.
     assert resistance.friction / resistance.inertia / 240.0 == pytest.approx(50.0)
-    (note,) = resistance_notes(light, resistances)
     assert "friction 0.01" in note
 
 
 def test_friction_beyond_reason_counts_as_not_stated_and_is_told():
-    slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 0.3, friction=1e4)
-    asset = one_joint(slide)
-    (resistance,) = joint_resistances(asset)
+    resistance, note = resisted(one_joint(slide(friction=1e4)))
     assert 1.0 <= resistance.friction <= 5.0
-    (note,) = resistance_notes(asset, (resistance,))
     assert "friction 1e+04" in note
 
 
 def test_damping_never_takes_more_than_an_arm_to_open_in_three_seconds():
-    slide = Joint("j", JointKind.PRISMATIC, 0, 1, [0, 1, 0], [0, 0, 2], 0, 6.0, damping=200.0)
-    (resistance,) = joint_resistances(one_joint(slide))
+    resistance, _ = resisted(one_joint(slide(6.0, damping=200.0)))
     assert resistance.damping * 6.0 / 3.0 == pytest.approx(30.0)
 
 
 def test_a_door_needs_a_newton_or_so_at_its_rim():
-    hinge, slide = joint_resistances(cabinet())
-    assert 0.5 <= hinge.friction / 0.56 <= 3.0
-    assert 1.0 <= slide.friction <= 5.0
+    door, drawer = resistances = joint_resistances(cabinet())
+    assert 0.5 <= door.friction / 0.56 <= 3.0
+    assert 1.0 <= drawer.friction <= 5.0
+    assert resistance_notes(cabinet(), resistances) == ()
 
 
 def test_damping_is_inertia_over_half_a_second_by_the_parallel_axis_theorem():
     joint = Joint("j", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [-0.2, 0.0, 2.0], 0, 1)
-    (resistance,) = joint_resistances(one_joint(joint))
+    resistance, _ = resisted(one_joint(joint))
     inertia = 2.0 / 12.0 * (0.4**2 + 0.02**2) + 2.0 * 0.2**2
     assert resistance.damping == pytest.approx(inertia / 0.5)
     assert resistance.armature == pytest.approx(0.01 * inertia)

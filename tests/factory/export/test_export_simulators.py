@@ -5,14 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from export_samples import (
-    PROVENANCE,
-    box,
-    boxes_asset,
-    cabinet,
-    image,
-    inertial_of,
-)
+from export_samples import PROVENANCE, box, boxes_asset, cabinet, image, inertial_of
 
 from asset_factory.factory.articulation import Joint, JointKind, Part
 from asset_factory.factory.asset import Asset
@@ -23,8 +16,16 @@ from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
 LIMITS = Limits(wall_s=120.0)
 
 
-def exported(asset, folder):
-    return export_bundle(asset, PROVENANCE, folder)
+@pytest.fixture
+def in_mujoco(tmp_path):
+    """A function that has MuJoCo load what an asset is exported as."""
+    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
+
+    def load(asset):
+        path = export_bundle(asset, PROVENANCE, tmp_path).mjcf
+        return mujoco.MjModel.from_xml_path(str(path))
+
+    return load
 
 
 def pybullet_turned(path):
@@ -49,18 +50,17 @@ def test_pybullet_opens_a_flap_of_five_grams(tmp_path):
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), plate], (hinge,))
     flap = replace(asset.bodies[1], inertial=inertial_of(plate, 0.005))
     light = replace(asset, bodies=(asset.bodies[0], flap))
-    bundle = exported(light, tmp_path)
+    bundle = export_bundle(light, PROVENANCE, tmp_path)
     friction, turned = run_isolated(pybullet_turned, str(bundle.urdf), limits=LIMITS).unwrap()
     assert friction > 0.0
     assert turned > 2.4
 
 
-def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(tmp_path):
-    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
+def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(in_mujoco):
     colors = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
     textures = map(image, colors, ("PNG", "JPEG", "PNG"))
     looks = [Material("wood", texture=texture) for texture in textures]
-    model = mujoco.MjModel.from_xml_path(str(exported(cabinet(looks), tmp_path).mjcf))
+    model = in_mujoco(cabinet(looks))
     pixels = model.tex_data.reshape(3, 16, -1)[:, 0, :3].astype(int)
     assert np.abs(pixels - np.array(colors)).max() <= 2
     collides = model.geom_contype > 0
@@ -69,11 +69,11 @@ def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(tmp_path):
     assert set(model.geom_group[~collides]) == {2}
 
 
-def test_mujoco_holds_what_friction_should_hold(tmp_path):
+def test_mujoco_holds_what_friction_should_hold(in_mujoco):
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     down = Joint("press", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, -1], 0.0, 0.02)
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), box([0, 0, -1], [0.1, 0.1, 0.02])], (down,))
-    model = mujoco.MjModel.from_xml_path(str(exported(asset, tmp_path).mjcf))
+    model = in_mujoco(asset)
     model.opt.timestep = 1.0 / 240.0
     data = mujoco.MjData(model)
     data.joint("press").qpos = 0.01
@@ -83,8 +83,7 @@ def test_mujoco_holds_what_friction_should_hold(tmp_path):
     assert data.joint("press").qpos[0] - 0.01 == pytest.approx(2e-5, rel=0.1)
 
 
-def test_mujoco_takes_flat_visuals_lone_triangles_and_carriers(tmp_path):
-    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
+def test_mujoco_takes_flat_visuals_lone_triangles_and_carriers(in_mujoco, tmp_path):
     triangle = Mesh.from_triangles([[0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2]])
     solid = box([0, 0, 1], [0.2, 0.2, 0.2])
     empty = Mesh.from_triangles(np.zeros((0, 3)), np.zeros((0, 3)))
@@ -94,7 +93,6 @@ def test_mujoco_takes_flat_visuals_lone_triangles_and_carriers(tmp_path):
     asset = boxes_asset([body, empty, solid], (slide, turn))
     parts = (*asset.articulation.parts[:2], Part("flat", np.array([12])))
     flat = replace(asset.articulation, mesh=concatenate([body, triangle]), parts=parts)
-    bundle = exported(Asset("flat", flat, asset.bodies), tmp_path)
-    model = mujoco.MjModel.from_xml_path(str(bundle.mjcf))
+    model = in_mujoco(Asset("flat", flat, asset.bodies))
     assert (model.nbody, model.njnt) == (4, 2)
     assert json.loads((tmp_path / "asset.json").read_text())["links"][1]["hulls"] == 0

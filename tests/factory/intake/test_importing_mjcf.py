@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from refusing import refusal
-from test_importing_urdf import articulated, bounds_of
+from test_importing_urdf import articulated
 
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import IntakeConfig
@@ -50,7 +50,7 @@ def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path):
     np.testing.assert_allclose(joint.axis, [0.0, 1.0, 0.0], atol=1e-9)
     np.testing.assert_allclose(np.cross(joint.origin, joint.axis), 0.0, atol=1e-9)
     bounds = [[0.8, -0.1, 0.7], [1.2, 0.1, 1.3]]
-    np.testing.assert_allclose(bounds_of(result, "door"), bounds, atol=1e-9)
+    np.testing.assert_allclose(result.part_mesh(1).bounds, bounds, atol=1e-9)
     assert intake.mesh.materials[0].color == (1.0, 0.0, 0.0, 1.0)
     assert any("floats freely" in note for note in intake.provenance.notes)
 
@@ -135,12 +135,6 @@ def test_bodies_without_joints_are_judged_and_merged_with_what_holds_them(tmp_pa
     result = articulated(intake)
     assert [(part.name, len(part.faces)) for part in result.parts] == [("case", 12), ("lid", 12)]
     assert result.joints[0].name == "lid_joint"
-
-
-def test_includes_are_followed_inside_the_folder(tmp_path):
-    (tmp_path / "part.xml").write_text(f"<mujocoinclude>{SPHERE}</mujocoinclude>")
-    intake = load(tmp_path, '<worldbody><body><include file="part.xml"/></body></worldbody>')
-    assert intake.mesh.extents[0] == pytest.approx(2.0)
 
 
 SPHERE = '<geom type="sphere" size="1"/>'

@@ -1,26 +1,96 @@
-"""Which files an input is made of is found out once, and every one of them counts."""
+"""Two inputs are one only if all their files are the same; what changes meanwhile is found out."""
+
+from dataclasses import replace
+from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+import trimesh
+from fuzz_cases import MJCF, cube_files
 from mesh_cube import write_glb, write_gltf, write_obj
 from refusing import refusal
 
-from asset_factory.factory.build import build_asset
+from asset_factory.factory.articulate.stage import articulate
+from asset_factory.factory.build import build_asset, make_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.intake import reads as reads_module
 from asset_factory.factory.intake import source as source_module
+from asset_factory.factory.intake.importers import mjcf
 from asset_factory.factory.intake.reads import ReadLog
-from asset_factory.factory.intake.source import Source
+from asset_factory.factory.intake.source import Source, asset_id
 from asset_factory.factory.jobs.probe import KnownReads
+from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.keys import source_key
+from asset_factory.factory.registry.rebuild import rebuild
+from asset_factory.factory.registry.registration import register
+from asset_factory.factory.report.nightly.night import attempt_of
+from asset_factory.factory.runtime.store import digest_file
+from asset_factory.sim_checks.judge import Judge
 
-CONFIG = BuildConfig(articulator="geometric", simulators=())
+CONFIG = BuildConfig(simulators=())
 
 
-def load(path):
+def loaded(path):
     source = Source(path, CONFIG)
     source.load()
     return source
+
+
+def refused(path, config=CONFIG):
+    source = Source(path, config)
+    refusal(source.load)
+    return source
+
+
+def placed(folder, name="thing.glb", sidecar=""):
+    folder.mkdir(parents=True, exist_ok=True)
+    path = write_glb(folder).rename(folder / name)
+    if sidecar:
+        path.with_suffix(".toml").write_text(sidecar)
+    return path
+
+
+def urdf(folder, mesh, sidecar=""):
+    """A description beside that mesh."""
+    folder.mkdir(parents=True, exist_ok=True)
+    shape = f'<visual><geometry><mesh filename="{mesh}"/></geometry></visual>'
+    path = folder / "box.urdf"
+    path.write_text(f'<robot name="box"><link name="base">{shape}</link></robot>')
+    if sidecar:
+        path.with_suffix(".toml").write_text(sidecar)
+    return path
+
+
+def predicted(path):
+    """The mesh, with an annotation beside it."""
+    np.savez(path.with_name("pred.npz"), face_part_ids=np.zeros(12, dtype=int))
+    path.with_suffix(".toml").write_text('annotation = "pred.npz"')
+    return path
+
+
+def test_a_single_file_is_known_by_its_bytes_wherever_it_lies_and_by_what_its_names_tell(tmp_path):
+    here = loaded(placed(tmp_path / "here"))
+    there = loaded(placed(tmp_path / "there"))
+    assert here.id == there.id == asset_id("thing", digest_file(here.path))
+    assert source_key(here) == source_key(there)
+    others = [placed(tmp_path / "fridges"), placed(tmp_path / "ovens"), placed(tmp_path, "it.glb")]
+    sources = [here, *map(loaded, others)]
+    assert len({each.id for each in sources}) == len(set(map(source_key, sources))) == 4
+
+
+def test_names_that_become_the_same_safe_name_are_two_inputs(tmp_path):
+    names = ["cab a.glb", "cab_a.glb", "cab(a.glb", "x" * 70 + ".glb", "x" * 71 + ".glb"]
+    assert len({loaded(placed(tmp_path, name)).id for name in names}) == len(names)
+
+
+def test_a_description_with_another_sidecar_is_another_input(tmp_path):
+    sources = []
+    for number, sidecar in enumerate(["", "scale = 1.0", "scale = 0.5"]):
+        folder = tmp_path / str(number)
+        path = urdf(folder, "cube.obj", sidecar)
+        write_obj(folder)
+        sources.append(loaded(path))
+    assert len({each.id for each in sources}) == 3
 
 
 def write_untextured(folder):
@@ -44,7 +114,7 @@ OBJ_FILES = {"cube.obj", "cube.mtl", "wood.png", "cube.toml", "cube.obj.toml"}
 def test_every_file_of_a_mesh_counts(write, files, tmp_path):
     (tmp_path / "in").mkdir()
     path = write(tmp_path / "in")
-    source = load(path)
+    source = loaded(path)
     stated = {f"{name}.parts.{form}" for name in (path.name, "cube") for form in ("json", "toml")}
     files = files | stated
     assert set(source.reads) == files
@@ -64,36 +134,37 @@ def test_every_file_of_a_mesh_counts(write, files, tmp_path):
     assert known.probe(path).key == source_key(source)
 
 
-def present(source):
-    return {name for name, digest in source.reads.items() if digest}
-
-
-def urdf(folder):
-    (folder / "meshes").mkdir(parents=True)
-    write_obj(folder / "meshes")
-    shape = '<visual><geometry><mesh filename="meshes/cube.obj"/></geometry></visual>'
-    (folder / "box.urdf").write_text(f'<robot name="box"><link name="base">{shape}</link></robot>')
-    (folder / "box.toml").write_text('category = "box"')
-    return folder / "box.urdf"
-
-
 def test_every_file_of_a_description_counts_and_so_does_an_annotation(tmp_path):
-    source = load(urdf(tmp_path))
+    def present(path):
+        return {name for name, digest in loaded(path).reads.items() if digest}
+
+    (tmp_path / "meshes").mkdir()
+    write_obj(tmp_path / "meshes")
     meshes = {f"meshes/{name}" for name in ("cube.obj", "cube.mtl", "wood.png")}
-    assert present(source) == {"box.urdf", "box.toml", *meshes}
-    path = write_glb(tmp_path)
-    np.savez(tmp_path / "pred.npz", face_part_ids=np.zeros(12, dtype=int))
-    (tmp_path / "cube.toml").write_text('annotation = "pred.npz"')
-    assert {"pred.npz", "cube.toml"} <= present(load(path))
+    described = urdf(tmp_path, "meshes/cube.obj", 'category = "box"')
+    assert present(described) == {"box.urdf", "box.toml", *meshes}
+    assert {"pred.npz", "thing.toml"} <= present(predicted(placed(tmp_path)))
 
 
-def test_the_key_knows_names_and_folders_only_as_far_as_they_matter(tmp_path):
-    keys = {}
-    for folder in ("a", "b", "fridge"):
-        (tmp_path / folder).mkdir()
-        keys[folder] = source_key(load(write_glb(tmp_path / folder)))
-    assert keys["a"] == keys["b"] != keys["fridge"]
-    assert source_key(load(write_glb(tmp_path / "a", "other.glb"))) not in keys.values()
+def test_a_rejected_input_does_not_take_the_place_of_the_same_mesh_that_passed(tmp_path):
+    good = placed(tmp_path / "good")
+    bad = placed(tmp_path / "bad", sidecar="colour = 1")
+    wrong = refused(bad).id
+    assert wrong != loaded(good).id
+    # Its own rejection is forgotten once it is loaded.
+    bad.with_suffix(".toml").write_text("scale = 1.0")
+    assert wrong in loaded(bad).unloaded_ids
+
+
+def test_what_was_read_to_its_end_and_then_refused_is_the_asset_that_it_was(tmp_path):
+    path = placed(tmp_path, sidecar='license = "CC-BY-NC-4.0"')
+    strict = replace(CONFIG, intake=replace(CONFIG.intake, allowed_licenses=("CC0-1.0",)))
+    before = loaded(path)
+    now = refused(path, strict)
+    assert now.id == before.id
+    assert source_key(now) != source_key(before)
+    # What the input is made into is the same as before, and not made again.
+    assert now.loaded_key == before.loaded_key
 
 
 def test_an_input_that_somebody_writes_is_read_again_and_then_refused(tmp_path, monkeypatch):
@@ -122,6 +193,61 @@ def test_an_input_that_somebody_writes_is_read_again_and_then_refused(tmp_path, 
     assert source_key(source) == ""
 
 
+def test_a_mesh_changed_while_an_mjcf_is_compiled_is_compiled_again(tmp_path, monkeypatch):
+    def write_box(size):
+        trimesh.creation.box((size, size, size)).export(tmp_path / "cube.stl")
+
+    for name, data in cube_files().items():
+        (tmp_path / name).write_bytes(data)
+    asset = "<asset><mesh name='cube' file='cube.stl'/></asset>"
+    inline = MJCF.replace('<include file="assets.xml"/>', asset).replace('material="wood"', "")
+    (tmp_path / "robot.xml").write_text(inline)
+    write_box(1.0)
+    sizes = []
+    compiled = mjcf._compiled
+
+    def meddled(path):
+        model = compiled(path)
+        sizes.append(model.meshes[0].vertices.max())
+        write_box(2.0)
+        return model
+
+    monkeypatch.setattr(mjcf, "_compiled", meddled)
+    source = loaded(tmp_path / "robot.xml")
+    assert sizes == pytest.approx([0.5, 1.0])
+    assert source.reads["cube.stl"] == digest_file(tmp_path / "cube.stl")
+
+
+def test_an_annotation_counts_as_it_was_when_it_was_loaded(tmp_path):
+    path = predicted(placed(tmp_path))
+    intake = Source(path, CONFIG).load()
+    path.with_name("pred.npz").write_bytes(b"somebody is writing it")
+    found = refusal(articulate, intake, BuildConfig(articulator="annotated"))
+    assert "a field is missing: motion_hierarchy" in found.message
+
+
+@pytest.mark.parametrize("form", ["texture", "sidecar", "urdf"])
+def test_a_link_that_led_out_is_noticed_when_the_file_itself_takes_its_place(form, tmp_path):
+    folder = tmp_path / "in"
+    folder.mkdir()
+    path = write_obj(folder)
+    file = {"texture": "wood.png", "sidecar": "cube.toml", "urdf": "cube.obj"}[form]
+    if form == "sidecar":
+        (folder / file).write_text("scale = 1.0")
+    if form == "urdf":
+        path = urdf(folder, file)
+    (folder / file).rename(tmp_path / file)
+    (folder / file).symlink_to(f"../{file}")
+    source = refused(path)
+    known = KnownReads(tmp_path / "cache", CONFIG)
+    known.note(path, source.reads)
+    assert known.probe(path).key == source_key(source)
+    (folder / file).unlink()
+    (folder / file).write_bytes((tmp_path / file).read_bytes())
+    assert known.probe(path).key != source_key(source)
+    loaded(path)
+
+
 def test_what_was_seen_first_counts_unless_it_was_not_there(tmp_path):
     log = ReadLog()
     for digest in ("", "1", "2"):
@@ -135,7 +261,7 @@ def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path):
     mine = KnownReads(tmp_path / "cache", CONFIG)
     theirs = KnownReads(tmp_path / "cache", CONFIG)
     probe = mine.probe(path)
-    source = load(path)
+    source = loaded(path)
     assert mine.renewed(probe) is probe
     theirs.note(path, source.reads)
     assert probe.key != source_key(source)
@@ -145,17 +271,11 @@ def test_what_somebody_else_found_out_meanwhile_is_looked_at_again(tmp_path):
 
 def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path):
     known = KnownReads(tmp_path / "cache", CONFIG)
-    sources = []
-    for name in ("plain", "annotated"):
-        (tmp_path / name).mkdir()
-        path = write_glb(tmp_path / name)
-        if name == "annotated":
-            np.savez(tmp_path / name / "pred.npz", face_part_ids=np.zeros(12, dtype=int))
-            path.with_suffix(".toml").write_text('annotation = "pred.npz"')
-        sources.append(load(path))
+    plain = loaded(placed(tmp_path / "plain"))
+    sources = (plain, loaded(predicted(placed(tmp_path / "annotated"))))
     for source in (*sources, *sources[::-1]):
         known.note(source.path, source.reads)
-        assert all(known.probe(other.path).key == source_key(other) for other in sources[:1])
+        assert known.probe(plain.path).key == source_key(plain)
     assert all(known.probe(source.path).key == source_key(source) for source in sources)
 
 
@@ -168,9 +288,23 @@ def test_a_reader_that_was_stopped_gives_no_verdict(error, code, tmp_path, monke
     def stopped(*arguments):
         raise error(f"{path.name}: no answer within 60 s")
 
+    config = replace(CONFIG, articulator="geometric")
     monkeypatch.setattr(source_module, "load", stopped)
-    result = build_asset(path, tmp_path / "out", CONFIG)
+    result = build_asset(path, tmp_path / "out", config)
     assert (result.entry.status, result.entry.reason) == ("unjudged", code)
     assert "no answer within 60 s" in result.entry.message
     monkeypatch.undo()
-    assert build_asset(path, tmp_path / "out", CONFIG).entry.status == "rejected"
+    assert build_asset(path, tmp_path / "out", config).entry.status == "rejected"
+
+
+def test_a_name_that_is_no_utf8_is_an_input_like_any_other(tmp_path):
+    path = tmp_path / b"bad\xff.glb".decode("utf-8", "surrogateescape")
+    path.write_bytes(b"junk")
+    registry = Registry(tmp_path / "out", create=True)
+    with registry.staging_folder() as staging, Judge(CONFIG.checks) as judge:
+        result = register(registry, make_asset(path, staging, CONFIG, None, judge))
+    assert result.entry.status == "rejected"
+    assert r"bad\udcff.glb" in registry.entry(result.entry.id).message
+    assert attempt_of(result, datetime.now(UTC)).input.encode().endswith(rb"bad\udcff.glb")
+    rebuild(registry.root)
+    assert registry.entry(result.entry.id).reason == result.entry.reason

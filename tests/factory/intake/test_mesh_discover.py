@@ -1,10 +1,12 @@
-"""What counts as an input."""
+"""What counts as an input, and what it seems to be made of: nothing outside its folder."""
 
 import os
 
 import pytest
+from input_files import write_inputs
 from ros_packages import write_meshes, write_package
 
+from asset_factory.factory.intake.companions import companions
 from asset_factory.factory.intake.discover import find_inputs, links_out
 
 
@@ -85,3 +87,52 @@ def test_meshes_beside_the_folder_of_a_description_belong_to_it(tmp_path, before
     (main := path.with_name("main.urdf.xacro")).write_text("<robot/>")
     alone = [tmp_path / "alone" / f"{name}.obj" for name in ("drawer", "shell")]
     assert find_inputs([tmp_path]) == (*alone, path, main)
+
+
+def test_the_root_of_an_xml_file_is_looked_for_at_its_beginning_only(tmp_path):
+    mesh = _touch(tmp_path / "cube.glb")
+    late = _touch(tmp_path / "a.xml", f"<!--{'x' * 3_000_000}--><mujoco/>")
+    assert find_inputs([tmp_path]) == (mesh,)
+    # It names no mesh, so the one beside it is an input too.
+    late.write_text(f"<!--{'x' * 3000}--><mujoco>")
+    assert find_inputs([tmp_path]) == (late, mesh)
+
+
+MJCF = '<mujoco><compiler meshdir="assets"/><asset><mesh file="a.stl"/></asset></mujoco>'
+
+
+def test_a_description_brings_its_meshes_and_their_textures_and_a_mesh_no_other(tmp_path):
+    inputs = write_inputs(tmp_path / "meshes")
+    parts = {f"parts/{name}" for name in ("body.mtl", "body.obj", "body.png", "lid.stl")}
+    assert companions(inputs / "cart" / "cart.urdf") == {"cart.urdf", *parts}
+    assert companions(inputs / "box_0.stl") == {"box_0.stl"}
+    assert "red paint.png" in companions(inputs / "painted" / "painted.obj")
+
+
+@pytest.mark.parametrize(
+    ("files", "brought"),
+    [
+        ({"a.xml": MJCF, "assets/a.stl": ""}, {"assets/a.stl"}),
+        # Layers name others in no readable way.
+        ({"a.usd": "", "layers/geometry.usdc": "", "paint.png": ""}, {"layers/geometry.usdc"}),
+        (
+            {"a.stl": "", "a.toml": 'annotation = "a.pred.npz"', "a.pred.npz": ""},
+            {"a.toml", "a.pred.npz"},
+        ),
+        # A name ends with its suffix.
+        *(
+            ({"a.obj": f"# b{suffix}us b{suffix}_old\n", f"b{suffix}": ""}, set())
+            for suffix in (".mtl", ".png", ".bin")
+        ),
+        *(
+            ({"a.obj": f"mtllib {name}\n", "../secret.mtl": "newmtl secret"}, set())
+            for name in ("../secret.mtl", "/etc/passwd.mtl", "a/../../secret.mtl")
+        ),
+    ],
+)
+def test_what_an_input_names_in_its_folder_comes_with_it(tmp_path, files, brought):
+    folder = tmp_path / "in"
+    for name, text in files.items():
+        _touch(folder / name, text)
+    entry = next(iter(files))
+    assert companions(folder / entry) == {entry, *brought}

@@ -1,13 +1,29 @@
-"""Every format gives the same cube, textures and materials included."""
+"""Every format gives the same cube, textures and materials included; oddities are told."""
+
+import base64
+import struct
+from pathlib import Path
 
 import numpy as np
 import pytest
-import trimesh
-from mesh_cube import TEXTURED, WRITERS, cube, gltf_parts, pack_glb, png, write_glb, write_obj
+from fuzz_cases import DAE
+from mesh_cube import (
+    TEXTURED,
+    WRITERS,
+    cube,
+    gltf_parts,
+    pack_glb,
+    png,
+    write_glb,
+    write_obj,
+)
 from plain_solids import signed_volume
 
 from asset_factory.factory.config import IntakeConfig
+from asset_factory.factory.intake.files import InputFiles
+from asset_factory.factory.intake.images import load_texture
 from asset_factory.factory.intake.loading import load_mesh, load_visual
+from asset_factory.factory.mesh import Texture
 
 LIMITS = IntakeConfig()
 PLACES = "property float x\nproperty float y\nproperty float z\n"
@@ -26,6 +42,11 @@ def _load(path):
     return load_visual(path, path.parent, LIMITS)
 
 
+def _looks(mesh):
+    """Name, colour and whether there is a texture, of each material."""
+    return [(each.name, each.color, each.texture is not None) for each in mesh.materials]
+
+
 @pytest.mark.parametrize("form", WRITERS)
 def test_cube_survives_in_file_order_and_seams_are_welded(form, tmp_path):
     visual = _load(WRITERS[form](tmp_path))
@@ -35,8 +56,6 @@ def test_cube_survives_in_file_order_and_seams_are_welded(form, tmp_path):
     assert signed_volume(visual.mesh) == pytest.approx(1.0)
     assert visual.source_faces.tolist() == list(range(12))
     assert visual.source_face_count == 12
-    components = trimesh.Trimesh(visual.mesh.vertices, visual.mesh.faces, process=False).body_count
-    assert components == 1
 
 
 @pytest.mark.parametrize("form", TEXTURED)
@@ -44,51 +63,42 @@ def test_texture_bytes_coordinates_and_normals_survive(form, tmp_path):
     mesh = _load(WRITERS[form](tmp_path)).mesh
     shape = cube()
     textured = mesh.materials[int(mesh.face_material[0])]
-    assert textured.texture.data == png()
-    assert textured.texture.suffix == ".png"
-    assert mesh.corner_uv is not None
-    assert mesh.corner_normals is not None
+    assert textured.texture == Texture(png(), ".png")
     np.testing.assert_allclose(mesh.corner_uv, shape["uv"][shape["faces"]], atol=1e-7)
     np.testing.assert_allclose(mesh.corner_normals, shape["normals"][shape["faces"]], atol=1e-7)
 
 
 def test_gltf_keeps_base_colour_and_license(tmp_path):
     visual = _load(write_glb(tmp_path))
-    assert visual.mesh.materials[0].name == "red_wood"
-    assert visual.mesh.materials[0].color == (1.0, 0.5, 0.25, 1.0)
+    assert _looks(visual.mesh) == [("red_wood", (1.0, 0.5, 0.25, 1.0), True)]
     assert visual.license == "CC0-1.0"
 
 
 def test_obj_keeps_several_materials(tmp_path):
     mesh = _load(write_obj(tmp_path)).mesh
-    assert [m.name for m in mesh.materials] == ["red_wood", "steel"]
+    wood, steel = ("red_wood", (1.0, 1.0, 1.0, 1.0), True), ("steel", (0.5, 0.6, 0.7, 0.5), False)
+    assert _looks(mesh) == [wood, steel]
     assert mesh.face_material.tolist() == [0] * 8 + [1] * 4
-    assert mesh.materials[0].color == (1.0, 1.0, 1.0, 1.0)
-    assert mesh.materials[1].color == (0.5, 0.6, 0.7, 0.5)
-    assert mesh.materials[1].texture is None
 
 
-def test_gltf_applies_nested_transforms_and_every_instance(tmp_path):
+def test_gltf_applies_nested_transforms_and_every_instance_and_faces_outward(tmp_path):
     quarter = float(np.sqrt(0.5))
     nodes = [
         {"children": [1, 2], "translation": [10, 0, 0]},
         {"mesh": 0, "scale": [2, 2, 2]},
         {"mesh": 0, "rotation": [0, 0, quarter, quarter], "translation": [0, 5, 0]},
         {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -3, 0, 0, 1]},
+        {"mesh": 0, "scale": [-1, 1, 1]},
     ]
-    visual = _load(write_glb(tmp_path, nodes=nodes))
-    boxes = [visual.mesh.submesh(np.arange(12 * k, 12 * k + 12)).bounds for k in range(3)]
+    mesh = _load(write_glb(tmp_path, nodes=nodes)).mesh
+    boxes = [mesh.submesh(np.arange(12 * k, 12 * k + 12)).bounds for k in range(4)]
     np.testing.assert_allclose(boxes[0], [[10, 0, 0], [12, 2, 2]], atol=1e-6)
     np.testing.assert_allclose(boxes[1], [[9, 5, 0], [10, 6, 1]], atol=1e-6)
     np.testing.assert_allclose(boxes[2], [[-3, 0, 0], [-2, 1, 1]], atol=1e-6)
-    assert signed_volume(visual.mesh) == pytest.approx(8 + 1 + 1)
-    assert len(visual.mesh.materials) == 1
-
-
-def test_gltf_mirrored_instance_still_faces_outward(tmp_path):
-    mesh = _load(write_glb(tmp_path, nodes=[{"mesh": 0, "scale": [-1, 1, 1]}])).mesh
-    assert signed_volume(mesh) == pytest.approx(1.0)
-    np.testing.assert_allclose(mesh.corner_normals[:, 0], _normals(mesh), atol=1e-6)
+    np.testing.assert_allclose(boxes[3], [[-1, 0, 0], [0, 1, 1]], atol=1e-6)
+    assert signed_volume(mesh) == pytest.approx(8 + 1 + 1 + 1)
+    assert len(mesh.materials) == 1
+    np.testing.assert_allclose(mesh.corner_normals[36:, 0], _normals(mesh)[36:], atol=1e-6)
 
 
 def _appended(document, binary, *blobs):
@@ -134,6 +144,41 @@ def test_gltf_sparse_accessor_moves_one_vertex(tmp_path):
     assert _load(tmp_path / "cube.glb").mesh.bounds[0].tolist() == [-1.0, 0.0, 0.0]
 
 
+def _meshes(*primitives):
+    return {"meshes": [{"primitives": primitives}]}
+
+
+BINARY = gltf_parts()[1]
+DATA_URI = f"data:application/octet-stream;base64,{base64.b64encode(BINARY).decode()}"
+CUBE = {"attributes": {"POSITION": 0}, "indices": 3}
+POINTS = {"attributes": {"POSITION": 0}, "mode": 0}
+TWO_COLOURS = {"pbrMetallicRoughness": {"baseColorFactor": [1, 2]}}
+#: What is odd -> what of the document is so, faces that are read, and what is told.
+ODDITIES = {
+    "data uri": ({"buffers": [{"byteLength": len(BINARY), "uri": DATA_URI}]}, 12, ""),
+    "no indices": (_meshes({"attributes": {"POSITION": 0}}), 8, ""),
+    "points": (_meshes(CUBE, POINTS), 12, "Points or lines of mesh 0 were left out"),
+    "no positions": (_meshes(CUBE, {"attributes": {}}), 12, "no positions and was left out"),
+    "skin": ({"nodes": [{"mesh": 0, "skin": 0}]}, 12, "stands in its rest pose"),
+    "colour": ({"materials": [TWO_COLOURS]}, 12, "which is no RGBA; white was taken"),
+}
+
+
+@pytest.mark.parametrize("oddity", ODDITIES)
+def test_an_odd_gltf_is_read_and_its_oddity_told(oddity, tmp_path):
+    document, faces, note = ODDITIES[oddity]
+    intake = load_mesh(write_glb(tmp_path, **document), LIMITS)
+    assert len(intake.mesh.faces) + intake.provenance.dropped_degenerate == faces
+    assert note in " ".join(intake.provenance.notes)
+
+
+def test_a_gltf_of_specular_and_gloss_keeps_its_diffuse_colour(tmp_path):
+    told = {"diffuseFactor": [1, 0, 0, 1]}
+    materials = [{"extensions": {"KHR_materials_pbrSpecularGlossiness": told}}]
+    (material,) = _load(write_glb(tmp_path, materials=materials)).mesh.materials
+    assert material.color == (1.0, 0.0, 0.0, 1.0)
+
+
 def test_obj_understands_negative_indices_and_missing_attributes(tmp_path):
     (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf -3/-1 -2 -1\nf 1 3 2\n")
     mesh = _load(tmp_path / "t.obj").mesh
@@ -154,6 +199,51 @@ def test_an_obj_without_its_library_or_a_whole_texture_loads_and_says_so(tmp_pat
     visual = _load(path)
     assert any(told in note for note in visual.notes)
     assert all(m.texture is None for m in visual.mesh.materials)
+
+
+def test_only_the_first_of_a_thousand_notes_are_kept(tmp_path):
+    path = write_obj(tmp_path)
+    pictures = "".join(f"map_Kd {k}{'x' * 200}.png\n" for k in range(1000))
+    (tmp_path / "cube.mtl").write_text(f"newmtl a\n{pictures}")
+    notes = load_mesh(path, LIMITS).provenance.notes
+    assert len(notes) < 50
+    assert any(note.endswith("more notes of this kind.") for note in notes)
+
+
+@pytest.mark.parametrize("error", [struct.error, RuntimeError, AttributeError, OverflowError])
+def test_whatever_a_decoder_raises_the_picture_is_left_out(error, monkeypatch):
+    from PIL import Image
+
+    def fail(*_, **__):
+        raise error("deep inside")
+
+    monkeypatch.setattr(Image, "open", fail)
+    assert load_texture(png(), "a.png", InputFiles(Path(), LIMITS)) is None
+
+
+def test_faces_that_are_not_finite_or_flat_are_dropped_and_counted(tmp_path):
+    vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 2 0 0\nv 0 0 1\n"
+    (tmp_path / "m.obj").write_text(f"{vertices}f 1 2 4\nf 1 2 3\nf 1 2 5\nf 1 1 3\nf 1 3 6\n")
+    intake = load_mesh(tmp_path / "m.obj", LIMITS)
+    assert intake.provenance.dropped_non_finite == 1
+    assert intake.provenance.dropped_degenerate == 2
+    assert intake.source_faces.tolist() == [1, 4]
+
+
+def test_transparency_and_texture_coordinates_of_older_formats_are_read(tmp_path):
+    (tmp_path / "a.obj").write_text("mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (tmp_path / "a.mtl").write_text("newmtl a\nKd 1 0 0\nTr 0.25\n")
+    assert _load(tmp_path / "a.obj").mesh.materials[0].color == (1.0, 0.0, 0.0, 0.75)
+    corners = "0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n0 1 0 255 0 0 255\n"
+    (tmp_path / "a.off").write_text(f"COFF\n3 1 0\n{corners}3 0 1 2\n")
+    assert len(_load(tmp_path / "a.off").mesh.faces) == 1
+    head = f"ply\nformat ascii 1.0\ncomment TextureFile wood.png\nelement vertex 4\n{PLACES}"
+    lists = "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+    rows = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2 6 0 0 1 0 0 1\n3 0 2 3 6 0 0 0 1 1 1\n"
+    (tmp_path / "a.ply").write_text(f"{head}element face 2\n{lists}end_header\n{rows}")
+    (tmp_path / "wood.png").write_bytes(png())
+    uv = _load(tmp_path / "a.ply").mesh.corner_uv
+    np.testing.assert_allclose(uv[0], [[0, 0], [1, 0], [0, 1]])
 
 
 def test_ply_vertex_colours_become_one_linear_colour(tmp_path):
@@ -183,23 +273,8 @@ def test_ply_mixed_polygons_keep_their_order(form, tmp_path):
 
 def test_collada_applies_its_unit_and_nodes(tmp_path):
     pytest.importorskip("collada", reason="pycollada is not installed")
-    box = trimesh.creation.box(extents=(1, 2, 3))
-    data = trimesh.exchange.dae.export_collada(box)
-    text = data.decode() if isinstance(data, bytes) else data
-    text = text.replace('meter="1"', 'meter="0.01"').replace('meter="1.0"', 'meter="0.01"')
-    if 'meter="0.01"' not in text:
-        text = text.replace("<asset>", '<asset><unit name="centimeter" meter="0.01"/>', 1)
-    (tmp_path / "box.dae").write_text(text)
-    mesh = _load(tmp_path / "box.dae").mesh
-    np.testing.assert_allclose(mesh.extents, (0.01, 0.02, 0.03), rtol=1e-6)
-    assert mesh.vertices.shape == (8, 3)
-
-
-def test_same_file_gives_the_same_intake(tmp_path):
-    path = write_obj(tmp_path)
-    first = load_mesh(path, LIMITS)
-    second = load_mesh(path, LIMITS)
-    assert first.provenance == second.provenance
-    for name in ("vertices", "faces", "corner_uv", "corner_normals", "face_material"):
-        assert getattr(first.mesh, name).tobytes() == getattr(second.mesh, name).tobytes()
-    assert first.mesh.materials == second.mesh.materials
+    text = DAE.format("wood.png").replace('<unit name="meter" meter="1"/>', '<unit meter="0.01"/>')
+    lifted = text.replace("<node>", "<node><translate>0 0 3</translate>")
+    (tmp_path / "t.dae").write_text(lifted)
+    bounds = _load(tmp_path / "t.dae").mesh.bounds
+    np.testing.assert_allclose(bounds, [[0.0, 0.0, 0.03], [0.01, 0.01, 0.03]], rtol=1e-6)

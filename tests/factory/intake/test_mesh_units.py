@@ -10,6 +10,7 @@ from refusing import refusal
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.intake.categories import category_table, guess_category
+from asset_factory.factory.intake.load import load
 from asset_factory.factory.intake.loading import load_mesh
 from asset_factory.factory.intake.orientation import UP_AXES, rotation_to_z_up
 from asset_factory.factory.intake.sizes import scale_by_size
@@ -72,16 +73,16 @@ def test_transform_leads_from_the_input_to_the_object(tmp_path):
 
 def test_height_is_option_then_sidecar_then_table(tmp_path):
     path = _box(tmp_path, "fridge.obj", (70, 70, 180))
-    table = _load(path).provenance
-    assert (table.scale, table.scale_source, table.category) == (0.01, "category", "fridge")
-    side = _load(path, "height = 1.5")
-    assert (side.mesh.extents[2], side.provenance.scale_source) == (pytest.approx(1.5), "sidecar")
-    option = _load(path, height=1.2)
-    assert option.mesh.extents[2] == pytest.approx(1.2)
-    assert option.provenance.scale_source == "option"
-    scaled = _load(path, "scale = 0.02")
-    assert scaled.provenance.scale == 0.02
-    assert scaled.mesh.extents[2] == pytest.approx(3.6)
+    for sidecar, options, height, source in (
+        (None, {}, 1.8, "category"),
+        ("height = 1.5", {}, 1.5, "sidecar"),
+        ("height = 1.5", {"height": 1.2}, 1.2, "option"),
+        ("scale = 0.02", {}, 3.6, "sidecar"),
+    ):
+        intake = _load(path, sidecar, **options)
+        assert intake.mesh.extents[2] == pytest.approx(height)
+        assert intake.provenance.scale == pytest.approx(height / 180.0)
+        assert (intake.provenance.scale_source, intake.provenance.category) == (source, "fridge")
 
 
 @pytest.mark.parametrize(
@@ -105,7 +106,10 @@ def test_units_are_guessed_from_plausible_sizes(name, extents, factor, source, t
     provenance = _load(_box(tmp_path, name, extents)).provenance
     assert provenance.scale == pytest.approx(factor)
     assert provenance.scale_source == source
-    assert any(f"{extents[2]:.4g}" in note for note in provenance.notes)
+    notes = " ".join(provenance.notes)
+    assert f"{extents[2]:.4g}" in notes
+    kind = name.removesuffix(".obj")
+    assert (f"category {kind} was guessed" in notes) is (provenance.category == kind)
 
 
 @pytest.mark.parametrize(
@@ -137,12 +141,6 @@ def test_a_gltf_that_is_only_plausible_z_up_is_kept_y_up_but_pointed_out(tmp_pat
     assert any("set up to z" in note for note in provenance.notes)
     fine = _load(write_glb(tmp_path, "door.glb", nodes=nodes), up="z").provenance
     assert (fine.scale_source, len(fine.notes)) == ("as_is", 2)
-
-
-def test_a_guessed_category_is_written_down(tmp_path):
-    provenance = _load(_box(tmp_path, "oven_2.obj", (0.6, 0.6, 0.8))).provenance
-    assert provenance.category == "oven"
-    assert any("category oven was guessed" in note for note in provenance.notes)
 
 
 def test_sidecar_says_everything(tmp_path):
@@ -177,11 +175,31 @@ def test_the_longer_sidecar_name_wins(tmp_path):
         ('category = "spaceship"', "state its height"),
         ("not toml at all", "TOML"),
         ('annotation = "absent.npz"', "does not exist"),
+        ("height = 1" + "0" * 400, "positive"),
+        ("height = " + "9" * 5000, "TOML"),
+        ("scale = 1e300", "positive"),
+        ("density = 1e-300", "positive"),
+        (f"annotation = '{'n' * 300}'", "annotation"),
+        ("annotation = 'loop'", "does not exist"),
+        ("#" * 70_000, "at most"),
     ],
+    ids=lambda each: each[:20],
 )
 def test_a_bad_sidecar_is_rejected_with_what_would_work(content, said, tmp_path):
+    (tmp_path / "loop").symlink_to("loop")
     found = refusal(_load, write_stl(tmp_path), content)
     assert (found.code, said in found.message) == ("bad_sidecar", True)
+
+
+@pytest.mark.parametrize(
+    ("sidecar", "height"), [("scale = 1e-9", None), ("scale = 1e9", None), ("", 1e300)]
+)
+def test_a_size_that_no_object_has_is_absurd(sidecar, height, tmp_path):
+    box = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
+    (tmp_path / "box.urdf").write_text(f'<robot name="r"><link name="l">{box}</link></robot>')
+    for path in (write_glb(tmp_path), tmp_path / "box.urdf"):
+        path.with_suffix(".toml").write_text(sidecar)
+        assert refusal(load, path, IntakeConfig(height=height)).code == "absurd_size"
 
 
 def test_an_annotation_outside_the_folder_is_external(tmp_path):
