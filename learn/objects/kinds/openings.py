@@ -17,14 +17,14 @@ from ..kit.looks import BLACK, GLASS
 from ..kit.panels import panel
 from ..kit.pulls import add_pull, any_pull
 from ..kit.shapes import box, cylinder, lathe
-from ..kit.spans import Flat, Profile, Span, Y, about, ends, mid, shares, size, span, upto, within
+from ..kit.spans import Flat, Profile, Span, Y, about, ends, mid, size, span, within
 from ..kit.styles import Style, any_color, any_metal, any_style
 
 LEAVES: dict[str, float] = {
     "slab": 0.3, "shaker": 0.12, "raised": 0.12, "two_fields": 0.14, "glazed": 0.12,
     "mullion": 0.08, "louvre": 0.05, "planks": 0.07,
 }  # fmt: skip
-SASHES = {"door": 0.35, "lift": 0.15, "flap": 0.1, "slide": 0.2, "hung": 0.12, "pivot": 0.08}
+SASHES = {"door": 0.35, "lift": 0.15, "flap": 0.1, "sliding": 0.2, "hung": 0.12, "pivot": 0.08}
 #: A round door knob, from its leaf outwards: radius and height as shares.
 _KNOB = ((0.45, 0.0), (0.4, 0.3), (0.9, 0.4), (1.0, 0.7), (0.6, 1.0))
 
@@ -117,7 +117,9 @@ def sliding_door(a: Assembly) -> None:
     panels = LEAVES | {"glazed": 0.5}
     if a.happens(0.5):
         bar = a.draw(0.04, 0.08)
-        _tracks(a, panels, (2 * width, height), bar, thick)
+        style = _framed(a, panels, bar, thick, bar, ("recess", "bar"))
+        a.body(style.body)
+        _on_tracks(a, style, 2 * width, height, "sliding")
         return
     metal = any_metal(a)
     body = a.body(any_color(a))
@@ -143,39 +145,11 @@ def sliding_door(a: Assembly) -> None:
     add_pull(leaf, pull, x[1] - 0.06 if away < 0 else x[0] + 0.06, 1.0, y[0], True, 0.6)
 
 
-def _tracks(
-    a: Assembly,
-    panels: dict[str, float],
-    sizes: Flat,
-    bar: float,
-    thick: float,
-    upright: bool = False,
-) -> None:
-    """Build two or three sashes that slide past each other in a frame, sideways or up and down."""
-    body = a.body(any_color(a))
-    style = a.weighted(panels)
-    count = 2 if upright else a.pick(2, 2, 2, 3)
-    x, z = upto(*sizes)
-    body.add(*frame(x, (0.0, count * (thick + 0.004) + 0.01), z, bar))
-    x = within(x, bar + 0.002)
-    z = within(z, bar + 0.002)
-    way = z if upright else x
-    pull = any_pull(a, any_metal(a), ("recess", "bar"))
-    for i, own in enumerate(shares(way, count)):
-        y = span(0.005 + i * (thick + 0.004), thick)
-        last = i == count - 1
-        lapped = within(own, -bar / 2 if i else 0.0, 0.0 if last else -bar / 2)
-        spans = (x, lapped) if upright else (lapped, z)
-        sash = body
-        if not last or (count == 2 and not (upright and a.happens(0.5))):
-            room = lapped[0] - way[0] if last else way[1] - lapped[1]
-            back = -1.0 if last else 1.0
-            axis = (0.0, 0.0, back) if upright else (back, 0.0, 0.0)
-            at = (mid(spans[0]), y[0], mid(spans[1]))
-            sash = a.slider(f"sash_{i}", axis, at, round(0.97 * min(room, size(own)), 3))
-        panel(sash, style, spans[0], y, spans[1], bar)
-        if not i and not upright:
-            add_pull(sash, pull, lapped[0] + bar / 2, mid(z), y[0], True, 0.3)
+def _on_tracks(a: Assembly, style: Style, width: float, height: float, kind: str) -> None:
+    """Build sashes that slide past each other in a frame: ``sliding`` or ``hung``."""
+    tracks = 2 if kind == "hung" else a.pick(2, 2, 2, 3)
+    deep = tracks * (style.front + 0.004) + 0.01
+    Casework(a, style, (0.0, width), (0.0, deep), (0.0, height)).build(f"{kind}:sash")
 
 
 def window(a: Assembly) -> None:
@@ -184,11 +158,13 @@ def window(a: Assembly) -> None:
     deep, rail = a.draws((0.06, 0.14), (0.03, 0.055))
     panels = {"mullion": 0.3, "glazed": 0.7}
     kind = a.weighted(SASHES)
-    if kind in ("slide", "hung"):
-        _tracks(a, panels, (width, height), bar, thick, kind == "hung")
-        return
-    style = _framed(a, panels, bar, thick, rail, ("none",))
+    slides = kind in ("sliding", "hung")
+    style = _framed(a, panels, bar, thick, bar if slides else rail, ("recess", "bar"))
     body = a.body(style.body)
+    if slides:
+        _on_tracks(a, style, width, height, kind)
+        return
+    style = replace(style, pull=replace(style.pull, kind="none"))
     columns = max(1, min(3, round(width / a.draw(0.45, 0.9))))
     cells = [f"{'open' if kind == 'pivot' else kind}:sash_{i}" for i in range(columns)]
     if columns == 3 and a.happens(0.6):

@@ -16,7 +16,7 @@ from .layouts import Cell, Divider, Node, divided
 from .panels import panel
 from .pulls import add_pull
 from .shapes import box, cylinder
-from .spans import Point, Span, X, about, between, mid, size, span, within
+from .spans import Point, Span, X, about, between, mid, shares, size, span, within
 from .styles import Style
 
 #: Edges of a front, and which way one turns that is hinged there; positive angles open towards -Y.
@@ -145,7 +145,7 @@ class Casework:
             self._door(cell, front, side)
         elif kind == "double":
             self._pair(cell, front)
-        elif kind == "sliding":
+        elif kind in ("sliding", "hung"):
             self._sliders(cell)
         elif kind != "open":
             self._door(cell, front, "top" if kind == "lift" else "bottom")
@@ -258,21 +258,36 @@ class Casework:
             body.add(box(about(t / 2, mid(x)), deep, z), look=look)
 
     def _sliders(self, cell: Cell) -> None:
-        """Build two panels on two tracks that cover an opening together."""
+        """Build panels that cover an opening together; of three, or of ``hung`` ones, one may stay.
+
+        A case has two tracks, a frame as many as are in its depth, three at most.
+        """
         style = self.style
-        x, z = (within(inner, 0.001) for inner in cell.inner)
+        upright = cell.kind == "hung"
+        spans = [within(inner, 0.001) for inner in cell.inner]
+        way = spans[upright]
         t = min(style.front, 0.04 if style.backless else 0.018)
-        half = size(x) / 2 + self.a.draw(0.005, 0.04)
+        count = 2 if not style.backless or upright else min(3, int(size(self.y) / (t + 0.004)))
+        stays = count == 3 or (upright and self.a.happens(0.5))
+        lap = self.a.draw(0.005, 0.04)
+        seen = style.backless or style.panel in ("glazed", "mullion", "planks", "shaker")
         name = self._name(cell, "slider")
-        kind = style.panel if style.panel in ("glazed", "mullion", "planks", "shaker") else "slab"
-        for i, (at, way) in enumerate(((span(x[0], half), RIGHT), (span(x[1], -half), LEFT))):
-            face = self.y[0] + 0.006 + i * (t + 0.002)
-            travel = round((size(x) - half) * self.a.draw(0.85, 1.0), 3)
-            middle = (mid(at), face, mid(z))
-            part = self.a.slider(f"{name}_{i}", way, middle, travel, look=style.face)
-            panel(part, kind, at, span(face, t), z, min(style.rail, 0.05))
-            if i == 0 and style.pull.kind in ("recess", "bar", "rail", "knob"):
-                add_pull(part, style.pull, at[0] + 0.04, mid(z), face, True, 0.5 * size(z))
+        for i, share in enumerate(shares(way, count)):
+            last = i == count - 1
+            own = spans[upright] = within(share, -lap if i else 0.0, 0.0 if last else -lap)
+            x, z = spans
+            y = span(self.y[0] + 0.006 + i * (t + 0.002), t)
+            part = self.a.root
+            if not (last and stays):
+                room = min(own[0] - way[0] if last else way[1] - own[1], size(own))
+                axis = (LEFT, DOWN) if last else (RIGHT, UP)
+                travel = round(room * self.a.draw(0.85, 1.0), 3)
+                at = (mid(x), y[0], mid(z))
+                part = self.a.slider(f"{name}_{i}", axis[upright], at, travel, look=style.face)
+            rail = style.rail if style.backless else min(style.rail, 0.05)
+            panel(part, style.panel if seen else "slab", x, y, z, rail, style.face)
+            if not (i or upright) and style.pull.kind in ("recess", "bar", "rail", "knob"):
+                add_pull(part, style.pull, x[0] + 0.04, mid(z), y[0], True, 0.5 * size(z))
 
 
 def furniture(
