@@ -11,10 +11,9 @@ from ..kit.boards import tray
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL, WHITE
 from ..kit.outlines import arc, oval, rounded
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
-from ..kit.spans import Profile, X, about, centred, ends, span, within
+from ..kit.spans import PLAY, Profile, X, about, centred, ends, span, within
 from ..kit.wheels import wheel
 
-PLAY = 0.0015
 SKINS = (WHITE, GREEN, STEEL, BLUE, RED, BLACK)
 
 

@@ -10,10 +10,9 @@ from ..kit.assembly import LEFT, RIGHT, UP, Assembly
 from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import arc, rounded
 from ..kit.shapes import Form, block, both, box, cylinder, pipe, ribbon, stack
-from ..kit.spans import Point, Span, X, Y, Z, about, centred, mid, span, within
+from ..kit.spans import PLAY, Point, Span, X, Y, Z, about, centred, mid, span, within
 from ..kit.wheels import bracket, castor, wheel
 
-PLAY = 0.0008
 SQUARE = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
 
 

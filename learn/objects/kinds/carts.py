@@ -10,8 +10,8 @@ from ..kit.assembly import LEFT, RIGHT, Assembly
 from ..kit.boards import corners
 from ..kit.looks import BLACK, BLUE, GREEN, OAK, RED, STEEL, WHITE
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, stack
-from ..kit.spans import Span, X, Z, about, between, span, within
-from ..kit.wheels import PLAY, bracket, castor, wheel
+from ..kit.spans import PLAY, Span, X, Z, about, between, span, within
+from ..kit.wheels import bracket, castor, wheel
 
 SIDES = (("left", -1.0), ("right", 1.0))
 

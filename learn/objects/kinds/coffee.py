@@ -12,9 +12,7 @@ from ..kit.controls import button, knob
 from ..kit.looks import BLACK, RED, STEEL, WHITE
 from ..kit.outlines import arc, rounded
 from ..kit.shapes import block, both, box, cylinder, lathe, pipe, ribbon
-from ..kit.spans import Z, about, centred, ends, span, within
-
-PLAY = 0.001
+from ..kit.spans import PLAY, Z, about, centred, ends, span, within
 
 
 def coffee_machine(a: Assembly) -> None:

@@ -11,9 +11,7 @@ from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BLUE, BRASS, OAK, STEEL, WALNUT, WHITE
 from ..kit.outlines import arc, oval
 from ..kit.shapes import Form, ball, cylinder, lathe, loft, pipe
-from ..kit.spans import Point, Y, Z, about, span
-
-PLAY = 0.0015
+from ..kit.spans import PLAY, Point, Y, Z, about, span
 
 
 def _blades(

@@ -11,9 +11,7 @@ from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BRASS, RED, STEEL, WHITE
 from ..kit.outlines import arc
 from ..kit.shapes import Form, ball, block, box, cylinder, lathe, pipe, prism
-from ..kit.spans import Flat, X, Y, Z, about, mid, shares, span
-
-PLAY = 0.0008
+from ..kit.spans import PLAY, Flat, X, Y, Z, about, mid, shares, span
 
 
 def faucet(a: Assembly) -> None:

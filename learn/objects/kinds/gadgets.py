@@ -11,9 +11,7 @@ from ..kit.controls import button, cells, key
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import oval, rounded
 from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, ribbon
-from ..kit.spans import Span, X, Y, Z, about, centred, span, within
-
-PLAY = 0.0005
+from ..kit.spans import PLAY, Span, X, Y, Z, about, centred, span, within
 
 
 def usb_stick(a: Assembly) -> None:

@@ -11,10 +11,7 @@ from ..kit.assembly import BACK, DOWN, FRONT, LEFT, UP, Assembly, PartDraft
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL
 from ..kit.outlines import oval
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, pipe, ribbon
-from ..kit.spans import Span, X, Y, Z, about, ends, span, within
-
-#: Between blades that slide past each other [m].
-PLAY = 0.0006
+from ..kit.spans import PLAY, Span, X, Y, Z, about, ends, span, within
 
 
 def _strip(rows: npt.ArrayLike, along: Span, axis: int = Z) -> Form:

@@ -10,10 +10,7 @@ from ..kit.assembly import DOWN, RIGHT, UP, Assembly, PartDraft, facing_up
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BRASS, RED, STEEL, WHITE
 from ..kit.shapes import ball, block, cylinder, lathe, pipe
-from ..kit.spans import Span, X, Z, about, span
-
-#: Between arms that lie side by side [m].
-PLAY = 0.001
+from ..kit.spans import PLAY, Span, X, Z, about, span
 
 
 def desk_lamp(a: Assembly) -> None:

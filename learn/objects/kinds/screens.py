@@ -13,10 +13,7 @@ from ..kit.boards import corners, tray
 from ..kit.controls import button, cells
 from ..kit.looks import BLACK, BLUE, GLASS, RED, STEEL, WHITE
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, prism
-from ..kit.spans import Point, Span, X, Y, about, centred, ends, shares, size, span, within
-
-#: Between barrels that turn on one pin [m].
-PLAY = 0.0008
+from ..kit.spans import PLAY, Point, Span, X, Y, about, centred, ends, shares, size, span, within
 
 
 def laptop(a: Assembly) -> None:

@@ -10,10 +10,8 @@ from ..kit.assembly import BACK, LEFT, RIGHT, UP, Assembly, PartDraft, facing_up
 from ..kit.controls import button
 from ..kit.looks import BLACK, BLUE, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
-from ..kit.spans import X, Y, Z, about, mid, span, within
+from ..kit.spans import PLAY, X, Y, Z, about, mid, span, within
 from ..kit.wheels import castor
-
-PLAY = 0.0015
 
 
 def office_chair(a: Assembly) -> None:

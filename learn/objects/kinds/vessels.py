@@ -10,10 +10,7 @@ from ..kit.assembly import DOWN, LEFT, RIGHT, UP, Assembly, PartDraft
 from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import arc
 from ..kit.shapes import ball, block, both, box, cylinder, lathe, pipe
-from ..kit.spans import Profile, Z, about, span
-
-#: Between a lid or a cap and what it lies on [m].
-PLAY = 0.0006
+from ..kit.spans import PLAY, Profile, Z, about, span
 
 
 def _walled(outer: Profile, wall: float, floor: float) -> Profile:

@@ -11,10 +11,8 @@ from asset_factory.factory.mesh import Material
 from .assembly import BACK, Assembly, PartDraft, Place
 from .looks import BLACK, RED, STEEL, WHITE
 from .shapes import Form, block, box, cylinder, lathe
-from .spans import Span, Y, about, between, mid, shares, size, span, within
+from .spans import PLAY, Span, Y, about, between, mid, shares, size, span, within
 
-#: Between a control and its face [m].
-PLAY = 0.0008
 #: How far knobs turn [rad], unless said otherwise.
 TURNS = (np.pi / 2, np.pi, 1.5 * np.pi, 5.2)
 

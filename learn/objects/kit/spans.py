@@ -19,6 +19,8 @@ Profile = list[tuple[float, float]]
 X = 0
 Y = 1
 Z = 2
+#: Between parts that move past each other [m].
+PLAY = 0.0008
 
 
 def about(half: float, middle: float = 0.0) -> Span:

@@ -10,10 +10,8 @@ from asset_factory.factory.mesh import Material
 from .assembly import RIGHT, UP, Assembly, PartDraft
 from .looks import BLACK
 from .shapes import Form, box, lathe
-from .spans import Point, X, about, ends
+from .spans import PLAY, Point, X, about, ends
 
-#: Between a wheel and its fork, and between a fork and what it swivels under [m].
-PLAY = 0.0012
 #: How far a hub stands out of its tyre [m].
 _HUB = 0.0008
 
