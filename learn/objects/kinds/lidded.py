@@ -11,7 +11,7 @@ from asset_factory.factory.mesh import Material
 from ..kit.assembly import BACK, FRONT, LEFT, Assembly, PartDraft, facing_front
 from ..kit.boards import stand, tray
 from ..kit.casework import Leaf, furniture
-from ..kit.controls import keypad, knob
+from ..kit.controls import keypad, knob, lever
 from ..kit.looks import BLACK, BRASS, GLASS, OAK, STEEL, WALNUT, WHITE, wood
 from ..kit.outlines import arc
 from ..kit.shapes import Form, box, cylinder, hoop, prism
@@ -170,7 +170,5 @@ def _locks(a: Assembly, leaf: Leaf, face: float, metal: Material) -> None:
     elif kind == "handle":
         axis = BACK if left else FRONT
         handle = a.hinge("handle", axis, pivot, a.degrees(45, 90), on=door, look=metal)
-        handle.add(cylinder(Y, center, 0.012, (face - 0.035, face - 0.001), 12))
-        inward = -1.0 if left else 1.0
-        arm = span(at - inward * 0.012, inward * (0.012 + 1.6 * r))
-        handle.add(box(arm, (face - 0.043, face - 0.033), about(0.009, center[1])))
+        tip = (at + (-1.6 if left else 1.6) * r, center[1])
+        handle.add(*lever(center, (face - 0.001, face - 0.043), tip, 0.011))

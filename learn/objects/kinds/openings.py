@@ -11,6 +11,7 @@ from asset_factory.factory.mesh import Material
 from ..kit.assembly import BACK, FRONT, LEFT, UP, Assembly, PartDraft
 from ..kit.boards import frame
 from ..kit.casework import Casework, Leaf
+from ..kit.controls import lever
 from ..kit.hinges import stop
 from ..kit.layouts import Cell, row
 from ..kit.looks import BLACK, GLASS
@@ -50,24 +51,19 @@ def _framed(
 def _lever(a: Assembly, leaf: PartDraft, at: Flat, y: Span, inward: float, look: Material) -> None:
     """Build a lever or a round knob on both sides of a leaf, on one spindle."""
     x, z = at
-    lever = a.happens(0.75)
+    flat = a.happens(0.75)
     reach, r, length = a.draws((0.04, 0.065), (0.007, 0.011), (0.09, 0.14))
-    axis = FRONT if lever and inward > 0.0 else BACK
+    axis = FRONT if flat and inward > 0.0 else BACK
     name = f"{leaf.name}_handle"
     handle = a.hinge(name, axis, (x, mid(y), z), a.degrees(30, 60), on=leaf, look=look)
-    curved = a.pick(0.0, 0.0, 0.02)
+    tip = (x + inward * length, z - a.pick(0.0, 0.0, 0.02))
     for face, side in ((y[0], -1.0), (y[1], 1.0)):
         near = face + side * 0.0015
-        if not lever:
+        if flat:
+            handle.add(*lever(at, (near, face + side * reach), tip, r))
+        else:
             knob: Profile = [(0.028 * s, side * t * (reach - 0.0015)) for s, t in _KNOB]
             handle.add(lathe(knob, (x, near, z), Y, 16))
-            continue
-        handle.add(cylinder(Y, at, r, span(near, side * (reach - 0.0015)), 12))
-        thick = about(0.8 * r, face + side * (reach - r))
-        handle.add(box(span(x - inward * r, inward * (r + length)), thick, about(r, z)))
-        if curved:
-            tip = span(x + inward * length, -inward * 0.012)
-            handle.add(box(tip, thick, (z - r - curved, z - r)))
 
 
 def door(a: Assembly) -> None:
@@ -189,9 +185,7 @@ def _latch(a: Assembly, leaf: Leaf, rail: float) -> None:
     level = {"top": z[0] + 0.15, "bottom": z[1] - rail / 2}.get(side, mid(z))
     axis = FRONT if side == "right" else BACK
     handle = a.hinge(f"{sash.name}_handle", axis, (at, 0.0, level), np.pi / 2, on=sash, look=BLACK)
-    handle.add(cylinder(Y, (at, level), 0.009, (-0.035, -0.001), 12))
-    low = level - a.draw(0.08, 0.13)
-    handle.add(box(about(0.009, at), (-0.045, -0.035), (low, level + 0.009)))
+    handle.add(*lever((at, level), (-0.001, -0.045), (at, level - a.draw(0.08, 0.13)), 0.009))
 
 
 def _pivoted(a: Assembly, style: Style, cell: Cell) -> None:

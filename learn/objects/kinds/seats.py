@@ -6,8 +6,18 @@ import numpy as np
 
 from asset_factory.factory.mesh import FloatArray, Material
 
-from ..kit.assembly import BACK, LEFT, RIGHT, UP, Assembly, PartDraft, facing_up
-from ..kit.controls import button
+from ..kit.assembly import (
+    BACK,
+    LEFT,
+    RIGHT,
+    UP,
+    Assembly,
+    PartDraft,
+    facing_front,
+    facing_side,
+    facing_up,
+)
+from ..kit.controls import button, lever
 from ..kit.looks import BLACK, BLUE, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
 from ..kit.spans import PLAY, X, Y, Z, about, mid, span, within
@@ -216,18 +226,13 @@ def _cistern(a: Assembly, wall: float, rim: float, metal: Material) -> None:
     level = z[1] - a.draw(0.04, 0.09)
     length = a.draw(0.06, 0.11)
     side = a.sign()
-    if style == "lever":
-        at = side * (half - a.draw(0.04, 0.06))
-        pivot = (at, y[0] - 0.008, level)
-        stem = cylinder(Y, (at, level), 0.009, (y[0] - 0.028, y[0] - 0.006), 14)
-        start = np.array((at, y[0] - 0.022, level))
-        lever = a.hinge("lever", (0.0, side, 0.0), pivot, a.degrees(25, 50), look=metal)
-        tip = start - (side * length, 0.0, 0.01)
-    else:
-        at = side * (half + 0.008)
-        pivot = (at, mid(y), level)
-        stem = cylinder(X, (mid(y), level), 0.009, span(at - side * 0.002, side * 0.022), 14)
-        start = np.array((at + side * 0.012, mid(y), level))
-        lever = a.hinge("lever", (-side, 0.0, 0.0), pivot, a.degrees(25, 50), look=metal)
-        tip = start - (0.0, length, 0.01)
-    lever.add(stem, pipe(np.linspace(start, tip, 3), [0.006, 0.006, 0.008], 8))
+    at = side * (half - a.draw(0.04, 0.06))
+    face = facing_front(y[0])
+    if style == "side":
+        at = side * mid(y)
+        face = facing_side(side * half)
+    axis = (0.0, side, 0.0)
+    pivot = (at, -0.008, level)
+    handle = a.hinge("lever", axis, pivot, a.degrees(25, 50), look=metal, place=face)
+    tip = (at - side * length, level - 0.01)
+    handle.add(*lever((at, level), (-0.006, -0.028), tip, 0.008))

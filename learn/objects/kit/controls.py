@@ -1,4 +1,4 @@
-"""Knobs, buttons and keys on a face; where the face is, its place says."""
+"""Knobs, levers, buttons and keys on a face; where the face is, its place says."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from asset_factory.factory.mesh import Material
 
 from .assembly import BACK, Assembly, PartDraft, Place
 from .looks import BLACK, RED, STEEL, WHITE
-from .shapes import Form, block, box, cylinder, lathe
-from .spans import PLAY, Span, Y, about, between, mid, shares, size, span, within
+from .shapes import Form, block, box, cylinder, lathe, pipe
+from .spans import PLAY, Flat, Span, Y, about, between, mid, shares, size, span, within
 
 #: How far knobs turn [rad], unless said otherwise.
 TURNS = (np.pi / 2, np.pi, 1.5 * np.pi, 5.2)
@@ -53,6 +53,17 @@ def knob(
     else:
         part.add(box(about(0.2 * radius, x), (rim, step), about(0.95 * radius, z)))
     return part
+
+
+def lever(at: Flat, y: Span, tip: Flat, radius: float) -> list[Form]:
+    """Build a stem through a face at ``at``, and at its end an arm to ``tip``.
+
+    Of ``y``, the first is where the stem begins, the second where the arm ends [m].
+    """
+    x, z = at
+    middle = y[1] + (radius if y[1] < y[0] else -radius)
+    arm = pipe([(x, middle, z), (tip[0], middle, tip[1])], 0.8 * radius, 8, up=BACK)
+    return [cylinder(Y, at, radius, span(y[0], y[1] - y[0]), 12), arm]
 
 
 def knob_row(
