@@ -6,12 +6,13 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, UP, Assembly, facing_up
+from ..kit.assembly import Assembly
+from ..kit.axes import BACK, FRONT, LEFT, RIGHT, UP, X, Y, Z, facing_up
 from ..kit.controls import button, cells, key
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import oval, rounded
 from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, ribbon
-from ..kit.spans import PLAY, Span, X, Y, Z, about, centred, span, within
+from ..kit.spans import PLAY, Span, about, centred, span, within
 
 
 def usb_stick(a: Assembly) -> None:

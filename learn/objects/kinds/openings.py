@@ -8,7 +8,8 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, FRONT, LEFT, UP, Assembly, PartDraft
+from ..kit.assembly import Assembly, PartDraft
+from ..kit.axes import BACK, FRONT, LEFT, UP, Y
 from ..kit.boards import frame
 from ..kit.casework import Casework, Leaf
 from ..kit.controls import lever
@@ -18,7 +19,7 @@ from ..kit.looks import BLACK, GLASS
 from ..kit.panels import panel
 from ..kit.pulls import add_pull, any_pull
 from ..kit.shapes import box, cylinder, lathe
-from ..kit.spans import Flat, Profile, Span, Y, about, ends, mid, size, span, within
+from ..kit.spans import Flat, Profile, Span, about, ends, mid, size, span, within
 from ..kit.styles import Style, any_color, any_metal, any_style
 
 LEAVES: dict[str, float] = {

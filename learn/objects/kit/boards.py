@@ -7,9 +7,10 @@ import numpy as np
 from asset_factory.factory.mesh import Material
 
 from .assembly import Assembly, PartDraft
+from .axes import X, Y
 from .looks import BLACK
 from .shapes import Form, box, cylinder, frustum, lathe
-from .spans import Flat, Span, X, Y, about, between, ends, mid, size, span, within
+from .spans import Flat, Span, about, between, ends, mid, size, span, within
 
 #: Legs from bottom to top: shares of the height and of the half width.
 _TURNED = ((0.0, 0.5), (0.12, 0.8), (0.2, 0.45), (0.75, 0.9), (0.8, 0.6), (0.85, 1.0), (1.0, 1.0))

@@ -9,14 +9,15 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from .assembly import DOWN, FRONT, LEFT, RIGHT, UP, Assembly, Hanging, PartDraft
+from .assembly import Assembly, Hanging, PartDraft
+from .axes import DOWN, FRONT, LEFT, RIGHT, UP, Point, X
 from .boards import carcass, frame, stand, tray
 from .hinges import swing
 from .layouts import Cell, Divider, Node, divided
 from .panels import panel
 from .pulls import add_pull
 from .shapes import box, cylinder
-from .spans import Point, Span, X, about, between, mid, shares, size, span, within
+from .spans import Span, about, between, mid, shares, size, span, within
 from .styles import Style
 
 #: Edges of a front, and which way one turns that is hinged there; positive angles open towards -Y.

@@ -8,10 +8,11 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from .assembly import BACK, Assembly, PartDraft, Place
+from .assembly import Assembly, PartDraft
+from .axes import BACK, Place, Y
 from .looks import BLACK, RED, STEEL, WHITE
 from .shapes import Form, block, box, cylinder, lathe, pipe
-from .spans import PLAY, Flat, Span, Y, about, between, mid, shares, size, span, within
+from .spans import PLAY, Flat, Span, about, between, mid, shares, size, span, within
 
 #: How far knobs turn [rad], unless said otherwise.
 TURNS = (np.pi / 2, np.pi, 1.5 * np.pi, 5.2)

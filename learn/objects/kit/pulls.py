@@ -8,12 +8,13 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from .assembly import BACK, PartDraft
+from .assembly import PartDraft
+from .axes import BACK, X, Y
 from .boards import frame
 from .chance import Chance
 from .outlines import arc
 from .shapes import Form, box, cylinder, lathe, pipe, prism, ribbon
-from .spans import Profile, Span, X, Y, about, ends, span, within
+from .spans import Profile, Span, about, ends, span, within
 
 #: Kinds of pull and how often each is drawn; ``none``: the front is moved by its edge.
 KINDS: dict[str, float] = {
