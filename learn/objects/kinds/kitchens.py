@@ -11,7 +11,7 @@ from asset_factory.factory.mesh import Material
 
 from ..kit.assembly import Assembly
 from ..kit.axes import FRONT, UP, Point, Z, facing_front, facing_up
-from ..kit.boards import rack, slab, worktop
+from ..kit.boards import corners, rack, slab, worktop
 from ..kit.casework import Casework, furniture
 from ..kit.controls import button, cells, key, keypad, knob, knob_row
 from ..kit.layouts import Node, column, drawers, filling, row
@@ -54,14 +54,14 @@ def burners(a: Assembly, x: Span, y: Span, z: float) -> None:
 
 
 def _grate(a: Assembly, at: Point, half: float) -> None:
-    x, y, z = at
-    top = span(z + 0.025, 0.008)
-    offsets = (-0.9 * half, 0.0, 0.9 * half)
-    bars = [box(about(half, x), about(0.005, y + off), top) for off in offsets]
-    bars += [box(about(0.005, x + off), about(half, y), top) for off in offsets]
-    feet = [(x + u, y + v) for u in offsets[::2] for v in offsets[::2]]
-    bars += [box(about(0.005, u), about(0.005, v), (z, top[0])) for u, v in feet]
-    a.root.add(*bars, look=BLACK)
+    x, y = (about(half, v) for v in at[:2])
+    feet = (box(about(0.005, u), about(0.005, v), span(at[2], 0.026)) for u, v in corners(x, y))
+    a.root.add(
+        *rack(x, y, at[2] + 0.025, 1),
+        box(x, about(0.005, at[1]), span(at[2] + 0.025, 0.008)),
+        *feet,
+        look=BLACK,
+    )
 
 
 def racks(a: Assembly, case: Casework, most: int = 3) -> None:
@@ -77,7 +77,8 @@ def _panel_row(a: Assembly, case: Casework, share: float, looks: tuple[Material,
     """Build knobs on the fixed panel that is the uppermost ``share`` of a case's front."""
     high = share * size(case.z)
     x = within(case.x, case.style.board)
-    knob_row(a, x, case.z[1] - high / 2, high, looks, facing_front(case.face))
+    place = facing_front(case.face)
+    knob_row(a, x, case.z[1] - high / 2, high, looks, place, case.prefix)
 
 
 def stove(a: Assembly) -> None:
@@ -318,14 +319,6 @@ def _oven_style(style: Style) -> Style:
     return replace(glazed, hollow=True, face=STEEL, shelves=0, slide=0.7)
 
 
-def _dials(a: Assembly, case: Casework, high: float, prefix: str = "") -> None:
-    """Build knobs on the fixed panel over an oven, which is ``high`` [m]."""
-    x = within(case.x, case.style.board)
-    level = case.z[1] - high / 2
-    room = high - 2.4 * case.style.board
-    knob_row(a, x, level, room, (any_metal(a), RED), facing_front(case.face), prefix)
-
-
 def kitchen(a: Assembly) -> None:
     """Build two to five base units, a worktop with a sink or a hob; at times wall units."""
     depth, base, height = a.draws((0.5, 0.65), (0.07, 0.15), (0.65, 0.78))
@@ -344,7 +337,7 @@ def kitchen(a: Assembly) -> None:
         case = Casework(a, mine, x, y, z, f"unit_{i}_").build(_node(a, unit))
         if unit == "oven":
             hob = x
-            _dials(a, case, 0.16 * height, case.prefix)
+            _panel_row(a, case, 0.16, (any_metal(a), RED))
             shelf = rack(within(x, mine.board), within(y, 0.05, 0.03), z[0] + 0.6 * height, 8)
             a.root.add(*shelf, look=STEEL)
     if not a.parts:
@@ -396,4 +389,4 @@ def oven_tower(a: Assembly) -> None:
     oven = column((0.82, "flap"), (0.18, "fixed"))
     case = Casework(a, _oven_style(style), x, y, middle, "oven_").build(oven)
     Casework(a, style, x, y, (middle[1], base + height), "high_").build(above)
-    _dials(a, case, 0.18 * size(middle))
+    _panel_row(a, case, 0.18, (any_metal(a), RED))

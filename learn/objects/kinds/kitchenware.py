@@ -7,11 +7,12 @@ import numpy as np
 from asset_factory.factory.mesh import Material
 
 from ..kit.assembly import Assembly, PartDraft
-from ..kit.axes import DOWN, FRONT, LEFT, RIGHT, UP, Place, Z, facing_front, facing_side
+from ..kit.axes import DOWN, FRONT, LEFT, RIGHT, UP, Place, Z, facing_front, facing_side, facing_up
 from ..kit.boards import corners, tray
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import arc, rounded
+from ..kit.pulls import Pull, add_pull
 from ..kit.shapes import ball, block, both, box, cylinder, lathe, pipe, ribbon
 from ..kit.spans import PLAY, Profile, about, centred, ends, span, within
 
@@ -32,18 +33,11 @@ def _side_curve(a: Assembly, foot: float, belly: float, rim: float, high: float)
     return list(zip(radius.tolist(), (high * t).tolist(), strict=True))
 
 
-def _round_knob(a: Assembly, part: PartDraft, z: float, size: float, look: Material) -> None:
-    style = a.weighted({"turned": 0.4, "ball": 0.3, "bow": 0.3})
-    if style == "turned":
-        shape = ((0.5, 0.0), (0.4, 0.5), (1.0, 1.0), (0.9, 1.6))
-        part.add(lathe([(r * size, z + h * size) for r, h in shape], sides=16), look=look)
-    elif style == "ball":
-        stem = cylinder(Z, (0.0, 0.0), 0.3 * size, span(z, 0.7 * size), 10)
-        part.add(stem, ball((0, 0, z + 1.2 * size), 0.8 * size), look=look)
-    else:
-        x, rise = arc((0.0, 0.0), 1.6 * size, np.pi, 0.0, 9).T
-        path = np.stack([x, 0 * x, z - 0.15 * size + 0.8 * rise], axis=1)
-        part.add(pipe(path, 0.25 * size, 8), look=look)
+def _lid_knob(a: Assembly, lid: PartDraft, z: float, size: float, look: Material) -> None:
+    """Put a knob or a bow of some ``size`` [m] on the middle of a lid whose top is at ``z``."""
+    kind = a.weighted({"knob": 0.4, "ball": 0.3, "bow": 0.3})
+    pull = Pull(kind, 3.2 * size, 1.7 * size, 0.6 * size, look)
+    add_pull(lid, pull, (0.0, 0.0), facing_up(z), 4.0 * size)
 
 
 def pot(a: Assembly) -> None:
@@ -69,7 +63,7 @@ def pot(a: Assembly) -> None:
     lid.add(lathe([(rim, low), (rim, low + 0.003), *dome], sides=sides))
     neck = wide - wall - 0.003
     lid.add(lathe([(neck, top - 0.006), (neck, top + 0.0008)], sides=sides))
-    _round_knob(a, lid, float(level[-1]), a.draw(0.012, 0.022), dark)
+    _lid_knob(a, lid, float(level[-1]), a.draw(0.012, 0.022), dark)
 
 
 def _handles(a: Assembly, wide: float, high: float, look: Material) -> None:
@@ -126,7 +120,7 @@ def kettle(a: Assembly) -> None:
     middle, peak = a.draws((z + 0.006, z + 0.02), (z + 0.02, z + 0.022))
     dome = [(rim, z), (0.97 * rim, z + 0.004), (0.5 * rim, middle), (0.2 * rim, peak)]
     lid.add(lathe(dome, sides=32))
-    _round_knob(a, lid, z + 0.018, a.draw(0.008, 0.013), dark)
+    _lid_knob(a, lid, z + 0.018, a.draw(0.008, 0.013), dark)
     if electric and switched:
         y = belly + 0.012
         low = lift + 0.03

@@ -9,7 +9,7 @@ import numpy as np
 from asset_factory.factory.mesh import Material
 
 from ..kit.assembly import Assembly, PartDraft
-from ..kit.axes import BACK, FRONT, LEFT, UP, Y
+from ..kit.axes import BACK, FRONT, LEFT, UP, Y, facing_front
 from ..kit.boards import frame
 from ..kit.casework import Casework, Leaf
 from ..kit.controls import lever
@@ -139,7 +139,8 @@ def sliding_door(a: Assembly) -> None:
         leaf.add(box(about(0.015, v), strap, (height - 0.1, rail + 0.08)), look=metal)
         leaf.add(cylinder(Y, (v, rail + 0.063), 0.022, (strap[1], -0.008)), look=metal)
     pull = any_pull(a, metal, ("bar", "rail", "recess"))
-    add_pull(leaf, pull, x[1] - 0.06 if away < 0 else x[0] + 0.06, 1.0, y[0], True, 0.6)
+    edge = x[1] - 0.06 if away < 0 else x[0] + 0.06
+    add_pull(leaf, pull, (edge, 1.0), facing_front(y[0]), 0.6, True)
 
 
 def _on_tracks(a: Assembly, style: Style, width: float, height: float, kind: str) -> None:

@@ -232,7 +232,8 @@ def _porthole(a: Assembly, at: Flat, radius: float) -> None:
         door.add(cylinder(Y, at, 0.7 * radius, span(y[0], -0.002), 28), look=GLASS)
     pull = any_pull(a, any_metal(a), ("bar", "bow", "recess", "rail"))
     far = at[0] + (0.92 if side == "left" else -0.92) * radius
-    add_pull(door, replace(pull, length=0.35 * radius), far, at[1], y[0], True, radius)
+    pull = replace(pull, length=0.35 * radius)
+    add_pull(door, pull, (far, at[1]), facing_front(y[0]), radius, True)
 
 
 def _controls(a: Assembly, x: Span, z: Span) -> None:

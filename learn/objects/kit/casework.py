@@ -10,7 +10,7 @@ import numpy as np
 from asset_factory.factory.mesh import Material
 
 from .assembly import Assembly, Hanging, PartDraft
-from .axes import DOWN, FRONT, LEFT, RIGHT, UP, Point, X
+from .axes import DOWN, FRONT, LEFT, RIGHT, UP, Point, X, facing_front
 from .boards import carcass, frame, stand, tray
 from .hinges import swing
 from .layouts import Cell, Divider, Node, divided
@@ -182,16 +182,17 @@ class Casework:
         kind = style.upper if sum(cell.z) > sum(self.z) else style.panel
         panel(door, kind, x, span(self.face, style.front), z, style.rail)
         margin = min(max(0.5 * style.rail, 0.02), 0.4 * width)
+        place = facing_front(self.face)
         if not upright:
             level = z[1] - margin if side == "bottom" else z[0] + margin
-            add_pull(door, style.pull, mid(x), level, self.face, False, 0.8 * size(x))
+            add_pull(door, style.pull, (mid(x), level), place, 0.8 * size(x))
             return
         at = x[1] - margin if side == "left" else x[0] + margin
         reach = 0.02
         if style.pull.kind not in ("knob", "ball"):
             reach = 0.55 * min(style.pull.length, 0.8 * size(z))
         level = min(max(z[0] + style.pull_at * size(z), z[0] + reach), z[1] - reach)
-        add_pull(door, style.pull, at, level, self.face, True, 0.8 * size(z))
+        add_pull(door, style.pull, (at, level), place, 0.8 * size(z), True)
 
     def _drawer(self, cell: Cell, front: _Front) -> None:
         style = self.style
@@ -218,7 +219,7 @@ class Casework:
         for share in places:
             room = size(x) / len(places)
             at = x[0] + share * size(x)
-            add_pull(drawer, style.pull, at, level, self.face, False, room)
+            add_pull(drawer, style.pull, (at, level), facing_front(self.face), room)
 
     def _drawer_box(self, drawer: PartDraft, cell: Cell, y: Span) -> None:
         """Build bottom, sides and back behind a drawer's front, or a block."""
@@ -288,7 +289,8 @@ class Casework:
             rail = style.rail if style.backless else min(style.rail, 0.05)
             panel(part, style.panel if seen else "slab", x, y, z, rail, style.face)
             if not (i or upright) and style.pull.kind in ("recess", "bar", "rail", "knob"):
-                add_pull(part, style.pull, x[0] + 0.04, mid(z), y[0], True, 0.5 * size(z))
+                at = (x[0] + 0.04, mid(z))
+                add_pull(part, style.pull, at, facing_front(y[0]), 0.5 * size(z), True)
 
 
 def furniture(

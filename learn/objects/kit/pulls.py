@@ -1,4 +1,4 @@
-"""Things to pull at, on a face that looks towards -Y."""
+"""Things to pull at, on a face."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 from asset_factory.factory.mesh import Material
 
 from .assembly import PartDraft
-from .axes import BACK, X, Y
+from .axes import BACK, Place, X, Y
 from .boards import frame
 from .chance import Chance
 from .outlines import arc
 from .shapes import Form, box, cylinder, lathe, pipe, prism, ribbon
-from .spans import Profile, Span, about, ends, span, within
+from .spans import Flat, Profile, Span, about, ends, span, within
 
 #: Kinds of pull and how often each is drawn; ``none``: the front is moved by its edge.
 KINDS: dict[str, float] = {
@@ -52,9 +52,9 @@ def any_pull(chance: Chance, look: Material, kinds: tuple[str, ...] = ()) -> Pul
 
 
 def add_pull(
-    part: PartDraft, pull: Pull, x: float, z: float, face: float, upright: bool, room: float
+    part: PartDraft, pull: Pull, at: Flat, place: Place, room: float, upright: bool = False
 ) -> None:
-    """Add a pull about ``(x, z)`` on the plane y = ``face`` [m], along x or ``upright``.
+    """Add a pull about a point of a face, along it or ``upright``.
 
     It becomes no longer than ``room`` [m] allows.
     """
@@ -63,7 +63,7 @@ def add_pull(
         return
     for form in _forms(pull, length / 2, upright):
         placed = form.turned(BACK, -np.pi / 2) if upright else form
-        part.add(placed.shifted((x, face, z)), look=pull.look)
+        part.add(placed.shifted((at[0], 0.0, at[1])).moved(place), look=pull.look)
 
 
 def _forms(pull: Pull, half: float, upright: bool) -> list[Form]:
