@@ -11,7 +11,7 @@ from asset_factory.factory.mesh import Material
 
 from ..kit.assembly import Assembly
 from ..kit.axes import FRONT, UP, Point, Z, facing_front, facing_up
-from ..kit.boards import corners, rack, slab, worktop
+from ..kit.boards import corners, put_top, rack
 from ..kit.casework import Casework, furniture
 from ..kit.controls import button, cells, key, keypad, knob, knob_row
 from ..kit.layouts import Node, column, drawers, filling, row
@@ -56,12 +56,8 @@ def burners(a: Assembly, x: Span, y: Span, z: float) -> None:
 def _grate(a: Assembly, at: Point, half: float) -> None:
     x, y = (about(half, v) for v in at[:2])
     feet = (box(about(0.005, u), about(0.005, v), span(at[2], 0.026)) for u, v in corners(x, y))
-    a.root.add(
-        *rack(x, y, at[2] + 0.025, 1),
-        box(x, about(0.005, at[1]), span(at[2] + 0.025, 0.008)),
-        *feet,
-        look=BLACK,
-    )
+    across = box(x, about(0.005, at[1]), span(at[2] + 0.025, 0.008))
+    a.root.add(*rack(x, y, at[2] + 0.025, 1), across, *feet, look=BLACK)
 
 
 def racks(a: Assembly, case: Casework, most: int = 3) -> None:
@@ -344,21 +340,13 @@ def kitchen(a: Assembly) -> None:
         Casework(a, style, span(left, 0.5), y, z, "last_").build("door")
         left += 0.5
     a.root.add(box((0.01, left - 0.01), (0.05, depth), (0.0, base)), look=BLACK)
-    _worktop(a, style, (0.0, left), y, z[1], hob)
+    sunk = hob is None and not style.hollow and left > 0.9 and a.happens(0.5)
+    deep = within(y, -max(0.0, style.proud), 0.0)
+    top = put_top(a, "sink" if sunk else "board", (0.0, left), deep, z[1], any_color(a))
+    if hob is not None and a.happens(0.7):
+        burners(a, within(hob, 0.03), (0.06, depth - 0.05), top)
     if a.happens(0.35):
         _wall_units(a, style, left, depth, z[1])
-
-
-def _worktop(a: Assembly, style: Style, x: Span, y: Span, z: float, hob: Span | None) -> None:
-    over = a.pick(0.0, 0.01, 0.025)
-    look = any_color(a)
-    deep = within(y, -max(0.0, style.proud) - over, 0.0)
-    if hob is None and not style.hollow and size(x) > 0.9 and a.happens(0.5):
-        worktop(a, "sink", x, deep, z, (look, STEEL))
-        return
-    a.root.add(slab(x, deep, z, 0.035), look=look)
-    if hob is not None and a.happens(0.7):
-        burners(a, within(hob, 0.03), (0.06, y[1] - 0.05), z + 0.035)
 
 
 def _wall_units(a: Assembly, style: Style, width: float, depth: float, z: float) -> None:
