@@ -11,7 +11,7 @@ from asset_factory.factory.mesh import Material
 
 from .assembly import Assembly, Hanging, PartDraft
 from .axes import DOWN, FRONT, LEFT, RIGHT, UP, Point, X, facing_front
-from .boards import carcass, frame, stand, tray
+from .boards import carcass, stand, tray
 from .hinges import swing
 from .layouts import Cell, Divider, Node, divided
 from .panels import panel
@@ -83,21 +83,13 @@ class Casework:
         style = self.style
         body = self.a.root
         self.cells, dividers = divided(node, self.x, self.z, style.board, style.bare)
-        solid = not style.hollow and all(cell.kind != "open" for cell in self.cells)
-        deep = (self.start, self.y[1])
-        if not solid:
-            *boards, back = carcass(self.x, self.y, self.z, style.board, sill=style.sill)
-            body.add(*boards, look=style.body)
-            body.add(*([] if style.backless else [back]), look=style.inside)
-        else:
-            body.add(box(self.x, deep, self.z), look=style.body)
-            if style.inset:
-                rim = frame(self.x, (self.y[0], self.start), self.z, style.board)
-                body.add(*rim, look=style.body)
-        if not solid or style.inset:
-            self._divide(dividers)
+        *boards, back = carcass(self.x, self.y, self.z, style.board, sill=style.sill)
+        body.add(*boards, look=style.body)
+        body.add(*([] if style.backless else [back]), look=style.inside)
+        self._divide(dividers)
         for cell in self.cells:
-            if not (solid or style.hollow or cell.kind == "open"):
+            if not (style.hollow or cell.kind == "open"):
+                deep = (self.start, self.y[1])
                 body.add(box(cell.inner[0], deep, cell.inner[1]), look=style.body)
             self._fill(cell)
         return self
@@ -202,24 +194,17 @@ class Casework:
         travel = round(style.slide * reach, 3)
         drawer = self.a.slider(self._name(cell, "drawer"), FRONT, at, travel, look=style.face)
         panel(drawer, style.drawer, front.x, span(self.face, style.front), front.z, style.rail)
-        self._drawer_pulls(drawer, front)
-        if style.hollow and size(cell.inner[1]) > 0.03:
-            self._drawer_box(drawer, cell, (self.face + style.front, inside[0] + reach))
-
-    def _drawer_pulls(self, drawer: PartDraft, front: _Front) -> None:
-        style = self.style
-        x = front.x
         z = front.z
-        if size(z) < 0.045:
-            return
         level = min(max(z[0] + style.drawer_pull_at * size(z), z[0] + 0.02), z[1] - 0.02)
         if style.pull.kind == "lip":
             level = z[1] - 0.013
-        places = (0.25, 0.75) if style.pairs and size(x) > 0.5 else (0.5,)
-        for share in places:
-            room = size(x) / len(places)
-            at = x[0] + share * size(x)
-            add_pull(drawer, style.pull, (at, level), facing_front(self.face), room)
+        places = (0.25, 0.75) if style.pairs and size(front.x) > 0.5 else (0.5,)
+        place = facing_front(self.face)
+        for share in places if size(z) >= 0.045 else ():
+            spot = (front.x[0] + share * size(front.x), level)
+            add_pull(drawer, style.pull, spot, place, size(front.x) / len(places))
+        if style.hollow and size(cell.inner[1]) > 0.03:
+            self._drawer_box(drawer, cell, (self.face + style.front, inside[0] + reach))
 
     def _drawer_box(self, drawer: PartDraft, cell: Cell, y: Span) -> None:
         """Build bottom, sides and back behind a drawer's front, or a block."""
