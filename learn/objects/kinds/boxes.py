@@ -323,22 +323,16 @@ def trolley_case(a: Assembly) -> None:
     handle.add(*both(cylinder(Z, at, 0.006, (base + 0.055, top), 10)))
     grip = block(about(apart + 0.012), about(0.011, rail), span(top, 0.022), 0.008, 0.004)
     handle.add(grip, look=BLACK)
-    _luggage_wheels(a, half_x - r - 0.012, y, radius, base, metal)
-
-
-def _luggage_wheels(
-    a: Assembly, half: float, y: Span, radius: float, base: float, metal: Material
-) -> None:
     four = a.happens(0.5)
     rear = y[1] - (0.04 if four else 0.02)
-    for name, x in (("left", -half), ("right", half)):
+    for name, at_x in zip(("left", "right"), about(half_x - r - 0.012), strict=True):
         if four:
-            castor(a, f"rear_{name}", (x, rear, base), radius, 0.012, 0.0, metal)
-            castor(a, f"front_{name}", (x, y[0] + 0.03, base), radius, 0.012, 0.0, metal)
+            castor(a, f"rear_{name}", (at_x, rear, base), radius, 0.012, 0.0, metal)
+            castor(a, f"front_{name}", (at_x, y[0] + 0.03, base), radius, 0.012, 0.0, metal)
             continue
-        wheel(a, f"{name}_wheel", (x, rear, radius), radius, 0.02, metal)
-        foot = box(about(0.01, x), about(0.015, y[0] + 0.03), (0.0, base - 0.008))
-        a.root.add(foot, *bracket(x, rear, radius, 0.02, base + 0.002), look=metal)
+        wheel(a, f"{name}_wheel", (at_x, rear, radius), radius, 0.02, metal)
+        foot = box(about(0.01, at_x), about(0.015, y[0] + 0.03), (0.0, base - 0.008))
+        body.add(foot, *bracket(at_x, rear, radius, 0.02, base + 0.002), look=metal)
 
 
 def mailbox(a: Assembly) -> None:

@@ -88,10 +88,10 @@ def stored(plan: CaseworkPlan, a: Assembly) -> None:
         board = gap + a.draw(0.008, 0.02)
         reveal = a.draw(0.3, 0.9) * board
         style = replace(style, gap=gap, board=board, reveal=reveal, bare=False)
-    case = Casework(a, style, (0.0, width), (0.0, depth), span(base, height)).build(node)
+    look = style.body if a.happens(0.7) else BLACK
+    case = furniture(a, style, (width, depth, height), node, support, base, look)
     if not a.parts:
         case.build("double")
-    stand(a, support, case.x, case.y, base, style.body if a.happens(0.7) else BLACK)
     deep = within(case.y, -max(0.0, style.proud), 0.0)
     put_top(a, top, case.x, deep, base + height, any_color(a))
 

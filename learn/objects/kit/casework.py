@@ -274,8 +274,8 @@ class Casework:
             rail = style.rail if style.backless else min(style.rail, 0.05)
             panel(part, style.panel if seen else "slab", x, y, z, rail, style.face)
             if not (i or upright) and style.pull.kind in ("recess", "bar", "rail", "knob"):
-                at = (x[0] + 0.04, mid(z))
-                add_pull(part, style.pull, at, facing_front(y[0]), 0.5 * size(z), True)
+                spot = (x[0] + 0.04, mid(z))
+                add_pull(part, style.pull, spot, facing_front(y[0]), 0.5 * size(z), True)
 
 
 def furniture(
