@@ -77,7 +77,7 @@ def sample_object(
     kinds = chosen.categories or CATEGORIES
     chance = Chance(rng)
     for _ in range(TRIES):
-        category = chance.pick(*kinds)
+        category = kinds[int(rng.integers(len(kinds)))]
         made, look = (int(seed) for seed in rng.integers(FIRST_SEED, _LARGEST_SEED, 2))
         character = chance.weighted(chosen.weights)
         if chance.happens(chosen.plain) and character == "artist":

@@ -9,7 +9,7 @@ from asset_factory.factory.mesh import Material
 from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import DOWN, FRONT, LEFT, RIGHT, UP, Place, Z, facing_front, facing_side, facing_up
 from ..kit.boards import corners, tray
-from ..kit.controls import button, knob
+from ..kit.controls import control
 from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import arc, rounded
 from ..kit.pulls import Pull, add_pull
@@ -275,7 +275,7 @@ def coffee_machine(a: Assembly) -> None:
     radius = min(a.draw(0.009, 0.02), 0.8 * half / count)
     for i in range(count):
         at = ((i - (count - 1) / 2) * 1.7 * half / count, (under + high) / 2)
-        _control(a, i, at, radius, dark, facing_front(front), 0.5)
+        control(a, i, at, radius, dark, facing_front(front), 0.5)
     spout = 0.55 * front
     if a.happens(0.5):
         _filter_holder(a, spout, under - PLAY, dark)
@@ -286,23 +286,6 @@ def coffee_machine(a: Assembly) -> None:
     body.add(nozzle, look=dark)
     if a.happens(0.5):
         _jug(a, spout, base + 0.001, under - 0.032, 0.95 * min(half, -0.45 * front, 0.06), dark)
-
-
-def _control(
-    a: Assembly,
-    i: int,
-    at: tuple[float, float],
-    radius: float,
-    look: Material,
-    place: Place,
-    turned: float,
-) -> None:
-    """Build a knob in this share of cases, else a button."""
-    if a.happens(turned):
-        knob(a, f"knob_{i}", at, radius, look, place, upper=a.degrees(90, 300))
-        return
-    x, z = (about(0.6 * radius, v) for v in at)
-    button(a, f"button_{i}", x, z, look, place, stroke=0.0025, style=a.draw(0.2, 1.2))
 
 
 def _drip_tray(a: Assembly, half: float, front: float, base: float, dark: Material) -> None:
@@ -403,4 +386,4 @@ def _panel(
     for i in range(count):
         z = max(foot + radius + 0.005, floor - radius - 0.003)
         at = ((i - (count - 1) / 2) * 1.8 * room / count, z)
-        _control(a, i, at, radius, dark, place, 0.5 if i else 1.0)
+        control(a, i, at, radius, dark, place, 0.5 if i else 1.0)

@@ -115,6 +115,24 @@ def button(
     return part
 
 
+def control(
+    a: Assembly,
+    number: int,
+    at: Flat,
+    radius: float,
+    look: Material,
+    place: Place,
+    turned: float,
+) -> None:
+    """Build a knob about ``at`` in a share ``turned`` of cases, else a button."""
+    if a.happens(turned):
+        knob(a, f"knob_{number}", at, radius, look, place, upper=a.degrees(90, 300))
+        return
+    x, z = (about(0.6 * radius, v) for v in at)
+    style = a.draw(0.2, 1.2)
+    button(a, f"button_{number}", x, z, look, place, stroke=0.0025, style=style)
+
+
 def cells(
     x: Span, z: Span, rows: int, columns: int, margin: float = 0.1
 ) -> Iterator[tuple[str, Span, Span]]:
