@@ -10,9 +10,10 @@ from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.mesh import Material
 
 from ..objects.kit.assembly import Assembly
+from ..objects.kit.axes import Z
 from ..objects.kit.boards import carcass, corners, leg, stand
 from ..objects.kit.shapes import block, box, cylinder, frustum, lathe
-from ..objects.kit.spans import Span, Z, about, centred, ends, shares, span, upto, within
+from ..objects.kit.spans import Span, about, centred, ends, shares, span, upto, within
 from ..objects.kit.styles import any_color
 
 

@@ -14,9 +14,8 @@ from .kit.assembly import Assembly, Maker
 
 #: Files of kinds, in their order in the catalog.
 _FILES = (
-    "storage", "cooling", "cooking", "laundry", "openings", "tables", "lidded", "kitchens", "bins",
-    "boxes", "carts", "coffee", "fans", "fittings", "gadgets", "hand_tools", "lamps", "screens",
-    "seats", "vessels",
+    "storage", "white_goods", "kitchens", "openings", "tables_and_seats", "boxes", "bins", "carts",
+    "kitchenware", "lamps_and_fans", "fittings", "gadgets", "hand_tools", "screens",
 )  # fmt: skip
 
 #: Kinds for demonstrations: of convex forms only, each with corners of its own.

@@ -11,6 +11,7 @@ from asset_factory.factory.errors import ConfigError
 
 from ..surfaces import artist_like, fused_like, skin_like
 from .catalog import CATEGORIES, make_object
+from .kit.chance import Chance
 
 #: Seeds of objects, of which training may use all; tests make theirs from seeds below this.
 FIRST_SEED = 1_000_000
@@ -47,9 +48,9 @@ class MixtureSettings:
         if unknown:
             names = ", ".join(CATEGORIES)
             raise ConfigError(f"categories: there is no {unknown}, want some of {names}")
-        if min(self.weights) < 0.0 or sum(self.weights) <= 0.0:
-            artist, generated, skin = self.weights
-            weights = f"artist {artist}, generated {generated}, skin {skin}"
+        shares = self.weights.values()
+        if min(shares) < 0.0 or sum(shares) <= 0.0:
+            weights = ", ".join(f"{name} {weight}" for name, weight in self.weights.items())
             raise ConfigError(f"{weights}: want at least 0, one of them above")
         if not 0.0 <= self.plain <= 1.0:
             raise ConfigError(f"plain must be 0 to 1, not {self.plain}")
@@ -57,9 +58,9 @@ class MixtureSettings:
             raise ConfigError(f"most_parts must be at least 2, not {self.most_parts}")
 
     @property
-    def weights(self) -> tuple[float, float, float]:
-        """Return the weights of artists, early and recent image-to-3D tools."""
-        return self.artist, self.generated, self.skin
+    def weights(self) -> dict[str, float]:
+        """Return the weight of each character but the plain one."""
+        return {"artist": self.artist, "generated": self.generated, "skin": self.skin}
 
 
 def sample_object(
@@ -74,17 +75,15 @@ def sample_object(
     """
     chosen = settings or MixtureSettings()
     kinds = chosen.categories or CATEGORIES
+    chance = Chance(rng)
     for _ in range(TRIES):
         category = kinds[int(rng.integers(len(kinds)))]
         made, look = (int(seed) for seed in rng.integers(FIRST_SEED, _LARGEST_SEED, 2))
-        bound = rng.random() * sum(chosen.weights)
-        generated = bound >= chosen.artist
-        recent = bound >= chosen.artist + chosen.generated
-        plain = rng.random() < chosen.plain
+        character = chance.weighted(chosen.weights)
+        if chance.happens(chosen.plain) and character == "artist":
+            character = "plain"
         articulation = make_object(category, made)
         if sum(joint.movable for joint in articulation.joints) < chosen.most_parts:
-            modelled = "plain" if plain else "artist"
-            character = "skin" if recent else "generated" if generated else modelled
             changed, character = in_character(articulation, character, look)
             return f"{category}-{made}-{character}-{look}", changed
     wanted = f"most_parts is {chosen.most_parts}, too few for {', '.join(kinds)}"

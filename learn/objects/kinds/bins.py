@@ -6,15 +6,15 @@ import numpy as np
 
 from asset_factory.factory.mesh import FloatArray
 
-from ..kit.assembly import DOWN, LEFT, RIGHT, UP, Assembly
+from ..kit.assembly import Assembly
+from ..kit.axes import DOWN, LEFT, RIGHT, UP, X
 from ..kit.boards import tray
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL, WHITE
 from ..kit.outlines import arc, oval, rounded
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
-from ..kit.spans import Profile, X, about, centred, ends, span, within
+from ..kit.spans import PLAY, Profile, about, centred, ends, span, within
 from ..kit.wheels import wheel
 
-PLAY = 0.0015
 SKINS = (WHITE, GREEN, STEEL, BLUE, RED, BLACK)
 
 

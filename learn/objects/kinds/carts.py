@@ -6,12 +6,13 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import LEFT, RIGHT, Assembly
+from ..kit.assembly import Assembly
+from ..kit.axes import LEFT, RIGHT, X, Z
 from ..kit.boards import corners
 from ..kit.looks import BLACK, BLUE, GREEN, OAK, RED, STEEL, WHITE
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, stack
-from ..kit.spans import Span, X, Z, about, between, span, within
-from ..kit.wheels import PLAY, bracket, castor, wheel
+from ..kit.spans import PLAY, Span, about, between, span, within
+from ..kit.wheels import bracket, castor, wheel
 
 SIDES = (("left", -1.0), ("right", 1.0))
 

@@ -6,14 +6,13 @@ import numpy as np
 
 from asset_factory.factory.mesh import FloatArray, Material
 
-from ..kit.assembly import BACK, LEFT, RIGHT, UP, Assembly, PartDraft, facing_front
+from ..kit.assembly import Assembly, PartDraft
+from ..kit.axes import BACK, LEFT, RIGHT, UP, X, Y, Z, facing_front
 from ..kit.controls import button, knob
 from ..kit.looks import BLACK, BRASS, RED, STEEL, WHITE
 from ..kit.outlines import arc
 from ..kit.shapes import Form, ball, block, box, cylinder, lathe, pipe, prism
-from ..kit.spans import Flat, X, Y, Z, about, mid, shares, span
-
-PLAY = 0.0008
+from ..kit.spans import PLAY, Flat, about, mid, shares, span
 
 
 def faucet(a: Assembly) -> None:

@@ -6,14 +6,13 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, FRONT, LEFT, RIGHT, UP, Assembly, facing_up
+from ..kit.assembly import Assembly
+from ..kit.axes import BACK, FRONT, LEFT, RIGHT, UP, X, Y, Z, facing_up
 from ..kit.controls import button, cells, key
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import oval, rounded
-from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, ribbon
-from ..kit.spans import Span, X, Y, Z, about, centred, span, within
-
-PLAY = 0.0005
+from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
+from ..kit.spans import PLAY, Span, about, centred, span, within
 
 
 def usb_stick(a: Assembly) -> None:
@@ -179,14 +178,10 @@ def clock(a: Assembly) -> None:
     level = half + 0.3
     face = -0.4 * deep
     body = a.body(skin)
-    if a.happens(0.6):
-        shell = [(half, 0.0), (half, -deep), (radius, -deep), (radius, face)]
-        body.add(lathe(shell, (0, 0, level), Y, 40))
-    else:
-        outer = rounded(about(half), about(half, level), 0.02)
-        inner = rounded(about(radius), about(radius, level), 0.01)
-        body.add(ribbon(outer, inner, (-deep, 0.0), Y, looped=True))
-        body.add(block(about(radius), (face, -0.001), about(radius, level), 0.01, axis=Y))
+    corner = half if a.happens(0.6) else 0.02
+    outer, inner = (rounded(about(r), about(r, level), corner, 5) for r in (half, radius))
+    body.add(ribbon(outer, inner, (-deep, 0.0), Y, looped=True))
+    body.add(stack([(inner, face), (inner, -0.001)], Y))
     dots = oval(0.88 * radius, 0.88 * radius, 12).tolist()
     body.add(*(ball((x, face, level + z), 0.02 * radius, 6) for x, z in dots), look=dark)
     front = face - 0.02 * radius - PLAY

@@ -7,14 +7,12 @@ import numpy.typing as npt
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, DOWN, FRONT, LEFT, UP, Assembly, PartDraft
+from ..kit.assembly import Assembly, PartDraft
+from ..kit.axes import BACK, DOWN, FRONT, LEFT, UP, X, Y, Z
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL
 from ..kit.outlines import oval
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, pipe, ribbon
-from ..kit.spans import Span, X, Y, Z, about, ends, span, within
-
-#: Between blades that slide past each other [m].
-PLAY = 0.0006
+from ..kit.spans import PLAY, Span, about, ends, span, within
 
 
 def _strip(rows: npt.ArrayLike, along: Span, axis: int = Z) -> Form:

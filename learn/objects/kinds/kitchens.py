@@ -1,19 +1,288 @@
-"""Rows of kitchen units under one worktop, with built-in appliances."""
+"""Ranges, ovens, hobs, hoods, microwaves and dishwashers; and kitchens with some of them."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
-from ..kit.assembly import Assembly, facing_front
-from ..kit.boards import rack, slab, worktop
-from ..kit.casework import Casework
-from ..kit.controls import knob_row
-from ..kit.layouts import Node, column, drawers, filling
-from ..kit.looks import BLACK, RED, STEEL
-from ..kit.shapes import box
-from ..kit.spans import Span, shares, size, span, upto, within
-from ..kit.styles import Style, any_color, any_metal, any_style
-from .cooking import burners
+import numpy as np
+
+from asset_factory.factory.mesh import Material
+
+from ..kit.assembly import Assembly
+from ..kit.axes import FRONT, UP, Point, Z, facing_front, facing_up
+from ..kit.boards import corners, put_top, rack
+from ..kit.casework import Casework, furniture
+from ..kit.controls import button, cells, key, keypad, knob, knob_row
+from ..kit.layouts import Node, column, drawers, filling, row
+from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
+from ..kit.pulls import any_pull
+from ..kit.shapes import box, cylinder, frustum, hoop, lathe
+from ..kit.spans import Span, about, between, ends, mid, shares, size, span, upto, within
+from ..kit.styles import Style, any_color, any_metal, any_style, convex_style
+
+
+def _style(a: Assembly, panels: Mapping[str, float]) -> Style:
+    skin = a.pick(WHITE, STEEL, BLACK, STEEL)
+    pull = any_pull(a, any_metal(a), ("bar", "rail", "bow", "recess"))
+    style = any_style(a, panels, 0.0, 0.72, (0.5,))
+    board, front, gap, rail, length = a.draws(
+        (0.012, 0.03), (0.018, 0.045), (0.0015, 0.006), (0.06, 0.11), (0.25, 0.6)
+    )
+    face = skin if a.happens(0.7) else a.pick(STEEL, BLACK, WHITE)
+    style = replace(style, board=board, front=front, gap=gap, rail=rail, body=skin, face=face)
+    style = replace(style, pull=replace(pull, length=length), drawer="slab", drawer_pull_at=0.75)
+    return replace(style, reveal=0.0, shelves=0, bare=False)
+
+
+def burners(a: Assembly, x: Span, y: Span, z: float) -> None:
+    """Build burners on a hob at ``z``: plates, glass marks, or gas under grates."""
+    style = a.pick("plate", "mark", "gas")
+    columns = shares(x, 2 if size(x) < 0.75 else 3)
+    radius = 0.36 * min(size(columns[0]), size(y) / 2)
+    for at in [(mid(cx), mid(cy), z) for cx in columns for cy in shares(y, 2)]:
+        r = radius * a.draw(0.7, 1.0)
+        if style == "plate":
+            plate = [(r, 0.0), (r, 0.008), (0.9 * r, 0.01)]
+            a.root.add(lathe(plate, at, sides=20), look=BLACK)
+        elif style == "mark":
+            a.root.add(hoop(Z, at[:2], (0.92 * r, r), span(z, 0.001)), look=STEEL)
+        else:
+            gas = [(0.4 * r, 0.0), (0.4 * r, 0.015), (0.3 * r, 0.02)]
+            a.root.add(lathe(gas, at, sides=16), look=BLACK)
+            _grate(a, at, 1.2 * radius)
+
+
+def _grate(a: Assembly, at: Point, half: float) -> None:
+    x, y = (about(half, v) for v in at[:2])
+    feet = (box(about(0.005, u), about(0.005, v), span(at[2], 0.026)) for u, v in corners(x, y))
+    across = box(x, about(0.005, at[1]), span(at[2] + 0.025, 0.008))
+    a.root.add(*rack(x, y, at[2] + 0.025, 1), across, *feet, look=BLACK)
+
+
+def racks(a: Assembly, case: Casework, most: int = 3) -> None:
+    """Wire shelves behind every door of a case, as part of the body."""
+    y = within(case.y, 0.02, 0.03)
+    for door in case.doors if case.style.hollow else ():
+        x, z = door.cell.inner
+        for level in between(z, a.count(1, most)):
+            a.root.add(*rack(x, y, level, a.count(5, 13), a.happens(0.5)), look=STEEL)
+
+
+def _panel_row(a: Assembly, case: Casework, share: float, looks: tuple[Material, ...]) -> None:
+    """Build knobs on the fixed panel that is the uppermost ``share`` of a case's front."""
+    high = share * size(case.z)
+    x = within(case.x, case.style.board)
+    place = facing_front(case.face)
+    knob_row(a, x, case.z[1] - high / 2, high, looks, place, case.prefix)
+
+
+def stove(a: Assembly) -> None:
+    """Build a range: oven doors that drop, knobs before or behind the hob, often a drawer below."""
+    style = _style(a, {"glazed": 0.6, "slab": 0.3, "bevel": 0.1})
+    width, depth, height, share = a.draws((0.5, 1.2), (0.5, 0.7), (0.75, 0.92), (0.1, 0.17))
+    console = a.happens(0.4)
+    oven = column((1.0, "flap"), *([(0.7, "flap")] if a.happens(0.15) else []))
+    if width > 0.85 and a.happens(0.7):
+        oven = row((a.draw(0.9, 1.8), "flap"), (1.0, "flap"))
+    parts = [(0.78, oven), *([] if console else [(share, "fixed")])]
+    if a.happens(0.6):
+        parts.insert(0, (a.draw(0.15, 0.28), "drawer" if a.happens(0.8) else "fixed"))
+    support = a.pick("plinth", "feet")
+    base = a.pick(0.0, 0.03, 0.1)
+    case = furniture(a, style, (width, depth, height), column(*parts), support, base, BLACK)
+    looks = (any_metal(a), a.pick(RED, WHITE, BLACK))
+    top = case.z[1]
+    tall = a.draw(0.08, 0.2)
+    # Knobs on the console stand out over the hob.
+    burners(a, case.x, within(case.y, 0.0, 0.1 if console else 0.0), top)
+    if console or a.happens(0.3):
+        a.root.add(box(case.x, span(depth, -0.06), span(top, tall)), look=style.body)
+    if console:
+        place = facing_front(depth - 0.06)
+        knob_row(a, case.x, top + 0.55 * tall, 0.7 * tall, looks, place)
+    else:
+        _panel_row(a, case, share / sum(part for part, _ in parts), looks)
+    racks(a, case)
+
+
+def built_in_oven(a: Assembly) -> None:
+    """Build an oven without a hob: one or two doors under a panel with knobs and buttons."""
+    style = _style(a, {"glazed": 0.7, "slab": 0.3})
+    width, depth, share = a.draws((0.35, 0.76), (0.35, 0.6), (0.14, 0.24))
+    height = a.draw(0.28, 0.65) if a.happens(0.7) else a.draw(0.9, 1.3)
+    beside = height < 0.45 and a.happens(0.4)
+    door: Node = a.weighted({"flap": 0.8, "door": 0.2})
+    if height > 0.8:
+        door = column((1.0, "flap"), (0.9, "flap"))
+    node = column((1.0 - share, door), (share, "fixed"))
+    if beside:
+        node = row((0.76, door), (0.24, "fixed"))
+    case = furniture(a, style, (width, depth, height), node, "feet", 0.015, BLACK)
+    metal = any_metal(a)
+    if beside:
+        radius = min(0.08 * width, 0.025)
+        for i, level in enumerate(between(case.z, a.count(2, 4))):
+            at = (0.88 * width, level)
+            knob(a, f"knob_{i}", at, radius, metal, facing_front(case.face), mark=RED)
+    else:
+        _panel_row(a, case, share, (metal, RED))
+    racks(a, case)
+
+
+def microwave_oven(a: Assembly) -> None:
+    """Build a door beside a panel of keys, some of which give way; a plate that turns."""
+    *sizes, share = a.draws((0.42, 0.8), (0.3, 0.5), (0.24, 0.45), (0.16, 0.3))
+    style = _style(a, {"glazed": 0.6, "slab": 0.4})
+    style = replace(style, pull=replace(style.pull, length=0.7 * sizes[2]))
+    parts = [(1.0 - share, "door" if a.happens(0.85) else "flap"), (share, "fixed")]
+    right = a.happens(0.85)
+    node = row(*(parts if right else parts[::-1]))
+    case = furniture(a, style, tuple(sizes), node, "feet", 0.012, BLACK)
+    y = case.y
+    z = case.z
+    area = within(ends(case.x, share * sizes[0])[1 if right else 0], 0.012)
+    place = facing_front(case.face)
+    display = box(area, span(case.face, -0.001), (z[1] - 0.06, z[1] - 0.025))
+    a.root.add(display, look=GLASS)
+    keypad(a, area, (z[0] + 0.03, z[1] - 0.08), place, still=a.happens(0.5))
+    if style.hollow and a.happens(0.7):
+        room = case.doors[0].cell.inner[0]
+        at = (mid(room), mid(y), z[0] + style.board + 0.004)
+        radius = 0.4 * min(size(room), size(y))
+        plate = a.hinge("plate", UP, at, 6.2, look=GLASS)
+        plate.add(lathe([(0.9 * radius, 0.0), (radius, 0.006)], at))
+
+
+def hob(a: Assembly) -> None:
+    """Build a hob on its own, its knobs before or upon it."""
+    width, depth, height = a.draws((0.3, 1.0), (0.35, 0.55), (0.04, 0.18))
+    x, y = upto(width, depth)
+    metal = any_metal(a)
+    a.body(a.pick(STEEL, BLACK, WHITE)).add(box(x, y, (0.0, height)))
+    if height > 0.09:
+        burners(a, x, y, height)
+        knob_row(a, x, height / 2, height, (metal, RED), facing_front(0.0))
+        return
+    beside = a.happens(0.5)
+    row = y if beside else x
+    burners(a, (0.0, 0.8 * width) if beside else x, y if beside else (0.14, depth), height)
+    count = a.count(2, 6)
+    radius = min(0.022, 0.35 * size(row) / (count + 1))
+    for i, v in enumerate(between(row, count)):
+        at = (0.91 * width, v) if beside else (v, 0.06)
+        knob(a, f"knob_{i}", at, radius, metal, facing_up(height), mark=RED)
+
+
+def hood(a: Assembly) -> None:
+    """Build an extractor hood: a visor that slides out or a pane that lifts, and buttons."""
+    width, depth, low = a.draws((0.5, 1.0), (0.4, 0.55), (0.05, 0.1))
+    high, top = a.draws((low + 0.12, low + 0.3), (low + 0.5, low + 0.9))
+    x, y = upto(width, depth)
+    body = a.body(a.pick(STEEL, WHITE, BLACK))
+    flue = (about(0.13, width / 2), (depth - 0.3, depth))
+    body.add(frustum((x, y), flue, (low, high)), box(*flue, (high, top)))
+    for i, at in enumerate(np.linspace(0.3, 0.7, a.count(2, 5)) * width):
+        key_z = (0.028, low - 0.006)
+        button(a, f"button_{i}", about(0.01, at), key_z, WHITE, facing_front(0.0))
+    visored = a.happens(0.6)
+    body.add(box(x, y, (0.022 if visored else 0.0, low)))
+    if visored:
+        body.add(*(box(end, y, (0.0, 0.022)) for end in ends(x, 0.01)))
+        visor = a.slider("visor", FRONT, (width / 2, -0.02, 0.012), round(0.6 * depth, 3))
+        visor.add(box(within(x, 0.012), (-0.02, depth - 0.05), (0.004, 0.02)))
+
+
+def dish_washer(a: Assembly) -> None:
+    """Build a door that drops, before racks that come out over it."""
+    style = _style(a, {"slab": 0.7, "bevel": 0.3})
+    sizes = a.draws((0.42, 0.62), (0.5, 0.65), (0.6, 0.8))
+    node = a.weighted({"flap": 0.6, column((0.86, "flap"), (0.14, "fixed")): 0.4})
+    case = furniture(a, style, sizes, node, "plinth", a.draw(0.05, 0.13), BLACK)
+    if a.happens(0.4):
+        top = box(within(case.x, -0.01), (-0.03, sizes[1]), span(case.z[1], 0.03))
+        a.root.add(top, look=WHITE)
+    if not style.hollow:
+        return
+    door, cell, *_ = case.doors[0]
+    door.upper = max(door.upper, np.radians(90))
+    x = within(cell.inner[0], 0.012)
+    y = within(case.y, 0.02, 0.03)
+    floor = case.z[0] + style.board + 0.06
+    for i, low in enumerate(np.linspace(floor, case.z[0] + 0.7 * sizes[2], 3)[: a.count(1, 3)]):
+        part = a.root
+        if a.happens(0.75):
+            at = (sizes[0] / 2, 0.0, low)
+            part = a.slider(f"inner_rack_{i}", FRONT, at, round(0.8 * sizes[1], 3))
+        z = (float(low), min(low + a.draw(0.05, 0.13), cell.inner[1][1] - 0.012))
+        posts = [(px, py) for px in within(x, 0.003) for py in within(y, 0.003)]
+        wires = [cylinder(Z, at, 0.003, z, 6) for at in posts]
+        part.add(*rack(x, y, z[0], 12), *rack(x, y, z[1], 0), *wires, look=STEEL)
+
+
+def _demo(
+    a: Assembly, sizes: tuple[float, ...], node: Node, support: str, base: float, style: Style, *,
+    length: float, look: Material,
+) -> Casework:  # fmt: skip
+    """Return an appliance of the demo, its door with a bar of some length, or a rail."""
+    pull = replace(style.pull, kind=a.pick("bar", "rail"), length=length, look=look)
+    plain = replace(style, pull=pull, panel="slab", upper="slab", shelves=0, pull_at=0.5)
+    return furniture(a, plain, sizes, node, support, base, BLACK)
+
+
+def oven(a: Assembly) -> None:
+    """Build the demo's range: a drop door with a window, knobs, a drawer below, burners."""
+    skin, metal = a.picks((WHITE, STEEL, BLACK), (STEEL, BLACK))
+    style = convex_style(a, skin, board=0.018, front=0.035)
+    sizes = a.draws((0.55, 0.7), (0.53, 0.61), (0.81, 0.89))
+    node = column((0.2, "drawer:drawer"), (0.66, "flap:door"), (0.14, "fixed"))
+    case = _demo(a, sizes, node, "feet", 0.03, style, length=a.draw(0.3, 0.45), look=metal)
+    door, cell, *_ = case.doors[0]
+    window = box(within(cell.x, 0.09), span(case.face, -0.003), within(cell.z, 0.1, 0.13))
+    door.add(window, look=GLASS)
+    racks(a, case, 2)
+    level = case.z[1] - 0.07 * sizes[2]
+    for i, x in enumerate(between(within(case.x, 0.04), a.count(2, 5))):
+        knob(a, f"knob_{i}", (x, level), 0.025, metal, facing_front(case.face), mark=RED)
+    for at in [(mid(u), mid(v)) for u in shares(case.x, 2) for v in shares(case.y, 2)]:
+        a.root.add(cylinder(Z, at, 0.08, span(case.z[1], 0.006), 20), look=BLACK)
+
+
+def microwave(a: Assembly) -> None:
+    """Build a microwave of the demo: a side door with a window, a panel with buttons and a knob."""
+    skin, dark = a.picks((WHITE, STEEL, BLACK), (BLACK, STEEL))
+    style = convex_style(a, skin, board=0.016, front=0.028)
+    sizes = a.draws((0.46, 0.56), (0.31, 0.39), (0.26, 0.31))
+    node = row((0.74, "door:door"), (0.26, "fixed"))
+    case = _demo(a, sizes, node, "feet", 0.012, style, length=0.7 * sizes[2], look=dark)
+    door, cell, *_ = case.doors[0]
+    window = box(within(cell.x, 0.05, 0.07), span(case.face, -0.002), within(cell.z, 0.04))
+    door.add(window, look=GLASS)
+    x = (0.75 * sizes[0], sizes[0] - 0.008)
+    z = case.z
+    place = facing_front(case.face)
+    for _, key_x, key_z in cells(x, (z[0] + 0.02, z[0] + 0.13), 4, 3):
+        a.root.add(key(key_x, key_z, (0.0, 0.002), 0.0).moved(place), look=WHITE)
+    plate = (mid(cell.inner[0]), mid(case.y))
+    a.root.add(cylinder(Z, plate, 0.11, span(cell.inner[1][0], 0.008), 20), look=GLASS)
+    knob(a, "knob", (mid(x), z[1] - 0.05), 0.02, RED if dark is skin else skin, place, mark=RED)
+
+
+def dishwasher(a: Assembly) -> None:
+    """Build a dishwasher of the demo: a drop door before two racks, on a recessed plinth."""
+    skin, dark = a.picks((WHITE, STEEL, BLACK), (BLACK, STEEL))
+    style = convex_style(a, skin, board=0.016, front=0.03)
+    sizes = a.draws((0.45, 0.6), (0.51, 0.57), (0.7, 0.76))
+    look = RED if skin is dark else dark
+    base = a.draw(0.09, 0.11)
+    case = _demo(a, sizes, "flap:door", "plinth", base, style, length=0.75 * sizes[0], look=look)
+    door, cell, *_ = case.doors[0]
+    strip = (cell.z[1] - 0.05, cell.z[1] - 0.02)
+    door.add(box(within(cell.x, 0.001), span(case.face, -0.003), strip), look=dark)
+    for share in (0.16, 0.6):
+        level = case.z[0] + share * sizes[2]
+        a.root.add(*rack(cell.inner[0], within(case.y, 0.03, 0.02), level, 7), look=STEEL)
+
 
 #: Units of a row: how often each is drawn, and its width [m].
 UNITS: dict[str, tuple[float, Span]] = {
@@ -46,14 +315,6 @@ def _oven_style(style: Style) -> Style:
     return replace(glazed, hollow=True, face=STEEL, shelves=0, slide=0.7)
 
 
-def _dials(a: Assembly, case: Casework, high: float, prefix: str = "") -> None:
-    """Build knobs on the fixed panel over an oven, which is ``high`` [m]."""
-    x = within(case.x, case.style.board)
-    level = case.z[1] - high / 2
-    room = high - 2.4 * case.style.board
-    knob_row(a, x, level, room, (any_metal(a), RED), facing_front(case.face), prefix)
-
-
 def kitchen(a: Assembly) -> None:
     """Build two to five base units, a worktop with a sink or a hob; at times wall units."""
     depth, base, height = a.draws((0.5, 0.65), (0.07, 0.15), (0.65, 0.78))
@@ -72,28 +333,20 @@ def kitchen(a: Assembly) -> None:
         case = Casework(a, mine, x, y, z, f"unit_{i}_").build(_node(a, unit))
         if unit == "oven":
             hob = x
-            _dials(a, case, 0.16 * height, case.prefix)
+            _panel_row(a, case, 0.16, (any_metal(a), RED))
             shelf = rack(within(x, mine.board), within(y, 0.05, 0.03), z[0] + 0.6 * height, 8)
             a.root.add(*shelf, look=STEEL)
     if not a.parts:
         Casework(a, style, span(left, 0.5), y, z, "last_").build("door")
         left += 0.5
     a.root.add(box((0.01, left - 0.01), (0.05, depth), (0.0, base)), look=BLACK)
-    _worktop(a, style, (0.0, left), y, z[1], hob)
+    sunk = hob is None and not style.hollow and left > 0.9 and a.happens(0.5)
+    deep = within(y, -max(0.0, style.proud), 0.0)
+    top = put_top(a, "sink" if sunk else "board", (0.0, left), deep, z[1], any_color(a))
+    if hob is not None and a.happens(0.7):
+        burners(a, within(hob, 0.03), (0.06, depth - 0.05), top)
     if a.happens(0.35):
         _wall_units(a, style, left, depth, z[1])
-
-
-def _worktop(a: Assembly, style: Style, x: Span, y: Span, z: float, hob: Span | None) -> None:
-    over = a.pick(0.0, 0.01, 0.025)
-    look = any_color(a)
-    deep = within(y, -max(0.0, style.proud) - over, 0.0)
-    if hob is None and not style.hollow and size(x) > 0.9 and a.happens(0.5):
-        worktop(a, "sink", x, deep, z, (look, STEEL))
-        return
-    a.root.add(slab(x, deep, z, 0.035), look=look)
-    if hob is not None and a.happens(0.7):
-        burners(a, within(hob, 0.03), (0.06, y[1] - 0.05), z + 0.035)
 
 
 def _wall_units(a: Assembly, style: Style, width: float, depth: float, z: float) -> None:
@@ -124,4 +377,4 @@ def oven_tower(a: Assembly) -> None:
     oven = column((0.82, "flap"), (0.18, "fixed"))
     case = Casework(a, _oven_style(style), x, y, middle, "oven_").build(oven)
     Casework(a, style, x, y, (middle[1], base + height), "high_").build(above)
-    _dials(a, case, 0.18 * size(middle))
+    _panel_row(a, case, 0.18, (any_metal(a), RED))

@@ -8,23 +8,25 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from ..kit.assembly import BACK, FRONT, LEFT, UP, Assembly, PartDraft
+from ..kit.assembly import Assembly, PartDraft
+from ..kit.axes import BACK, FRONT, LEFT, UP, Y, facing_front
 from ..kit.boards import frame
 from ..kit.casework import Casework, Leaf
+from ..kit.controls import lever
 from ..kit.hinges import stop
 from ..kit.layouts import Cell, row
 from ..kit.looks import BLACK, GLASS
 from ..kit.panels import panel
 from ..kit.pulls import add_pull, any_pull
 from ..kit.shapes import box, cylinder, lathe
-from ..kit.spans import Flat, Profile, Span, Y, about, ends, mid, shares, size, span, upto, within
+from ..kit.spans import Flat, Profile, Span, about, ends, mid, size, span, within
 from ..kit.styles import Style, any_color, any_metal, any_style
 
 LEAVES: dict[str, float] = {
     "slab": 0.3, "shaker": 0.12, "raised": 0.12, "two_fields": 0.14, "glazed": 0.12,
     "mullion": 0.08, "louvre": 0.05, "planks": 0.07,
 }  # fmt: skip
-SASHES = {"door": 0.35, "lift": 0.15, "flap": 0.1, "slide": 0.2, "hung": 0.12, "pivot": 0.08}
+SASHES = {"door": 0.35, "lift": 0.15, "flap": 0.1, "sliding": 0.2, "hung": 0.12, "pivot": 0.08}
 #: A round door knob, from its leaf outwards: radius and height as shares.
 _KNOB = ((0.45, 0.0), (0.4, 0.3), (0.9, 0.4), (1.0, 0.7), (0.6, 1.0))
 
@@ -50,24 +52,19 @@ def _framed(
 def _lever(a: Assembly, leaf: PartDraft, at: Flat, y: Span, inward: float, look: Material) -> None:
     """Build a lever or a round knob on both sides of a leaf, on one spindle."""
     x, z = at
-    lever = a.happens(0.75)
+    flat = a.happens(0.75)
     reach, r, length = a.draws((0.04, 0.065), (0.007, 0.011), (0.09, 0.14))
-    axis = FRONT if lever and inward > 0.0 else BACK
+    axis = FRONT if flat and inward > 0.0 else BACK
     name = f"{leaf.name}_handle"
     handle = a.hinge(name, axis, (x, mid(y), z), a.degrees(30, 60), on=leaf, look=look)
-    curved = a.pick(0.0, 0.0, 0.02)
+    tip = (x + inward * length, z - a.pick(0.0, 0.0, 0.02))
     for face, side in ((y[0], -1.0), (y[1], 1.0)):
         near = face + side * 0.0015
-        if not lever:
+        if flat:
+            handle.add(*lever(at, (near, face + side * reach), tip, r))
+        else:
             knob: Profile = [(0.028 * s, side * t * (reach - 0.0015)) for s, t in _KNOB]
             handle.add(lathe(knob, (x, near, z), Y, 16))
-            continue
-        handle.add(cylinder(Y, at, r, span(near, side * (reach - 0.0015)), 12))
-        thick = about(0.8 * r, face + side * (reach - r))
-        handle.add(box(span(x - inward * r, inward * (r + length)), thick, about(r, z)))
-        if curved:
-            tip = span(x + inward * length, -inward * 0.012)
-            handle.add(box(tip, thick, (z - r - curved, z - r)))
 
 
 def door(a: Assembly) -> None:
@@ -117,7 +114,9 @@ def sliding_door(a: Assembly) -> None:
     panels = LEAVES | {"glazed": 0.5}
     if a.happens(0.5):
         bar = a.draw(0.04, 0.08)
-        _tracks(a, panels, (2 * width, height), bar, thick)
+        style = _framed(a, panels, bar, thick, bar, ("recess", "bar"))
+        a.body(style.body)
+        _on_tracks(a, style, 2 * width, height, "sliding")
         return
     metal = any_metal(a)
     body = a.body(any_color(a))
@@ -140,42 +139,15 @@ def sliding_door(a: Assembly) -> None:
         leaf.add(box(about(0.015, v), strap, (height - 0.1, rail + 0.08)), look=metal)
         leaf.add(cylinder(Y, (v, rail + 0.063), 0.022, (strap[1], -0.008)), look=metal)
     pull = any_pull(a, metal, ("bar", "rail", "recess"))
-    add_pull(leaf, pull, x[1] - 0.06 if away < 0 else x[0] + 0.06, 1.0, y[0], True, 0.6)
+    edge = x[1] - 0.06 if away < 0 else x[0] + 0.06
+    add_pull(leaf, pull, (edge, 1.0), facing_front(y[0]), 0.6, True)
 
 
-def _tracks(
-    a: Assembly,
-    panels: dict[str, float],
-    sizes: Flat,
-    bar: float,
-    thick: float,
-    upright: bool = False,
-) -> None:
-    """Build two or three sashes that slide past each other in a frame, sideways or up and down."""
-    body = a.body(any_color(a))
-    style = a.weighted(panels)
-    count = 2 if upright else a.pick(2, 2, 2, 3)
-    x, z = upto(*sizes)
-    body.add(*frame(x, (0.0, count * (thick + 0.004) + 0.01), z, bar))
-    x = within(x, bar + 0.002)
-    z = within(z, bar + 0.002)
-    way = z if upright else x
-    pull = any_pull(a, any_metal(a), ("recess", "bar"))
-    for i, own in enumerate(shares(way, count)):
-        y = span(0.005 + i * (thick + 0.004), thick)
-        last = i == count - 1
-        lapped = within(own, -bar / 2 if i else 0.0, 0.0 if last else -bar / 2)
-        spans = (x, lapped) if upright else (lapped, z)
-        sash = body
-        if not last or (count == 2 and not (upright and a.happens(0.5))):
-            room = lapped[0] - way[0] if last else way[1] - lapped[1]
-            back = -1.0 if last else 1.0
-            axis = (0.0, 0.0, back) if upright else (back, 0.0, 0.0)
-            at = (mid(spans[0]), y[0], mid(spans[1]))
-            sash = a.slider(f"sash_{i}", axis, at, round(0.97 * min(room, size(own)), 3))
-        panel(sash, style, spans[0], y, spans[1], bar)
-        if not i and not upright:
-            add_pull(sash, pull, lapped[0] + bar / 2, mid(z), y[0], True, 0.3)
+def _on_tracks(a: Assembly, style: Style, width: float, height: float, kind: str) -> None:
+    """Build sashes that slide past each other in a frame: ``sliding`` or ``hung``."""
+    tracks = 2 if kind == "hung" else a.pick(2, 2, 2, 3)
+    deep = tracks * (style.front + 0.004) + 0.01
+    Casework(a, style, (0.0, width), (0.0, deep), (0.0, height)).build(f"{kind}:sash")
 
 
 def window(a: Assembly) -> None:
@@ -184,11 +156,13 @@ def window(a: Assembly) -> None:
     deep, rail = a.draws((0.06, 0.14), (0.03, 0.055))
     panels = {"mullion": 0.3, "glazed": 0.7}
     kind = a.weighted(SASHES)
-    if kind in ("slide", "hung"):
-        _tracks(a, panels, (width, height), bar, thick, kind == "hung")
-        return
-    style = _framed(a, panels, bar, thick, rail, ("none",))
+    slides = kind in ("sliding", "hung")
+    style = _framed(a, panels, bar, thick, bar if slides else rail, ("recess", "bar"))
     body = a.body(style.body)
+    if slides:
+        _on_tracks(a, style, width, height, kind)
+        return
+    style = replace(style, pull=replace(style.pull, kind="none"))
     columns = max(1, min(3, round(width / a.draw(0.45, 0.9))))
     cells = [f"{'open' if kind == 'pivot' else kind}:sash_{i}" for i in range(columns)]
     if columns == 3 and a.happens(0.6):
@@ -213,9 +187,7 @@ def _latch(a: Assembly, leaf: Leaf, rail: float) -> None:
     level = {"top": z[0] + 0.15, "bottom": z[1] - rail / 2}.get(side, mid(z))
     axis = FRONT if side == "right" else BACK
     handle = a.hinge(f"{sash.name}_handle", axis, (at, 0.0, level), np.pi / 2, on=sash, look=BLACK)
-    handle.add(cylinder(Y, (at, level), 0.009, (-0.035, -0.001), 12))
-    low = level - a.draw(0.08, 0.13)
-    handle.add(box(about(0.009, at), (-0.045, -0.035), (low, level + 0.009)))
+    handle.add(*lever((at, level), (-0.001, -0.045), (at, level - a.draw(0.08, 0.13)), 0.009))
 
 
 def _pivoted(a: Assembly, style: Style, cell: Cell) -> None:

@@ -8,15 +8,13 @@ import numpy as np
 
 from asset_factory.factory.mesh import FloatArray, Material
 
-from ..kit.assembly import FRONT, LEFT, RIGHT, UP, Assembly, PartDraft, facing_front
+from ..kit.assembly import Assembly, PartDraft
+from ..kit.axes import FRONT, LEFT, RIGHT, UP, Point, X, Y, facing_front
 from ..kit.boards import corners, tray
 from ..kit.controls import button, cells
 from ..kit.looks import BLACK, BLUE, GLASS, RED, STEEL, WHITE
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, prism
-from ..kit.spans import Point, Span, X, Y, about, centred, ends, shares, size, span, within
-
-#: Between barrels that turn on one pin [m].
-PLAY = 0.0008
+from ..kit.spans import PLAY, Span, about, centred, ends, shares, size, span, within
 
 
 def laptop(a: Assembly) -> None:

@@ -7,10 +7,9 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from ..kit.assembly import Assembly
-from ..kit.boards import cornice, slab, stand, worktop
+from ..kit.boards import cornice, put_top, slab, stand
 from ..kit.casework import Casework, furniture
 from ..kit.layouts import (
-    Cell,
     Node,
     column,
     divided,
@@ -20,10 +19,10 @@ from ..kit.layouts import (
     random_node,
     row,
 )
-from ..kit.looks import BLACK, GREEN, OAK, STEEL, WALNUT, WHITE, wood
+from ..kit.looks import BLACK, GREEN, OAK, WALNUT, WHITE, wood
 from ..kit.shapes import box
 from ..kit.spans import Span, ends, size, span, upto, within
-from ..kit.styles import Style, any_color, any_style, convex_style
+from ..kit.styles import any_color, any_style, convex_style
 
 LEGS = {
     "plinth": 0.25, "feet": 0.2, "tapered": 0.15, "round": 0.1, "turned": 0.05, "sled": 0.05,
@@ -82,32 +81,19 @@ def stored(plan: CaseworkPlan, a: Assembly) -> None:
     style = replace(style, covered=top != "flush")
     node = plan.node(a, width, height)
     cells, _ = divided(node, (0.0, width), span(base, height), style.board, False)
-    style = _spaced(a, style, cells)
-    case = Casework(a, style, (0.0, width), (0.0, depth), span(base, height)).build(node)
+    smallest = min(min(size(cell.x), size(cell.z)) for cell in cells)
+    if not style.inset and smallest >= 0.15 and a.happens(0.2):
+        # Fronts leave the frame bare.
+        gap = a.draw(0.01, 0.04)
+        board = gap + a.draw(0.008, 0.02)
+        reveal = a.draw(0.3, 0.9) * board
+        style = replace(style, gap=gap, board=board, reveal=reveal, bare=False)
+    look = style.body if a.happens(0.7) else BLACK
+    case = furniture(a, style, (width, depth, height), node, support, base, look)
     if not a.parts:
         case.build("double")
-    stand(a, support, case.x, case.y, base, style.body if a.happens(0.7) else BLACK)
-    _topped(a, top, case.x, within(case.y, -max(0.0, style.proud), 0.0), base + height)
-
-
-def _spaced(a: Assembly, style: Style, cells: list[Cell]) -> Style:
-    """Return a style whose fronts leave the frame bare, if the cells are large enough."""
-    smallest = min(min(size(cell.x), size(cell.z)) for cell in cells)
-    if style.inset or smallest < 0.15 or not a.happens(0.2):
-        return style
-    gap = a.draw(0.01, 0.04)
-    board = gap + a.draw(0.008, 0.02)
-    return replace(style, gap=gap, board=board, reveal=a.draw(0.3, 0.9) * board, bare=False)
-
-
-def _topped(a: Assembly, top: str, x: Span, y: Span, z: float) -> None:
-    look = any_color(a)
-    if top == "board":
-        a.root.add(slab(x, y, z, a.draw(0.015, 0.045), a.pick(0.0, 0.01, 0.025)), look=look)
-    elif top == "cornice":
-        a.root.add(*cornice(x, y, z), look=look)
-    elif top != "flush":
-        worktop(a, top, x, y, z, (look, STEEL))
+    deep = within(case.y, -max(0.0, style.proud), 0.0)
+    put_top(a, top, case.x, deep, base + height, any_color(a))
 
 
 #: A front of more cells is drawn anew.
@@ -254,6 +240,11 @@ def _lockers(a: Assembly, w: float, h: float) -> Node:
     return grid(a, min(4, max(1, round(w / 0.33))), a.count(1, 4), "door")
 
 
+def _secretaire(a: Assembly, w: float, h: float) -> Node:
+    node = column((a.draw(0.8, 1.4), drawers(a, a.count(2, 3))), (1.0, "flap"))
+    return column((0.8, node), (0.2, grid(a, a.count(1, 2), 1))) if a.happens(0.4) else node
+
+
 _P = CaseworkPlan
 PLANS: dict[str, CaseworkPlan] = {
     "dresser": _P(_dresser, ((0.4, 1.7), (0.35, 0.55), (0.55, 1.3)), LEGS, LOW, BOARD),
@@ -289,6 +280,9 @@ PLANS: dict[str, CaseworkPlan] = {
         _tools, ((0.45, 0.9), (0.35, 0.5), (0.35, 0.9)), ROLLING, (0.07, 0.14), BOARD, 0.4, METAL
     ),
     "storage_unit": _P(_any, ((0.4, 2.2), (0.25, 0.6), (0.4, 2.1)), LEGS, LOW, ANY_TOP),
+    "secretaire": _P(
+        _secretaire, ((0.6, 1.0), (0.3, 0.5), (0.95, 1.5)), LEGS, (0.03, 0.3), {"board": 1.0}
+    ),
     "washstand": _P(_base, ((0.5, 1.4), (0.4, 0.55), (0.35, 0.8)), LEGS, (0.05, 0.35), BOWL),
 }
 
@@ -344,18 +338,6 @@ def hutch(a: Assembly) -> None:
     Casework(a, upper, x, deep, span(start + 0.003, high), "high_").build(above)
     if a.happens(0.5):
         body.add(*cornice(x, (depth - 0.36, depth), start + 0.003 + high), look=style.body)
-
-
-def secretaire(a: Assembly) -> None:
-    """Build a writing cabinet: drawers, and over them a flap to write on."""
-    sizes = a.draws((0.6, 1.0), (0.3, 0.5), (0.95, 1.5))
-    style = replace(any_style(a), covered=True)
-    node = column((a.draw(0.8, 1.4), drawers(a, a.count(2, 3))), (1.0, "flap"))
-    if a.happens(0.4):
-        node = column((0.8, node), (0.2, grid(a, a.count(1, 2), 1)))
-    case = furniture(a, style, sizes, node, a.weighted(LEGS), a.draw(0.03, 0.3))
-    top = slab(case.x, within(case.y, -0.025, 0.0), case.z[1], 0.02, 0.015)
-    a.root.add(top, look=any_color(a))
 
 
 def storage_bed(a: Assembly) -> None:

@@ -7,9 +7,10 @@ import numpy as np
 from asset_factory.factory.mesh import Material
 
 from .assembly import Assembly, PartDraft
-from .looks import BLACK
+from .axes import X, Y
+from .looks import BLACK, STEEL
 from .shapes import Form, box, cylinder, frustum, lathe
-from .spans import Flat, Span, X, Y, about, between, ends, mid, size, span, within
+from .spans import Flat, Span, about, between, ends, mid, size, span, within
 
 #: Legs from bottom to top: shares of the height and of the half width.
 _TURNED = ((0.0, 0.5), (0.12, 0.8), (0.2, 0.45), (0.75, 0.9), (0.8, 0.6), (0.85, 1.0), (1.0, 1.0))
@@ -127,14 +128,24 @@ def ring_of_boards(outer: tuple[Span, Span], hole: tuple[Span, Span], z: Span) -
     return [*sides, box(u, (y[0], v[0]), z), box(u, (v[1], y[1]), z)]
 
 
-def worktop(
-    a: Assembly, kind: str, x: Span, y: Span, z: float, looks: tuple[Material, ...]
-) -> None:
-    """Build a stone around a ``sink`` that hangs in the body, or under a ``vessel``; and a spout.
+def put_top(a: Assembly, kind: str, x: Span, y: Span, z: float, look: Material) -> float:
+    """Put a top on a body whose upper side is at ``z``, and return the height of its own [m].
 
-    ``x`` and ``y`` are the stone's, ``z`` is its underside [m]; looks are of stone and metal.
+    Kinds are flush (nothing), board, cornice, sink and vessel.
     """
-    stone, metal = looks
+    if kind == "board":
+        thick = a.draw(0.015, 0.045)
+        a.root.add(slab(x, y, z, thick, a.pick(0.0, 0.01, 0.025)), look=look)
+        return z + thick
+    if kind == "cornice":
+        a.root.add(*cornice(x, y, z), look=look)
+    elif kind != "flush":
+        _put_basin(a, kind, x, y, z, look)
+    return z
+
+
+def _put_basin(a: Assembly, kind: str, x: Span, y: Span, z: float, stone: Material) -> None:
+    """Put a stone around a sink that hangs in the body, or under a vessel; and a spout."""
     body = a.root
     top = z + 0.03
     at = (mid(x), mid(y) - 0.02)
@@ -143,18 +154,18 @@ def worktop(
         basin_y = within(y, 0.08, 0.13)
         body.add(*ring_of_boards((x, y), (basin_x, basin_y), (z, top)), look=stone)
         basin = (z - a.draw(0.1, 0.18), z)
-        body.add(*tray(within(basin_x, -0.006), within(basin_y, -0.006), basin, 0.006), look=metal)
+        body.add(*tray(within(basin_x, -0.006), within(basin_y, -0.006), basin, 0.006), look=STEEL)
         spout = basin_y[1] + 0.06
         reach = 0.16
     else:
         radius = min(0.2, 0.38 * min(size(x), size(y)))
         body.add(slab(x, y, z, 0.03), look=stone)
         bowl = [(0.7 * radius, 0.0), (radius, 0.12), (0.95 * radius, 0.12), (0.7 * radius, 0.012)]
-        body.add(lathe(bowl, (*at, top)), look=metal)
+        body.add(lathe(bowl, (*at, top)), look=STEEL)
         spout = at[1] + radius + 0.03
         reach = 0.7 * radius + 0.03
     high = top + a.draw(0.15, 0.3)
     pole = [(0.025, top), (0.025, top + 0.008), (0.012, top + 0.009), (0.012, high)]
-    body.add(lathe(pole, (mid(x), spout, 0.0), sides=12), look=metal)
+    body.add(lathe(pole, (mid(x), spout, 0.0), sides=12), look=STEEL)
     arm = (spout - reach, spout + 0.01)
-    body.add(cylinder(Y, (mid(x), high), 0.01, arm, 12), look=metal)
+    body.add(cylinder(Y, (mid(x), high), 0.01, arm, 12), look=STEEL)

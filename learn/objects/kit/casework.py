@@ -9,14 +9,15 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from .assembly import DOWN, FRONT, LEFT, RIGHT, UP, Assembly, Hanging, PartDraft
-from .boards import carcass, frame, stand, tray
+from .assembly import Assembly, Hanging, PartDraft
+from .axes import DOWN, FRONT, LEFT, RIGHT, UP, Point, X, facing_front
+from .boards import carcass, stand, tray
 from .hinges import swing
 from .layouts import Cell, Divider, Node, divided
 from .panels import panel
 from .pulls import add_pull
 from .shapes import box, cylinder
-from .spans import Point, Span, X, about, between, mid, size, span, within
+from .spans import Span, about, between, mid, shares, size, span, within
 from .styles import Style
 
 #: Edges of a front, and which way one turns that is hinged there; positive angles open towards -Y.
@@ -82,21 +83,13 @@ class Casework:
         style = self.style
         body = self.a.root
         self.cells, dividers = divided(node, self.x, self.z, style.board, style.bare)
-        solid = not style.hollow and all(cell.kind != "open" for cell in self.cells)
-        deep = (self.start, self.y[1])
-        if not solid:
-            *boards, back = carcass(self.x, self.y, self.z, style.board, sill=style.sill)
-            body.add(*boards, look=style.body)
-            body.add(*([] if style.backless else [back]), look=style.inside)
-        else:
-            body.add(box(self.x, deep, self.z), look=style.body)
-            if style.inset:
-                rim = frame(self.x, (self.y[0], self.start), self.z, style.board)
-                body.add(*rim, look=style.body)
-        if not solid or style.inset:
-            self._divide(dividers)
+        *boards, back = carcass(self.x, self.y, self.z, style.board, sill=style.sill)
+        body.add(*boards, look=style.body)
+        body.add(*([] if style.backless else [back]), look=style.inside)
+        self._divide(dividers)
         for cell in self.cells:
-            if not (solid or style.hollow or cell.kind == "open"):
+            if not (style.hollow or cell.kind == "open"):
+                deep = (self.start, self.y[1])
                 body.add(box(cell.inner[0], deep, cell.inner[1]), look=style.body)
             self._fill(cell)
         return self
@@ -145,7 +138,7 @@ class Casework:
             self._door(cell, front, side)
         elif kind == "double":
             self._pair(cell, front)
-        elif kind == "sliding":
+        elif kind in ("sliding", "hung"):
             self._sliders(cell)
         elif kind != "open":
             self._door(cell, front, "top" if kind == "lift" else "bottom")
@@ -181,16 +174,17 @@ class Casework:
         kind = style.upper if sum(cell.z) > sum(self.z) else style.panel
         panel(door, kind, x, span(self.face, style.front), z, style.rail)
         margin = min(max(0.5 * style.rail, 0.02), 0.4 * width)
+        place = facing_front(self.face)
         if not upright:
             level = z[1] - margin if side == "bottom" else z[0] + margin
-            add_pull(door, style.pull, mid(x), level, self.face, False, 0.8 * size(x))
+            add_pull(door, style.pull, (mid(x), level), place, 0.8 * size(x))
             return
         at = x[1] - margin if side == "left" else x[0] + margin
         reach = 0.02
         if style.pull.kind not in ("knob", "ball"):
             reach = 0.55 * min(style.pull.length, 0.8 * size(z))
         level = min(max(z[0] + style.pull_at * size(z), z[0] + reach), z[1] - reach)
-        add_pull(door, style.pull, at, level, self.face, True, 0.8 * size(z))
+        add_pull(door, style.pull, (at, level), place, 0.8 * size(z), True)
 
     def _drawer(self, cell: Cell, front: _Front) -> None:
         style = self.style
@@ -200,24 +194,17 @@ class Casework:
         travel = round(style.slide * reach, 3)
         drawer = self.a.slider(self._name(cell, "drawer"), FRONT, at, travel, look=style.face)
         panel(drawer, style.drawer, front.x, span(self.face, style.front), front.z, style.rail)
-        self._drawer_pulls(drawer, front)
-        if style.hollow and size(cell.inner[1]) > 0.03:
-            self._drawer_box(drawer, cell, (self.face + style.front, inside[0] + reach))
-
-    def _drawer_pulls(self, drawer: PartDraft, front: _Front) -> None:
-        style = self.style
-        x = front.x
         z = front.z
-        if size(z) < 0.045:
-            return
         level = min(max(z[0] + style.drawer_pull_at * size(z), z[0] + 0.02), z[1] - 0.02)
         if style.pull.kind == "lip":
             level = z[1] - 0.013
-        places = (0.25, 0.75) if style.pairs and size(x) > 0.5 else (0.5,)
-        for share in places:
-            room = size(x) / len(places)
-            at = x[0] + share * size(x)
-            add_pull(drawer, style.pull, at, level, self.face, False, room)
+        places = (0.25, 0.75) if style.pairs and size(front.x) > 0.5 else (0.5,)
+        place = facing_front(self.face)
+        for share in places if size(z) >= 0.045 else ():
+            spot = (front.x[0] + share * size(front.x), level)
+            add_pull(drawer, style.pull, spot, place, size(front.x) / len(places))
+        if style.hollow and size(cell.inner[1]) > 0.03:
+            self._drawer_box(drawer, cell, (self.face + style.front, inside[0] + reach))
 
     def _drawer_box(self, drawer: PartDraft, cell: Cell, y: Span) -> None:
         """Build bottom, sides and back behind a drawer's front, or a block."""
@@ -258,21 +245,37 @@ class Casework:
             body.add(box(about(t / 2, mid(x)), deep, z), look=look)
 
     def _sliders(self, cell: Cell) -> None:
-        """Build two panels on two tracks that cover an opening together."""
+        """Build panels that cover an opening together; of three, or of ``hung`` ones, one may stay.
+
+        A case has two tracks, a frame as many as are in its depth, three at most.
+        """
         style = self.style
-        x, z = (within(inner, 0.001) for inner in cell.inner)
+        upright = cell.kind == "hung"
+        spans = [within(inner, 0.001) for inner in cell.inner]
+        way = spans[upright]
         t = min(style.front, 0.04 if style.backless else 0.018)
-        half = size(x) / 2 + self.a.draw(0.005, 0.04)
+        count = 2 if not style.backless or upright else min(3, int(size(self.y) / (t + 0.004)))
+        stays = count == 3 or (upright and self.a.happens(0.5))
+        lap = self.a.draw(0.005, 0.04)
+        seen = style.backless or style.panel in ("glazed", "mullion", "planks", "shaker")
         name = self._name(cell, "slider")
-        kind = style.panel if style.panel in ("glazed", "mullion", "planks", "shaker") else "slab"
-        for i, (at, way) in enumerate(((span(x[0], half), RIGHT), (span(x[1], -half), LEFT))):
-            face = self.y[0] + 0.006 + i * (t + 0.002)
-            travel = round((size(x) - half) * self.a.draw(0.85, 1.0), 3)
-            middle = (mid(at), face, mid(z))
-            part = self.a.slider(f"{name}_{i}", way, middle, travel, look=style.face)
-            panel(part, kind, at, span(face, t), z, min(style.rail, 0.05))
-            if i == 0 and style.pull.kind in ("recess", "bar", "rail", "knob"):
-                add_pull(part, style.pull, at[0] + 0.04, mid(z), face, True, 0.5 * size(z))
+        for i, share in enumerate(shares(way, count)):
+            last = i == count - 1
+            own = spans[upright] = within(share, -lap if i else 0.0, 0.0 if last else -lap)
+            x, z = spans
+            y = span(self.y[0] + 0.006 + i * (t + 0.002), t)
+            part = self.a.root
+            if not (last and stays):
+                room = min(own[0] - way[0] if last else way[1] - own[1], size(own))
+                axis = (LEFT, DOWN) if last else (RIGHT, UP)
+                travel = round(room * self.a.draw(0.85, 1.0), 3)
+                at = (mid(x), y[0], mid(z))
+                part = self.a.slider(f"{name}_{i}", axis[upright], at, travel, look=style.face)
+            rail = style.rail if style.backless else min(style.rail, 0.05)
+            panel(part, style.panel if seen else "slab", x, y, z, rail, style.face)
+            if not (i or upright) and style.pull.kind in ("recess", "bar", "rail", "knob"):
+                spot = (x[0] + 0.04, mid(z))
+                add_pull(part, style.pull, spot, facing_front(y[0]), 0.5 * size(z), True)
 
 
 def furniture(

@@ -1,4 +1,4 @@
-"""Knobs, buttons and keys on a face; where the face is, its place says."""
+"""Knobs, levers, buttons and keys on a face; where the face is, its place says."""
 
 from __future__ import annotations
 
@@ -8,13 +8,12 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from .assembly import BACK, Assembly, PartDraft, Place
+from .assembly import Assembly, PartDraft
+from .axes import BACK, Place, Y
 from .looks import BLACK, RED, STEEL, WHITE
-from .shapes import Form, block, box, cylinder, lathe
-from .spans import Span, Y, about, between, mid, shares, size, span, within
+from .shapes import Form, block, box, cylinder, lathe, pipe
+from .spans import PLAY, Flat, Span, about, between, mid, shares, size, span, within
 
-#: Between a control and its face [m].
-PLAY = 0.0008
 #: How far knobs turn [rad], unless said otherwise.
 TURNS = (np.pi / 2, np.pi, 1.5 * np.pi, 5.2)
 
@@ -55,6 +54,17 @@ def knob(
     else:
         part.add(box(about(0.2 * radius, x), (rim, step), about(0.95 * radius, z)))
     return part
+
+
+def lever(at: Flat, y: Span, tip: Flat, radius: float) -> list[Form]:
+    """Build a stem through a face at ``at``, and at its end an arm to ``tip``.
+
+    Of ``y``, the first is where the stem begins, the second where the arm ends [m].
+    """
+    x, z = at
+    middle = y[1] + (radius if y[1] < y[0] else -radius)
+    arm = pipe([(x, middle, z), (tip[0], middle, tip[1])], 0.8 * radius, 8, up=BACK)
+    return [cylinder(Y, at, radius, span(y[0], y[1] - y[0]), 12), arm]
 
 
 def knob_row(
@@ -103,6 +113,24 @@ def button(
     part = a.slider(name, BACK, (mid(x), 0.0, mid(z)), stroke, on=on, look=look, place=place)
     part.add(key(x, z, span(stroke + 0.0003, thick), style))
     return part
+
+
+def control(
+    a: Assembly,
+    number: int,
+    at: Flat,
+    radius: float,
+    look: Material,
+    place: Place,
+    turned: float,
+) -> None:
+    """Build a knob about ``at`` in a share ``turned`` of cases, else a button."""
+    if a.happens(turned):
+        knob(a, f"knob_{number}", at, radius, look, place, upper=a.degrees(90, 300))
+        return
+    x, z = (about(0.6 * radius, v) for v in at)
+    style = a.draw(0.2, 1.2)
+    button(a, f"button_{number}", x, z, look, place, stroke=0.0025, style=style)
 
 
 def cells(

@@ -1,8 +1,9 @@
 """How a front is divided into cells.
 
 A cell holds a ``drawer``, a ``pullout`` (a tall drawer with shelves), a ``door``, a ``double``
-door, a ``lift`` (hinged at its top), a ``flap`` (at its bottom), two ``sliding`` doors, a ``fixed``
-panel, or is ``open``. Written as ``flap:door``, the part that moves in it is called ``door``.
+door, a ``lift`` (hinged at its top), a ``flap`` (at its bottom), ``sliding`` doors or ``hung`` ones
+(which slide up and down), a ``fixed`` panel, or is ``open``. Written as ``flap:door``, the part
+that moves in it is called ``door``.
 """
 
 from __future__ import annotations

@@ -9,10 +9,11 @@ import numpy as np
 from asset_factory.factory.mesh import Material
 
 from .assembly import PartDraft
+from .axes import X, Y
 from .boards import frame
 from .looks import GLASS
 from .shapes import Form, box, frustum, prism
-from .spans import Span, X, Y, about, between, mid, shares, size, within
+from .spans import Span, about, between, mid, shares, size, within
 
 #: Narrower than this, a front has no room for a frame [m].
 FRAMED_FROM = 0.16

@@ -1,4 +1,4 @@
-"""Things to pull at, on a face that looks towards -Y."""
+"""Things to pull at, on a face."""
 
 from __future__ import annotations
 
@@ -8,10 +8,13 @@ import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from .assembly import BACK, PartDraft
+from .assembly import PartDraft
+from .axes import BACK, Place, X, Y
+from .boards import frame
 from .chance import Chance
-from .shapes import Form, box, cylinder, lathe, pipe, prism
-from .spans import Profile, Span, X, Y, about, ends, span, within
+from .outlines import arc
+from .shapes import Form, box, cylinder, lathe, pipe, prism, ribbon
+from .spans import Flat, Profile, Span, about, ends, span, within
 
 #: Kinds of pull and how often each is drawn; ``none``: the front is moved by its edge.
 KINDS: dict[str, float] = {
@@ -49,9 +52,9 @@ def any_pull(chance: Chance, look: Material, kinds: tuple[str, ...] = ()) -> Pul
 
 
 def add_pull(
-    part: PartDraft, pull: Pull, x: float, z: float, face: float, upright: bool, room: float
+    part: PartDraft, pull: Pull, at: Flat, place: Place, room: float, upright: bool = False
 ) -> None:
-    """Add a pull about ``(x, z)`` on the plane y = ``face`` [m], along x or ``upright``.
+    """Add a pull about a point of a face, along it or ``upright``.
 
     It becomes no longer than ``room`` [m] allows.
     """
@@ -60,7 +63,7 @@ def add_pull(
         return
     for form in _forms(pull, length / 2, upright):
         placed = form.turned(BACK, -np.pi / 2) if upright else form
-        part.add(placed.shifted((x, face, z)), look=pull.look)
+        part.add(placed.shifted((at[0], 0.0, at[1])).moved(place), look=pull.look)
 
 
 def _forms(pull: Pull, half: float, upright: bool) -> list[Form]:
@@ -112,10 +115,8 @@ def _recess(pull: Pull, along: Span) -> list[Form]:
     """Return a shell let into the face; its rim stands a hair proud of it."""
     across = about(max(0.012, pull.thickness))
     deep = (-0.0015, 0.004)
-    inside = within(across, 0.004)
-    forms = [box(along, deep, end) for end in ends(across, 0.004)]
-    forms += [box(end, deep, inside) for end in ends(along, 0.004)]
-    return [*forms, box(within(along, 0.004), (-0.0004, 0.004), inside)]
+    floor = box(within(along, 0.004), (-0.0004, 0.004), within(across, 0.004))
+    return [*frame(along, deep, across, 0.004), floor]
 
 
 def _lip(pull: Pull, reach: float, along: Span) -> list[Form]:
@@ -129,11 +130,8 @@ def _lip(pull: Pull, reach: float, along: Span) -> list[Form]:
 
 def _cup(reach: float, along: Span) -> list[Form]:
     """Return a quarter shell to reach under, with its two cheeks."""
-    angle = np.linspace(0.0, np.pi / 2, 6)
-    way = np.stack([np.cos(angle), -np.sin(angle)], axis=1)
-    outer = way * (-reach, -0.03) - (0.0, 0.015)
-    inner = outer + 0.003 * way
-    quads = np.stack([outer[:-1], inner[:-1], inner[1:], outer[1:]], axis=1)
+    way = arc((0.0, 0.0), 1.0, np.pi, np.pi / 2, 6)
+    outer = way * (reach, 0.03) - (0.0, 0.015)
+    shell = ribbon(outer, outer - 0.003 * way, along, X)
     cheek = np.vstack([[(0.001, -0.015)], outer[::-1]])
-    cheeks = (prism(cheek, end, X) for end in ends(along, 0.003))
-    return [*(prism(quad, along, X) for quad in quads), *cheeks]
+    return [shell, *(prism(cheek, end, X) for end in ends(along, 0.003))]

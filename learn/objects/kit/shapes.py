@@ -16,8 +16,9 @@ import numpy.typing as npt
 from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.mesh import FloatArray, IntArray
 
+from .axes import Point, Y, Z
 from .outlines import circle, rounded
-from .spans import Flat, Point, Span, Y, Z, mid, within
+from .spans import Flat, Span, mid, within
 
 #: The two axes across each axis.
 _PLANE = ((1, 2), (0, 2), (0, 1))

@@ -12,13 +12,11 @@ import numpy as np
 
 Span = tuple[float, float]
 Flat = tuple[float, float]
-Point = tuple[float, float, float]
 #: ``(radius, height)`` of each ring of a turned form.
 Profile = list[tuple[float, float]]
 
-X = 0
-Y = 1
-Z = 2
+#: Between parts that move past each other [m].
+PLAY = 0.0008
 
 
 def about(half: float, middle: float = 0.0) -> Span:

@@ -33,7 +33,7 @@ class Style:
         reveal: how much of the case's edge an overlaid front leaves bare [m].
         inset: fronts lie in their openings instead of covering the case's edges.
         recess: how far inset fronts lie behind the case's edges [m].
-        hollow: the case has an inside; else it is as deep as its fronts, as generated ones.
+        hollow: the case has an inside; else its cells are filled, as those of generated ones.
         bare: stacked drawers have no boards between them.
         panel, upper, drawer: styles of doors, of those in the upper half, of drawer fronts.
         rail: width of frames [m].

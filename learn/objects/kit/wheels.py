@@ -7,13 +7,12 @@ import numpy as np
 from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.mesh import Material
 
-from .assembly import RIGHT, UP, Assembly, PartDraft
+from .assembly import Assembly, PartDraft
+from .axes import RIGHT, UP, Point, X
 from .looks import BLACK
 from .shapes import Form, box, lathe
-from .spans import Point, X, about, ends
+from .spans import PLAY, about, ends
 
-#: Between a wheel and its fork, and between a fork and what it swivels under [m].
-PLAY = 0.0012
 #: How far a hub stands out of its tyre [m].
 _HUB = 0.0008
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.articulation import JointKind
-from asset_factory.learn.objects.kit.assembly import (
+from asset_factory.learn.objects.kit.assembly import Assembly
+from asset_factory.learn.objects.kit.axes import (
     LEFT,
     RIGHT,
     UP,
-    Assembly,
     facing_front,
     facing_side,
     facing_up,

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from asset_factory.learn.objects.kit.axes import X, Y, Z
 from asset_factory.learn.objects.kit.outlines import arc, rounded
 from asset_factory.learn.objects.kit.shapes import (
     ball,
@@ -21,7 +22,7 @@ from asset_factory.learn.objects.kit.shapes import (
     ribbon,
     stack,
 )
-from asset_factory.learn.objects.kit.spans import X, Y, Z, about, between, shares, span, within
+from asset_factory.learn.objects.kit.spans import about, between, shares, span, within
 
 
 def bounds(forms):
