@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 from labelled_skins import FINE, SIZE, bin_with_lid, box_skin, chest, cupboard, front, labelled
+from manufactured import manufactured
 
 from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Joint, JointKind
@@ -240,3 +241,16 @@ def test_a_lid_that_is_lifted_gets_no_drawers_box():
     kinds = {record.kind for record in solids(lifted, CONFIG).surfaces}
     assert "lid hollow" in kinds
     assert "drawer box" not in kinds
+
+
+def test_a_skin_is_built_once_says_what_was_invented_and_is_kept(tmp_path):
+    asset, _, stages = manufactured(cupboard(), tmp_path)
+    assert stages.done == ["solids", "finish"]
+    assert {body.decomposition for body in asset.bodies} == {"built"}
+    assert {"hollow", "slab back", "rim", "frame"} <= {each.kind for each in asset.invented}
+    again, _, stages = manufactured(cupboard(), tmp_path)
+    assert (stages.done, stages.reused) == ([], ["solids", "finish"])
+    assert again.invented == asset.invented
+    for one, other in zip(asset.bodies, again.bodies, strict=True):
+        hulls = zip(one.hulls, other.hulls, strict=True)
+        assert all(a.vertices.tobytes() == b.vertices.tobytes() for a, b in hulls)

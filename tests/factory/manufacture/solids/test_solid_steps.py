@@ -25,7 +25,7 @@ from asset_factory.factory.manufacture.solids.frame import working_frame
 from asset_factory.factory.manufacture.solids.lattice import Lattice, enclosed
 from asset_factory.factory.manufacture.solids.matter import PATH, Matter
 from asset_factory.factory.manufacture.solids.pieces import convex_pieces
-from asset_factory.factory.manufacture.solids.reach import reaching
+from asset_factory.factory.manufacture.solids.reach import FAR_M, reaching
 from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
 from asset_factory.factory.manufacture.solids.skin import border, parts_to_build, skin_parts
 from asset_factory.factory.manufacture.solids.surfaces import boundary, inside_of, outside_of, plate
@@ -291,3 +291,47 @@ def test_the_working_frame_undoes_a_turn_about_the_vertical(degrees):
     frame = working_frame(turned, (1, 2))
     back = frame @ rotation_about([0.0, 0.0, 1.0], np.radians(degrees))
     assert np.abs(back).max(axis=1) == pytest.approx(np.ones(3), abs=1e-3)
+
+
+LOW = np.full(3, 0.2)
+HIGH = np.full(3, 0.8)
+
+
+@pytest.fixture
+def matter():
+    """A block of 0.6 m in a room of 1 m, seen on all of its surface."""
+    cells = Lattice.over(np.array([[0.0] * 3, [1.0] * 3]), 25, [[0.2, 0.8]] * 3)
+    solid = np.zeros(cells.shape, dtype=bool)
+    solid[cells.span(Box(LOW, HIGH))] = True
+    grid = np.array(np.meshgrid(*[np.linspace(0.2, 0.8, 31)] * 3)).reshape(3, -1).T
+    seen = grid[((np.abs(grid - 0.5) > 0.2999).any(axis=1))]
+    return Matter(cells, solid, solid, np.zeros(cells.shape, dtype=np.uint8), seen)
+
+
+def test_a_piece_that_falls_short_reaches_what_is_seen(matter):
+    short = Box(LOW, np.array([0.8, 0.8, 0.75])).hull()
+    (reached,) = reaching(matter, [short])
+    assert depth_below(reached, matter.sparse).min() >= -FAR_M
+    assert reached.volume == pytest.approx(0.6**3, rel=0.02)
+
+
+def test_pieces_that_cover_all_stay_as_they_are(matter):
+    whole = Box(LOW, HIGH).hull()
+    (reached,) = reaching(matter, [whole])
+    assert reached is whole
+    assert reaching(matter, ()) == ()
+
+
+def test_what_must_stay_free_is_not_filled(matter):
+    free = matter.free.copy()
+    free[matter.lattice.span(Box(np.array([0.2, 0.2, 0.7]), np.array([0.8, 0.8, 0.76])))] = PATH
+    short = Box(LOW, np.array([0.8, 0.8, 0.7])).hull()
+    (reached,) = reaching(replace(matter, free=free), [short])
+    assert reached.vertices[:, 2].max() < 0.71
+
+
+def test_air_is_not_filled_to_reach_a_spike(matter):
+    spike = np.concatenate([matter.points, [[0.5, 0.5, 0.99]]])
+    whole = Box(LOW, HIGH).hull()
+    (reached,) = reaching(replace(matter, points=spike), [whole])
+    assert reached.vertices[:, 2].max() == pytest.approx(0.8)
