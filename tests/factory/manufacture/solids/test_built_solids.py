@@ -1,6 +1,8 @@
 """A labelled skin becomes solids: convex, clear of one another on all of their way, open inside."""
 
 from dataclasses import replace
+from functools import cache
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -11,8 +13,11 @@ from manufactured import manufactured
 from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.config import SolidsConfig
+from asset_factory.factory.intake.categories import Category
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.separate.clip import meeting
+from asset_factory.factory.manufacture.solids.boards import SHELF_M, shelf_boards
+from asset_factory.factory.manufacture.solids.box import Box
 from asset_factory.factory.manufacture.solids.build import solids
 from asset_factory.factory.manufacture.solids.panel import DOOR_M
 from asset_factory.factory.manufacture.solids.surfaces import boundary
@@ -27,15 +32,19 @@ CLEAR_M = 0.002
 KINDS = {"cupboard": cupboard, "chest": chest, "bin": bin_with_lid}
 
 
-@pytest.fixture(scope="module", params=KINDS)
+@cache
+def build(kind):
+    return solids(KINDS[kind](), CONFIG)
+
+
+@pytest.fixture(params=KINDS)
 def built(request):
-    given = KINDS[request.param]()
-    return request.param, given, solids(given, CONFIG)
+    return build(request.param)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def cupboard_built():
-    return solids(cupboard(), CONFIG)
+    return build("cupboard")
 
 
 def volume(piece):
@@ -55,27 +64,20 @@ def with_more(given, part, vertices, faces):
     return replace(given, mesh=mesh, parts=tuple(parts))
 
 
-def test_parts_keep_clear_of_the_body_on_all_of_their_way(built):
-    _, _, made = built
-    for joint in made.articulation.joints:
+def test_parts_keep_clear_of_the_body_on_all_of_their_way_and_of_one_another(built):
+    body, *movers = built.pieces
+    for joint, mover in zip(built.articulation.joints, movers, strict=True):
         for value in np.linspace(joint.lower, joint.upper, 31):
-            gap = least_gap(made.pieces[0], made.pieces[joint.child], joint.motion(value))
-            assert gap > CLEAR_M, (joint.name, value)
-
-
-def test_neighbours_keep_clear_of_one_another():
-    made = solids(chest(), CONFIG)
-    assert least_gap(made.pieces[1], made.pieces[2], np.eye(4)) > CLEAR_M
+            assert least_gap(body, mover, joint.motion(value)) > CLEAR_M, (joint.name, value)
+    assert all(least_gap(*pair, np.eye(4)) > CLEAR_M for pair in combinations(movers, 2))
 
 
 def test_pieces_stay_within_the_skin(built):
-    _, _, made = built
     low = np.array([-SIZE[0] / 2, -SIZE[1] / 2, 0.0]) - 2e-3
     high = np.array([SIZE[0] / 2, SIZE[1] / 2, SIZE[2]]) + 2e-3
-    for piece in made.pieces:
-        for hull in piece.hulls:
-            assert (hull.vertices >= low).all()
-            assert (hull.vertices <= high).all()
+    points = np.concatenate([hull.vertices for piece in built.pieces for hull in piece.hulls])
+    assert (points >= low).all()
+    assert (points <= high).all()
 
 
 def test_a_door_is_the_slab_that_its_outline_says(cupboard_built):
@@ -116,7 +118,7 @@ def test_a_frame_behind_a_door_stays_behind():
 
 
 def test_a_drawer_has_a_bottom_two_sides_a_back_and_no_top():
-    made = solids(chest(), CONFIG)
+    made = build("chest")
     assert [each.kind for each in made.surfaces].count("drawer box") == 2
     for part in (1, 2):
         hulls = made.pieces[part].hulls
@@ -124,8 +126,7 @@ def test_a_drawer_has_a_bottom_two_sides_a_back_and_no_top():
         low, high = made.articulation.part_mesh(part).bounds
         middle = (low + high) / 2.0
         above = np.array([[middle[0], middle[1], high[2] - 0.03]])
-        for hull in hulls:
-            assert depth_below(hull, above)[0] < 0.0
+        assert max(depth_below(hull, above)[0] for hull in hulls) < 0.0
 
 
 def test_a_drawer_of_a_case_open_below_and_behind_has_its_box_too():
@@ -153,15 +154,14 @@ def test_a_drawer_stays_in_its_hollow():
 
 
 def test_a_lid_is_hollow_and_so_is_what_it_closes():
-    made = solids(bin_with_lid(), CONFIG)
+    made = build("bin")
     kinds = {(each.part, each.kind) for each in made.surfaces}
     assert {("body", "hollow"), ("panel_1", "lid hollow")} <= kinds
     assert volume(made.pieces[0]) < 0.4 * SIZE[0] * SIZE[1] * 0.7
     assert volume(made.pieces[1]) < 0.7 * SIZE[0] * SIZE[1] * 0.1
     top = np.array([[0.0, 0.0, 0.74], [0.0, 0.0, 0.3]])
-    for piece in made.pieces:
-        for hull in piece.hulls:
-            assert (depth_below(hull, top) < 0.0).all()
+    hulls = (hull for piece in made.pieces for hull in piece.hulls)
+    assert max(depth_below(hull, top).max() for hull in hulls) < 0.0
 
 
 def test_a_high_lid_takes_all_above_its_seam_along():
@@ -226,9 +226,8 @@ def test_without_an_interior_nothing_is_hollow():
 
 def test_an_opened_object_shows_no_hole(built):
     """Of the body alone, what is seen first from the front and from above faces the viewer."""
-    _, _, made = built
     for side in (Side.FRONT, Side.TOP):
-        seen = elevation(made.articulation.part_mesh(0), side)
+        seen = elevation(built.articulation.part_mesh(0), side)
         toward = seen.normal[..., 2][seen.seen] < 1e-6
         assert seen.seen[2:-2, 2:-2].all()
         assert toward.mean() > 0.995
@@ -254,3 +253,53 @@ def test_a_skin_is_built_once_says_what_was_invented_and_is_kept(tmp_path):
     for one, other in zip(asset.bodies, again.bodies, strict=True):
         hulls = zip(one.hulls, other.hulls, strict=True)
         assert all(a.vertices.tobytes() == b.vertices.tobytes() for a, b in hulls)
+
+
+SHELVED = Category("cupboard", "height", 0.9, (0.3, 2.0), shelves=0.3, liner="#ff0000")
+HOLLOW = Box(np.array([-0.3, 0.1, 0.0]), np.array([0.3, 1.0, 0.5]))
+
+
+@pytest.mark.parametrize(("spacing", "count"), [(0.3, 2), (0.4, 1), (0.7, 0), (2.0, 0)])
+def test_shelves_divide_a_hollow_evenly(spacing, count):
+    boards = shelf_boards([HOLLOW], spacing)
+    assert len(boards) == count
+    edges = [0.1, *((board.low[1] + board.high[1]) / 2.0 for board in boards), 1.0]
+    np.testing.assert_allclose(np.diff(edges), 0.9 / (count + 1))
+    for board in boards:
+        assert board.size[1] == pytest.approx(SHELF_M)
+        assert board.low[2] > HOLLOW.low[2]
+        np.testing.assert_array_equal(board.size[[0]], HOLLOW.size[[0]])
+    too_shallow = Box(HOLLOW.low, np.array([0.3, 1.0, 0.05]))
+    assert shelf_boards([too_shallow], spacing) == ()
+
+
+@pytest.fixture(scope="module")
+def shelved():
+    return solids(cupboard(), CONFIG, usual=SHELVED)
+
+
+def test_a_cupboard_has_shelves_that_its_door_clears(shelved, cupboard_built):
+    body, door = shelved.pieces
+    (shelf,) = [each for each in shelved.surfaces if each.kind == "shelf"]
+    assert (shelf.part, shelf.rule) == ("body", "usual")
+    # As high as the middle of the hollow, where the plain one is empty.
+    middle = np.array([[0.0, 0.1, SIZE[2] / 2.0]])
+    filled = [any((depth_below(hull, middle) > 0.0).all() for hull in each.pieces[0].hulls)
+              for each in (cupboard_built, shelved)]  # fmt: skip
+    assert filled == [False, True]
+    (joint,) = shelved.articulation.joints
+    for value in np.linspace(0.0, joint.upper, 9):
+        pose = joint.motion(float(value))
+        assert all(meeting(a, b, pose).depth < -0.002 for a in body.hulls for b in door.hulls)
+
+
+def test_the_inside_has_its_own_colour(shelved):
+    colors = {each.name: each.color for each in shelved.articulation.mesh.materials}
+    assert colors["liner_body"] == colors["liner_panel_1"] == (1.0, 0.0, 0.0, 1.0)
+    assert colors["inner_body"] != colors["liner_body"]
+
+
+@pytest.mark.parametrize("given", [chest, bin_with_lid])
+def test_neither_drawers_nor_lids_have_shelves(given):
+    made = solids(given(), CONFIG, usual=SHELVED)
+    assert "shelf" not in {each.kind for each in made.surfaces}

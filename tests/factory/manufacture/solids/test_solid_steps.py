@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
 from labelled_skins import SIZE, box_skin, chest, cupboard, labelled
 from plain_solids import box_between, parted
 
@@ -14,7 +15,7 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry import posing
 from asset_factory.factory.geometry.posing import face_parts
-from asset_factory.factory.manufacture.decompose.convex import depth_below
+from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of
 from asset_factory.factory.manufacture.separate.clip import SHEET_M
 from asset_factory.factory.manufacture.solids.boards import BOTTOM_M, HEIGHT, STOP_M, drawer_box
 from asset_factory.factory.manufacture.solids.box import Box
@@ -24,7 +25,7 @@ from asset_factory.factory.manufacture.solids.cavity import hollow
 from asset_factory.factory.manufacture.solids.frame import working_frame
 from asset_factory.factory.manufacture.solids.lattice import Lattice, enclosed
 from asset_factory.factory.manufacture.solids.matter import PATH, Matter
-from asset_factory.factory.manufacture.solids.pieces import convex_pieces
+from asset_factory.factory.manufacture.solids.pieces import convex_pieces, filled
 from asset_factory.factory.manufacture.solids.reach import FAR_M, reaching
 from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
 from asset_factory.factory.manufacture.solids.skin import border, parts_to_build, skin_parts
@@ -335,3 +336,41 @@ def test_air_is_not_filled_to_reach_a_spike(matter):
     whole = Box(LOW, HIGH).hull()
     (reached,) = reaching(replace(matter, points=spike), [whole])
     assert reached.vertices[:, 2].max() == pytest.approx(0.8)
+
+
+BOUNDS = np.array([[0.0, 0.0, 0.0], [1.0, 0.7, 0.4]])
+LATTICE = Lattice.over(BOUNDS, 24, [[0.31], [0.5], []])
+EVERYWHERE = (slice(None), slice(None), slice(None))
+POINTS = hnp.arrays(np.float64, (12, 3), elements=st.floats(-0.25, 1.25, width=32))
+
+
+@given(POINTS, st.floats(-0.05, 0.05), st.integers(0, 10), st.integers(0, 10))
+def test_cells_below_all_planes_are_found(points, margin, first, second):
+    hull = hull_of(points)
+    assume(hull is not None)
+    planes = hull.planes * [1.0, 1.0, 1.0, -1.0]
+    span = (slice(first, None), slice(second, None), slice(0, 7))
+    shape = np.zeros(LATTICE.shape)[span].shape
+    at = np.argwhere(np.ones(shape)) + np.array([first, second, 0])
+    heights = (LATTICE.centers(at) @ planes[:, :3].T + planes[:, 3]).max(axis=1)
+    found = LATTICE.below(planes, span, margin).reshape(-1)
+    assume(np.abs(heights - margin).min(initial=1.0) > 1e-9)
+    assert (found == (heights < margin)).all()
+
+
+def test_a_box_of_whole_cells_fills_its_volume():
+    box = Box(*(np.array([line[cell] for line in LATTICE.lines]) for cell in (2, 6)))
+    twice = np.full(LATTICE.shape, 2, dtype=np.uint8)
+    hull = box.hull()
+    assert hull is not None
+    assert np.isclose(filled(LATTICE, twice, EVERYWHERE, hull), 2.0 * np.prod(box.size))
+
+
+def test_a_sheet_thinner_than_cells_fills_those_it_crosses():
+    middle = LATTICE.middles[2][4]
+    low, high = (np.append(end, middle) for end in BOUNDS[:, :2])
+    hull = Box(low, high).grown([0.0, 0.0, 5e-4]).hull()
+    assert hull is not None
+    once = np.ones(LATTICE.shape, dtype=np.uint8)
+    crossed = LATTICE.volumes[:, :, 4].sum()
+    assert np.isclose(filled(LATTICE, once, EVERYWHERE, hull), crossed)
