@@ -143,8 +143,8 @@ def test_a_guessed_limit_is_weighed_against_what_is_usual():
 def test_a_limit_of_the_other_kind_is_not_believed():
     joint = WORLDS["drawer"].joints[0]
     found = best_motion(partition(WORLDS["drawer"]), 1, Guess(0.6, joint.axis, joint.origin, 1.5))
-    if found.motion is not None and found.motion.kind is JointKind.PRISMATIC:
-        assert found.motion.upper < 0.5
+    assert found.motion.kind is JointKind.PRISMATIC
+    assert found.motion.upper < 0.5
 
 
 def test_what_is_blocked_by_its_holder_goes_no_further():

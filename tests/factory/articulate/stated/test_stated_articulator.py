@@ -107,11 +107,6 @@ def test_a_box_beside_the_mesh_says_what_it_shows():
     assert "parts[0] (door) and parts[1] (drawer): share" in found.message
 
 
-def test_a_hinge_that_a_kind_cannot_have_is_refused():
-    with pytest.raises(InputRejected, match=r"parts\[0\] \(door\): is hinged at its back"):
-        articulated(fridge(), {**DOOR, "hinge": "back"})
-
-
 def test_nothing_opens_where_that_is_said():
     (made,) = articulated(fridge(), opens=False)
     assert made.movable_joints == ()

@@ -136,17 +136,12 @@ def tapered(depth):
     return cells, room, Box(np.array([0.0, 0.0, -depth]), np.array([1.0, 1.0, 0.0]))
 
 
-def test_a_tapered_room_is_hollowed_in_steps():
-    boxes = hollow(*tapered(0.9), Side.TOP.frame)
+@pytest.mark.parametrize("depth", [0.0776, 0.31, 0.9])
+def test_a_tapered_room_is_hollowed_in_steps_without_a_skin_between(depth):
+    boxes = hollow(*tapered(depth), Side.TOP.frame)
     widths = [box.size[0] for box in boxes]
     assert len(boxes) > 1
     assert widths == sorted(widths, reverse=True)
-
-
-@pytest.mark.parametrize("depth", [0.0776, 0.31, 0.9])
-def test_between_the_steps_of_a_hollow_there_is_no_skin(depth):
-    boxes = hollow(*tapered(depth), Side.TOP.frame)
-    assert len(boxes) > 1
     corners = inside_of(boxes, boxes[0].low[2])
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2.0
     mouth = boxes[0].size[0] * boxes[0].size[1]
