@@ -1,16 +1,21 @@
-"""Masses and inertias against closed forms and symmetries."""
+"""Masses and inertias against closed forms and symmetries, and whole objects as heavy as usual."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from manufactured import manufactured
 from plain_solids import box, cylinder
 from scipy.spatial.transform import Rotation
 
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import InertiaConfig
 from asset_factory.factory.errors import InvalidAsset
+from asset_factory.factory.geometry.posing import closed
+from asset_factory.factory.intake.categories import usual_of
 from asset_factory.factory.manufacture.inertia import (
     MIN_GYRATION_M,
     MIN_MASS_KG,
@@ -221,3 +226,20 @@ def test_generated_objects_weigh_what_such_things_weigh(category):
     masses = [inertial(articulation.part_mesh(i)).mass for i in range(len(articulation.parts))]
     low, high = (0.5, 3.0) if category == "laptop" else (3.0, 200.0)
     assert low < sum(masses) < high
+
+
+def mass_of(whole, kept, **known):
+    asset, *_ = manufactured(whole, kept, **known)
+    return sum(body.inertial.mass for body in asset.bodies)
+
+
+def test_an_object_weighs_what_is_usual_of_its_category_or_what_is_stated(kept):
+    whole = make_object("microwave", seed=1)
+    plain = mass_of(whole, kept)
+    want = usual_of("microwave").bulk * closed(whole).mesh.extents.prod()
+    assert mass_of(whole, kept, category="microwave") == pytest.approx(want)
+    seen = replace(whole, looks_like="microwave")
+    assert mass_of(seen, kept) == pytest.approx(want)
+    assert mass_of(seen, kept, category="cabinet") == pytest.approx(plain)
+    stated = mass_of(whole, kept, category="microwave", density=1300.0)
+    assert stated == pytest.approx(2.0 * plain, rel=0.01)
