@@ -154,25 +154,22 @@ def test_a_sidecar_of_another_mesh_is_refused():
     articulated(fridge(), DOOR, size=[6, 6, 16])
 
 
-class Guess:
-    """Sees the three drawers of ``drawers``."""
-
-    name = "guess"
-
-    def articulate(self, mesh):
-        rows = ((0.07, 0.36), (0.38, 0.67), (0.69, 0.96))
-        drawer = {"kind": "drawer", "side": "front"}
-        parts = [{**drawer, "box": [0.05, low, 0.95, high]} for low, high in rows]
-        said = stated_from({"parts": parts})
-        return StatedArticulator(said, None, Proposer.SIDES).articulate(mesh)
+def guess():
+    """Who sees the three drawers of ``drawers``."""
+    rows = ((0.07, 0.36), (0.38, 0.67), (0.69, 0.96))
+    drawer = {"kind": "drawer", "side": "front"}
+    said = stated_from(
+        {"parts": [{**drawer, "box": [0.05, low, 0.95, high]} for low, high in rows]}
+    )
+    return StatedArticulator(said, None, Proposer.SIDES)
 
 
 def test_what_is_expected_is_found_or_counted():
     expected = stated_from({"parts": [{"kind": "drawer", "count": 3}]})
-    made = StatedArticulator(expected, Guess()).articulate(drawers())
+    made = StatedArticulator(expected, guess()).articulate(drawers())
     assert [part.kind for part in made.parts[1:]] == ["drawer"] * 3
     too_many = stated_from({"parts": [{"kind": "drawer", "count": 4}]})
-    found = refusal(StatedArticulator(too_many, Guess()).articulate, drawers())
+    found = refusal(StatedArticulator(too_many, guess()).articulate, drawers())
     assert found.code == "stated_part_not_found"
     assert "found 3 of 4 drawers" in found.message
 
@@ -201,12 +198,12 @@ def test_a_lid_that_is_drawn_open_is_closed_first(degrees):
 def test_a_part_without_a_place_is_looked_for_beside_placed_ones():
     placed = {"kind": "drawer", "side": "front", "box": [0.05, 0.378, 0.95, 0.667], "name": "mid"}
     stated = stated_from({"parts": [placed, {"kind": "drawer", "count": 2}]})
-    made = StatedArticulator(stated, Guess()).articulate(drawers())
+    made = StatedArticulator(stated, guess()).articulate(drawers())
     assert [part.name for part in made.parts] == ["base", "mid", "drawer_0", "drawer_1"]
     assert [part.source.proposer for part in made.parts[1:]] == ["sidecar", "sides", "sides"]
     stated = stated_from({"parts": [placed, {"kind": "drawer", "count": 3}]})
     with pytest.raises(InputRejected, match="found 2 of 3 drawers"):
-        StatedArticulator(stated, Guess()).articulate(drawers())
+        StatedArticulator(stated, guess()).articulate(drawers())
     with pytest.raises(InputRejected, match=r"parts\[1\] \(drawer\): has no side and box"):
         StatedArticulator(stated).articulate(drawers())
 
