@@ -144,8 +144,6 @@ WRONG_TURNS = {
     "tilted": replace(TURN, axis=rotation_about(ALONG, np.radians(10.0)) @ INWARD),
     "flipped end over end": replace(TURN, axis=ALONG),
 }
-
-
 BUTTON = box((-0.05, -0.03, -0.05), (0.05, 0.09, 0.05))
 PRESS = Joint("press", "prismatic", 0, 1, INWARD, [0.0, 0.0, 0.0], 0.0, 0.025)
 
@@ -165,13 +163,9 @@ WRONG_SLIDES = {
     "tilted down": replace(PRESS, axis=rotation_about(ALONG, -np.radians(10.0)) @ INWARD),
     "tilted sideways": replace(PRESS, axis=rotation_about(UP, np.radians(10.0)) @ INWARD),
 }
-
-
 #: A small flap, sunk in the front and hinged at its front edge.
 FLAP = box((0.0, -0.002, 0.0), (0.16, 0.018, 0.1))
 HINGE = Joint("hinge", "revolute", 0, 1, [0, 0, -1], [0.0, -0.002, 0.0], 0.0, 1.5)
-
-
 WRONG_FLAPS = {
     "flipped": replace(HINGE, axis=-HINGE.axis),
     "limits swapped": replace(HINGE, lower=-1.5, upper=0.0),
@@ -224,8 +218,6 @@ OFF_THE_RING = {
     ),
     "lying": replace(ROUND, axis=ALONG),
 }
-
-
 WRONG = {
     "knob": (BODY, [knob(0.06)], WRONG_TURNS),
     "button": (BODY, [BUTTON], WRONG_SLIDES),

@@ -1,5 +1,7 @@
 """Doors are hung at their front edges; what is no part of its own goes to what it lies on."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from plain_solids import box_between, parted
@@ -22,9 +24,8 @@ def inset_door(**changed):
     door = box_between((LEFT, 0.0, 0.0), (RIGHT, THICK, 0.6))
     handle = box_between((0.33, -0.03, 0.2), (0.35, 0.0, 0.4))
     place = ([0, 0, -1], [LEFT, THICK, 0.3])
-    stated = {"upper": 1.5, "confidence": 0.9, "kind": JointKind.REVOLUTE, **changed}
-    hinge = Joint("hinge", stated.pop("kind"), 0, 1, *place, **stated)
-    return located(parted({"base": [post], "door": [door, handle]}, hinge))
+    hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, *place, upper=1.5, confidence=0.9)
+    return located(parted({"base": [post], "door": [door, handle]}, replace(hinge, **changed)))
 
 
 def farthest_left(door, joint):
@@ -74,15 +75,10 @@ def cupboard():
         "door": [box_between((-0.4, -0.335, 0.0), (0.4, -0.305, 1.0))],
         "badge": [box_between((0.05, -0.345, 0.65), (0.15, -0.335, 0.75))],
     }
-
-    joints = (
-        Joint(f"{name}_hinge", "revolute", 0, child, [0, 0, -1], at, 0.0, 1.5, confidence=sure)
-        for child, name, at, sure in (
-            (1, "door", [-0.4, -0.3, 0.5], 0.5),
-            (2, "badge", [0.1, -0.34, 0.7], 0.9),
-        )
-    )
-    return parted(boxes, *joints)
+    place = ([0, 0, -1], [-0.4, -0.3, 0.5])
+    door = Joint("door_hinge", "revolute", 0, 1, *place, 0.0, 1.5, confidence=0.5)
+    badge = replace(door, name="badge_hinge", child=2, origin=[0.1, -0.34, 0.7], confidence=0.9)
+    return parted(boxes, door, badge)
 
 
 def test_a_badge_goes_with_the_door_that_it_lies_on_and_not_with_its_parent():
