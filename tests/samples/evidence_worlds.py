@@ -1,8 +1,7 @@
 """Small closed objects whose motions are known."""
 
-from dataclasses import replace
-
 import numpy as np
+from plain_solids import moved
 
 from asset_factory.factory.articulate.evidence import Partition
 from asset_factory.factory.articulation import Articulation
@@ -39,11 +38,9 @@ def _bar(length: float) -> Pull:
 
 def _placed(made: Articulation) -> Articulation:
     """With its back at ``Y[1]``, as it was described."""
-    offset = np.array([0.0, Y[1] - made.mesh.bounds[1, 1], 0.0])
     motion = np.eye(4)
-    motion[:3, 3] = offset
-    joints = tuple(replace(joint, origin=joint.origin + offset) for joint in made.joints)
-    return replace(made, mesh=made.mesh.transformed(motion), joints=joints)
+    motion[1, 3] = Y[1] - made.mesh.bounds[1, 1]
+    return moved(made, motion)
 
 
 def cupboard(hinge: str = "left") -> Articulation:

@@ -1,6 +1,7 @@
 """Boxes and cylinders as meshes of one material."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -82,3 +83,22 @@ def parted(named: dict[str, Sequence[Mesh]], *joints: Joint) -> Articulation:
     parts = tuple(Part(name, own) for name, own in zip(named, faces, strict=True))
     mesh = concatenate([mesh for own in named.values() for mesh in own])
     return Articulation(mesh, parts, joints, "test")
+
+
+def moved(whole: Articulation, matrix: np.ndarray) -> Articulation:
+    """The whole object moved, scaled or mirrored by a matrix, shape [4, 4].
+
+    A mirror image turns the other way, so that it opens as before.
+    """
+    linear = matrix[:3, :3]
+    sign = np.sign(np.linalg.det(linear))
+    scale = np.cbrt(abs(np.linalg.det(linear)))
+
+    def there(joint: Joint) -> Joint:
+        axis = linear @ joint.axis / scale * (sign if joint.turns else 1.0)
+        length = 1.0 if joint.turns else scale
+        limits = {"lower": joint.lower * length, "upper": joint.upper * length}
+        return replace(joint, axis=axis, origin=linear @ joint.origin + matrix[:3, 3], **limits)
+
+    joints = tuple(there(joint) for joint in whole.joints)
+    return replace(whole, mesh=whole.mesh.transformed(matrix), joints=joints)

@@ -57,18 +57,3 @@ def asset_of(articulation: Articulation) -> Asset:
 
 def best(articulation: Articulation) -> Target:
     return targets_of(articulation)[0]
-
-
-def moved(articulation: Articulation, matrix: np.ndarray) -> Articulation:
-    """The whole object moved; a mirror image turns the other way, so that it opens as before."""
-    linear = matrix[:3, :3]
-    sign = np.sign(np.linalg.det(linear))
-    joints = tuple(
-        Joint(
-            j.name, j.kind, j.parent, j.child,
-            linear @ j.axis * (sign if j.turns else 1.0), linear @ j.origin + matrix[:3, 3],
-            j.lower, j.upper,
-        )
-        for j in articulation.joints
-    )  # fmt: skip
-    return Articulation(articulation.mesh.transformed(matrix), articulation.parts, joints, "test")

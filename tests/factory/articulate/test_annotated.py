@@ -63,42 +63,38 @@ def test_a_plain_drawer_passes_through_without_a_note():
     assert result.articulator == "annotated"
 
 
-def test_a_joint_that_opens_downwards_is_turned_round():
-    result = cabinet(joint("revolute", -1.5, 0.0, axis=np.array([0.0, 0.0, 1.0])))
-    turned = result.joints[0]
-    assert (turned.lower, turned.upper) == (0.0, 1.5)
-    np.testing.assert_allclose(turned.axis, [0.0, 0.0, -1.0])
-    assert said(result, "reversed")
-    opened = np.eye(4)
-    opened[:3, :3] = rotation_about([0, 0, 1], -1.5)
-    np.testing.assert_allclose(turned.motion(1.5), opened, atol=1e-12)
+Y = np.array([0.0, 1.0, 0.0])
+Z = np.array([0.0, 0.0, 1.0])
+HALF_OPEN = box((0, -0.4, 0), (1, -0.3, 1))
+WIDE_OPEN = box((0, -1.1, 0), (1, -1.0, 1))
+KNOB = box((0.4, -0.1, 0.4), (0.6, 0.0, 0.6))
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_an_input_in_mid_range_is_closed_where_the_object_is_smallest(sign):
-    half_open = box((0, -0.4, 0), (1, -0.3, 1))
-    limits = (-0.3, 0.2) if sign > 0 else (-0.2, 0.3)
-    result = build([BODY, half_open], [joint("prismatic", *limits, axis=np.array([0, -sign, 0]))])
-    opened = result.joints[0]
-    assert (opened.lower, opened.upper) == pytest.approx((-0.3, 0.2))
-    np.testing.assert_allclose(opened.axis, [0.0, -1.0, 0.0])
-    assert said(result, "inside its range")
-
-
-def test_an_input_modelled_open_at_its_upper_limit_stays_open():
-    wide_open = box((0, -1.1, 0), (1, -1.0, 1))
-    result = build([BODY, wide_open], [joint("prismatic", -1.0, 0.0)])
-    assert (result.joints[0].lower, result.joints[0].upper) == (-1.0, 0.0)
-    np.testing.assert_allclose(result.joints[0].axis, [0.0, -1.0, 0.0])
-    assert said(result, "taken as open")
-
-
-def test_a_knob_that_nothing_tells_keeps_its_direction():
-    knob = box((0.4, -0.1, 0.4), (0.6, 0.0, 0.6))
-    axis = np.array([0.0, 1.0, 0.0])
-    result = build([BODY, knob], [joint("revolute", -2.0, 2.0, axis=axis, origin=[0.5, 0, 0.5])])
-    np.testing.assert_allclose(result.joints[0].axis, axis)
-    assert said(result, "neither end is clearly closed")
+@pytest.mark.parametrize(
+    ("part", "given", "limits", "axis", "says"),
+    [
+        (FRONT, joint("revolute", -1.5, 0.0, axis=Z), (0.0, 1.5), -Z, "reversed"),
+        (HALF_OPEN, joint("prismatic", -0.3, 0.2), (-0.3, 0.2), -Y, "inside its range"),
+        (HALF_OPEN, joint("prismatic", -0.2, 0.3, axis=Y), (-0.3, 0.2), -Y, "inside its range"),
+        (WIDE_OPEN, joint("prismatic", -1.0, 0.0), (-1.0, 0.0), -Y, "taken as open"),
+        (
+            KNOB,
+            joint("revolute", -2.0, 2.0, axis=Y, origin=[0.5, 0.0, 0.5]),
+            (-2.0, 2.0),
+            Y,
+            "neither end is clearly closed",
+        ),
+    ],
+    ids=["opens downwards", "half open", "half open, backwards", "open", "a knob, of no end"],
+)
+def test_a_joint_is_turned_round_where_the_object_is_smaller_at_its_upper_limit(
+    part, given, limits, axis, says
+):
+    result = build([BODY, part], [given])
+    (found,) = result.joints
+    assert (found.lower, found.upper) == pytest.approx(limits)
+    np.testing.assert_allclose(found.axis, axis)
+    assert said(result, says)
 
 
 def test_an_input_outside_the_range_is_posed_at_the_nearest_limit():

@@ -50,20 +50,20 @@ def test_a_hinge_seen_the_wrong_way_round_is_turned():
     assert joint.lower == pytest.approx(-2.0, abs=1e-6)
 
 
-@pytest.mark.parametrize("handle", [0.05, 0.3])
-def test_a_closed_door_stays_closed_however_far_its_handle_stands_out(handle):
-    whole = cupboard(handle)
-    assert with_closed_hinges(whole).joints == whole.joints
+COLUMN = cylinder(2, (0.0, 0.0), 0.04, (0.0, 0.3), METAL)
+ARM = board((0.0, -0.02, 0.301), (0.4, 0.02, 0.32))
+TURN = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, -1, 0], [0.0, 0.0, 0.31], 0.0, 1.5)
 
 
-def test_a_part_that_closes_nothing_stays_as_it_is_drawn():
-    seen = guessed(1.0, cupboard(kind=PartKind.KNOB))
-    assert with_closed_hinges(seen).joints == seen.joints
-
-
-def test_a_lever_is_not_taken_for_open_because_upright_it_would_be_smaller():
-    column = cylinder(2, (0.0, 0.0), 0.04, (0.0, 0.3), METAL)
-    lever = board((0.0, -0.02, 0.301), (0.4, 0.02, 0.32))
-    joint = Joint("turn", JointKind.REVOLUTE, 0, 1, [0, -1, 0], [0.0, 0.0, 0.31], 0.0, 1.5)
-    whole = world([lever], joint, [column])
+@pytest.mark.parametrize(
+    "whole",
+    [
+        cupboard(),
+        cupboard(handle=0.3),
+        guessed(1.0, cupboard(kind=PartKind.KNOB)),
+        world([ARM], TURN, [COLUMN]),
+    ],
+    ids=["closed", "closed, with a long handle", "closing nothing", "smaller if it stood upright"],
+)
+def test_what_does_not_stand_open_stays_as_it_is_drawn(whole):
     assert with_closed_hinges(whole).joints == whole.joints

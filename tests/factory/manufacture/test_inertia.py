@@ -1,16 +1,21 @@
-"""Masses and inertias against closed forms and symmetries."""
+"""Masses and inertias against closed forms and symmetries, and whole objects as heavy as usual."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from manufactured import manufactured
 from plain_solids import box, cylinder
 from scipy.spatial.transform import Rotation
 
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import InertiaConfig
 from asset_factory.factory.errors import InvalidAsset
+from asset_factory.factory.geometry.posing import closed
+from asset_factory.factory.intake.categories import usual_of
 from asset_factory.factory.manufacture.inertia import (
     MIN_GYRATION_M,
     MIN_MASS_KG,
@@ -25,35 +30,90 @@ from asset_factory.learn.objects.catalog import DEMO_CATEGORIES
 
 DENSITY = 650.0
 CONFIG = InertiaConfig()
+WALL_M = CONFIG.shell_thickness_m
 PLAIN = Material("plain")
 UNIT = box((0.0, 0.4), (0.0, 0.3), (0.0, 0.2), PLAIN)
+HOLE = box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN)
 
 
 def inertial(mesh, hulls=(), density=DENSITY):
     return part_inertial(mesh, hulls, density, CONFIG)
 
 
-def box_tensor(mass, x, y, z):
-    return mass / 12.0 * np.diag([y * y + z * z, x * x + z * z, x * x + y * y])
-
-
 def inside_out(mesh):
     return Mesh.from_triangles(mesh.vertices, mesh.faces[:, ::-1])
 
 
-def sheet(x, y):
-    return Mesh.from_triangles([(0, 0, 0), (x, 0, 0), (x, y, 0), (0, y, 0)], [(0, 1, 2), (0, 2, 3)])
+def two_sided(mesh):
+    return Mesh.from_triangles(mesh.vertices, np.vstack([mesh.faces, mesh.faces[:, ::-1]]))
 
 
 def hull_of(mesh):
     return Hull(mesh.vertices, mesh.faces)
 
 
-def test_a_box_has_its_textbook_inertia():
-    found = inertial(UNIT)
-    assert found.mass == pytest.approx(DENSITY * 0.4 * 0.3 * 0.2)
-    np.testing.assert_allclose(found.center, [0.2, 0.15, 0.1])
-    np.testing.assert_allclose(found.tensor, box_tensor(found.mass, 0.4, 0.3, 0.2), atol=1e-12)
+def without_top(mesh):
+    return mesh.submesh(np.flatnonzero((mesh.vertices[mesh.faces][:, :, 2] < 0.2).any(axis=1)))
+
+
+SHEET = Mesh.from_triangles(
+    [(0, 0, 0), (0.5, 0, 0), (0.5, 0.4, 0), (0, 0.4, 0)], [(0, 1, 2), (0, 2, 3)]
+)
+LINE = Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
+
+
+def filled(center, size, sign=1.0):
+    """Mass, first and second moments about the origin of a box of the material."""
+    mass = sign * DENSITY * np.prod(size)
+    center = np.array(center)
+    return mass, mass * center, mass * (np.outer(center, center) + np.diag(np.square(size)) / 12.0)
+
+
+def together(*boxes):
+    """Mass, centre and inertia tensor about it of boxes together."""
+    mass, first, second = (sum(each) for each in zip(*boxes, strict=True))
+    center = first / mass
+    about = second - mass * np.outer(center, center)
+    return mass, center, np.trace(about) * np.eye(3) - about
+
+
+BLOCK = filled((0.2, 0.15, 0.1), (0.4, 0.3, 0.2))
+HOLLOW = filled((0.2, 0.15, 0.1), (0.36, 0.26, 0.16), -1.0)
+PLATE = filled((0.25, 0.2, 0.0), (0.5, 0.4, WALL_M))
+WALLS = [
+    filled((0.2, 0.15, 0.0), (0.4, 0.3, WALL_M)),
+    *(filled((x, 0.15, 0.1), (WALL_M, 0.3, 0.2)) for x in (0.0, 0.4)),
+    *(filled((0.2, y, 0.1), (0.4, WALL_M, 0.2)) for y in (0.0, 0.3)),
+]
+CORE = box((0.1, 0.2), (0.1, 0.2), (0.05, 0.15), PLAIN)
+BESIDE = box((0.2, 0.6), (0.0, 0.3), (0.0, 0.2), PLAIN)
+FAR = box((1.0, 1.1), (0.0, 0.5), (0.3, 0.5), PLAIN)
+FLAT = box((0.0, 0.5), (0.0, 0.4), (0.0, 1e-6), PLAIN)
+FORMS = {
+    "a box": ([UNIT], [BLOCK]),
+    "a cavity": ([UNIT, inside_out(HOLE)], [BLOCK, HOLLOW]),
+    "all inside out": ([inside_out(UNIT), HOLE], [BLOCK, HOLLOW]),
+    "a solid in a cavity": (
+        [UNIT, inside_out(HOLE), CORE],
+        [BLOCK, HOLLOW, filled((0.15, 0.15, 0.1), (0.1, 0.1, 0.1))],
+    ),
+    "an overlap, counted once": ([UNIT, BESIDE], [filled((0.3, 0.15, 0.1), (0.6, 0.3, 0.2))]),
+    "two apart": ([UNIT, FAR], [BLOCK, filled((1.05, 0.25, 0.4), (0.1, 0.5, 0.2))]),
+    "a sheet": ([SHEET], [PLATE]),
+    "a sheet with a back side": ([two_sided(SHEET)], [PLATE]),
+    "closed without thickness": ([FLAT], [PLATE]),
+    "an open box of sheets": ([without_top(UNIT)], WALLS),
+}
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_a_part_has_the_textbook_inertia_of_the_boxes_that_it_consists_of(name):
+    meshes, boxes = FORMS[name]
+    found = inertial(concatenate(meshes))
+    mass, center, tensor = together(*boxes)
+    assert found.mass == pytest.approx(mass, rel=1e-5)
+    np.testing.assert_allclose(found.center, center, atol=1e-6)
+    np.testing.assert_allclose(found.tensor, tensor, rtol=1e-3, atol=1e-9)
 
 
 def test_a_cylinder_comes_close_to_its_textbook_inertia():
@@ -67,95 +127,29 @@ def test_a_cylinder_comes_close_to_its_textbook_inertia():
     np.testing.assert_allclose(found.tensor, tensor, rtol=1e-3, atol=1e-9)
 
 
-@pytest.mark.parametrize("shell", [(False, True), (True, False)], ids=["proper", "all_inside_out"])
-def test_a_closed_shell_inside_another_is_a_cavity(shell):
-    outer = UNIT
-    inner = box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN)
-    pairs = zip((outer, inner), shell, strict=True)
-    parts = [inside_out(mesh) if turned else mesh for mesh, turned in pairs]
-    found = inertial(concatenate(parts))
-    solid = DENSITY * 0.4 * 0.3 * 0.2
-    hole = DENSITY * 0.36 * 0.26 * 0.16
-    assert found.mass == pytest.approx(solid - hole)
-    np.testing.assert_allclose(found.center, [0.2, 0.15, 0.1])
-    expected = box_tensor(solid, 0.4, 0.3, 0.2) - box_tensor(hole, 0.36, 0.26, 0.16)
-    np.testing.assert_allclose(found.tensor, expected, atol=1e-12)
-
-
-def test_a_solid_inside_a_cavity_counts_again():
-    layers = [UNIT, inside_out(box((0.02, 0.38), (0.02, 0.28), (0.02, 0.18), PLAIN))]
-    core = box((0.1, 0.2), (0.1, 0.2), (0.05, 0.15), PLAIN)
-    with_core = inertial(concatenate([*layers, core])).mass
-    assert with_core - inertial(concatenate(layers)).mass == pytest.approx(DENSITY * 1e-3)
-
-
 def test_a_box_with_a_fin_on_an_edge_weighs_what_both_weigh():
     fin = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.2], [-0.1, 0.0, 0.0]]
     corners = [*UNIT.vertices[UNIT.faces].reshape(-1, 3).round(9).tolist(), *fin]
     vertices, index = np.unique(corners, axis=0, return_inverse=True)
     found = inertial(Mesh.from_triangles(vertices, index.reshape(-1, 3))).mass
-    assert found - inertial(UNIT).mass == pytest.approx(DENSITY * 0.01 * CONFIG.shell_thickness_m)
+    assert found - inertial(UNIT).mass == pytest.approx(DENSITY * 0.01 * WALL_M)
 
 
-def test_overlapping_boxes_count_their_overlap_once():
-    other = UNIT.transformed([[1, 0, 0, 0.2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
-    found = inertial(concatenate([UNIT, other]))
-    assert found.mass == pytest.approx(DENSITY * 0.6 * 0.3 * 0.2)
-    tensor = box_tensor(found.mass, 0.6, 0.3, 0.2)
-    np.testing.assert_allclose(found.tensor, tensor, rtol=1e-9, atol=1e-12)
+THIN = hull_of(box((0.0, 0.5), (0.0, 0.4), (-0.0005, 0.0005), PLAIN))
 
 
-def test_two_parts_together_are_the_sum_of_both():
-    far = box((1.0, 1.1), (0.0, 0.5), (0.3, 0.5), PLAIN)
-    one = inertial(UNIT)
-    two = inertial(far)
-    both = inertial(concatenate([UNIT, far]))
-    assert both.mass == pytest.approx(one.mass + two.mass)
-    center = (one.mass * one.center + two.mass * two.center) / both.mass
-    np.testing.assert_allclose(both.center, center)
-    expected = np.zeros((3, 3))
-    for piece in (one, two):
-        arm = piece.center - center
-        expected += piece.tensor + piece.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    np.testing.assert_allclose(both.tensor, expected, rtol=1e-9, atol=1e-12)
-
-
-def test_a_sheet_weighs_its_area_times_the_wall_and_its_back_side_adds_nothing():
-    plate = sheet(0.5, 0.4)
-    found = inertial(plate)
-    assert found.mass == pytest.approx(DENSITY * 0.2 * CONFIG.shell_thickness_m)
-    expected = box_tensor(found.mass, 0.5, 0.4, CONFIG.shell_thickness_m)
-    np.testing.assert_allclose(found.tensor, expected, rtol=1e-3)
-    doubled = Mesh.from_triangles(plate.vertices, np.vstack([plate.faces, plate.faces[:, ::-1]]))
-    assert inertial(doubled).mass == pytest.approx(found.mass)
-
-
-def test_a_closed_surface_without_thickness_is_a_sheet():
-    flat = box((0.0, 0.5), (0.0, 0.4), (0.0, 1e-6), PLAIN)
-    assert inertial(flat).mass == pytest.approx(DENSITY * 0.2 * CONFIG.shell_thickness_m, rel=1e-4)
-
-
-def test_an_open_box_of_sheets_is_walls_and_not_a_block():
-    low = (UNIT.vertices[UNIT.faces][:, :, 2] < 0.2).any(axis=1)
-    tray = UNIT.submesh(np.flatnonzero(low))
-    area = 0.4 * 0.3 + 2 * 0.4 * 0.2 + 2 * 0.3 * 0.2
-    found = inertial(tray)
-    assert found.mass == pytest.approx(DENSITY * area * CONFIG.shell_thickness_m)
-    assert found.mass < 0.1 * inertial(UNIT).mass
-    assert found.center[2] < 0.1
-
-
-def test_no_part_weighs_more_than_its_filled_hulls():
-    plate = sheet(0.5, 0.4)
-    hull = hull_of(box((0.0, 0.5), (0.0, 0.4), (-0.0005, 0.0005), PLAIN))
-    assert inertial(plate, (hull,)).mass == pytest.approx(DENSITY * hull.volume)
-    assert inertial(UNIT, (hull_of(UNIT), hull_of(UNIT))).mass == pytest.approx(inertial(UNIT).mass)
-
-
-def test_a_part_of_faces_without_area_weighs_what_its_hulls_weigh():
-    line = Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)])
-    assert inertial(line, (hull_of(UNIT),)).mass == pytest.approx(DENSITY * 0.024)
-    assert inertial(line).mass == MIN_MASS_KG
+@pytest.mark.parametrize(
+    ("mesh", "hulls", "mass"),
+    [
+        (SHEET, (THIN,), DENSITY * THIN.volume),
+        (UNIT, (hull_of(UNIT), hull_of(UNIT)), DENSITY * 0.024),
+        (LINE, (hull_of(UNIT),), DENSITY * 0.024),
+        (LINE, (), MIN_MASS_KG),
+    ],
+    ids=["less than its surface", "as much", "without an area", "without hulls either"],
+)
+def test_no_part_weighs_more_than_its_filled_hulls_or_too_little(mesh, hulls, mass):
+    assert inertial(mesh, hulls).mass == pytest.approx(mass)
 
 
 def test_a_crumb_is_lifted_to_what_simulators_can_hold():
@@ -232,3 +226,20 @@ def test_generated_objects_weigh_what_such_things_weigh(category):
     masses = [inertial(articulation.part_mesh(i)).mass for i in range(len(articulation.parts))]
     low, high = (0.5, 3.0) if category == "laptop" else (3.0, 200.0)
     assert low < sum(masses) < high
+
+
+def mass_of(whole, kept, **known):
+    asset, *_ = manufactured(whole, kept, **known)
+    return sum(body.inertial.mass for body in asset.bodies)
+
+
+def test_an_object_weighs_what_is_usual_of_its_category_or_what_is_stated(kept):
+    whole = make_object("microwave", seed=1)
+    plain = mass_of(whole, kept)
+    want = usual_of("microwave").bulk * closed(whole).mesh.extents.prod()
+    assert mass_of(whole, kept, category="microwave") == pytest.approx(want)
+    seen = replace(whole, looks_like="microwave")
+    assert mass_of(seen, kept) == pytest.approx(want)
+    assert mass_of(seen, kept, category="cabinet") == pytest.approx(plain)
+    stated = mass_of(whole, kept, category="microwave", density=1300.0)
+    assert stated == pytest.approx(2.0 * plain, rel=0.01)

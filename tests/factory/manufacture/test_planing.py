@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 from held_parts import CONFIG, PAIR, box, cut, cut_free, deepest, hulls_of, mesh_of, require_refused
-from plain_solids import parted
+from plain_solids import carcass, parted
 
 from asset_factory.factory.articulation import Joint, Part, rotation_about
 from asset_factory.factory.asset import Hull
@@ -15,32 +15,22 @@ from asset_factory.factory.manufacture.poses import relative_poses
 from asset_factory.factory.manufacture.separate import separate
 from asset_factory.factory.manufacture.separate.clip import meeting
 
+#: Boards of a cabinet, and the space between its sides, in which its door lies.
+BOARD = 0.02
 THICK = 0.018
 WIDTH, HEIGHT, DEPTH = 0.5, 0.7, 0.4
 GAP = 0.003
-
-
-def carcass():
-    """Boards of a cabinet that is open towards -y; its door lies between the sides."""
-    w, h, d, t = WIDTH, HEIGHT, DEPTH, THICK
-    return [
-        box((-t, 0, 0), (0, d, h)),
-        box((w, 0, 0), (w + t, d, h)),
-        box((0, 0, -t), (w, d, 0)),
-        box((0, 0, h), (w, d, h + t)),
-        box((0, d - t, 0), (w, d, h)),
-        box((0, THICK + 0.02, h / 2), (w, d - t, h / 2 + t)),
-    ]
-
-
+SHELF = box((BOARD, THICK + 0.02, 0.36), (WIDTH + BOARD, DEPTH - BOARD, 0.38))
+CASE = [*carcass(WIDTH + 2 * BOARD, DEPTH, HEIGHT + 2 * BOARD), SHELF]
+LEFT = BOARD + GAP
 #: The door's own hinge: in the middle of its edge, so that its corner needs half its thickness.
-HINGE = Joint("hinge", "revolute", 0, 1, [0, 0, -1], [GAP, THICK / 2, HEIGHT / 2], 0.0, 1.6)
-DOOR = box((GAP, 0, GAP), (WIDTH - GAP, THICK, HEIGHT - GAP))
+HINGE = Joint("hinge", "revolute", 0, 1, [0, 0, -1], [LEFT, THICK / 2, HEIGHT / 2], 0.0, 1.6)
+DOOR = box((LEFT, 0, LEFT), (BOARD + WIDTH - GAP, THICK, BOARD + HEIGHT - GAP))
 DIAGONAL = float(np.linalg.norm(np.ptp(DOOR.vertices, axis=0)))
 
 
 def test_a_hinge_in_the_edge_gets_the_room_that_its_corner_needs():
-    _, _, result = cut_free(carcass(), [DOOR], HINGE, poses=200)
+    _, _, result = cut_free(CASE, [DOOR], HINGE, poses=200)
     trimmed = result.trimmed[PAIR]
     # Half the thickness and the clearance, less the gap that is there, off either.
     assert 0.005 < sum(each.depth_m for each in trimmed) < THICK / 2 + CONFIG.clearance_m
@@ -49,12 +39,12 @@ def test_a_hinge_in_the_edge_gets_the_room_that_its_corner_needs():
 
 @pytest.mark.parametrize(
     ("left", "right", "at"),
-    [(0.006, 0.006, 0.0), (0.0, GAP + 0.004, GAP)],
+    [(0.006, 0.006, BOARD), (0.0, GAP + 0.004, LEFT)],
     ids=["3 mm in its frame at both sides", "4 mm in it across from its hinge"],
 )
 def test_a_door_that_is_too_wide_for_its_frame_is_cut_free(left, right, at):
     wide = box(DOOR.bounds[0] - [left, 0.0, 0.0], DOOR.bounds[1] + [right, 0.0, 0.0])
-    cut_free(carcass(), [wide], replace(HINGE, origin=[at, 0.0, HEIGHT / 2]), poses=200)
+    cut_free(CASE, [wide], replace(HINGE, origin=[at, 0.0, HEIGHT / 2]), poses=200)
 
 
 SHIFT = 0.05 * DIAGONAL
@@ -80,7 +70,7 @@ TWINS = {
 
 @pytest.mark.parametrize("name", TWINS)
 def test_a_door_that_is_hung_wrongly_is_not_cut_free(name):
-    require_refused(carcass(), [DOOR], TWINS[name])
+    require_refused(CASE, [DOOR], TWINS[name])
 
 
 def test_neighbours_whose_edges_overlap_are_cut_apart_and_broad_overlaps_are_not():
@@ -135,7 +125,7 @@ def test_a_sheet_that_lies_on_a_rim_gives_way_and_stays():
 
 
 def test_a_hinge_that_turns_half_a_turn_keeps_its_clearance_all_the_way():
-    tree, _, result = cut(carcass(), [DOOR], replace(HINGE, upper=np.pi))
+    tree, _, result = cut(CASE, [DOOR], replace(HINGE, upper=np.pi))
     sides, door = (piece.hulls for piece in result.pieces)
     pairs = product(sides, door, relative_poses(tree, 0, 1, 150))
     assert min(-meeting(*each).depth for each in pairs) > 0.0022
@@ -162,18 +152,13 @@ def swung_over(post):
     return -deepest(tree, result, poses=1000, gap=CONFIG.clearance_m)
 
 
-def post_beyond(reach_m):
-    """Half way between two poses of the arm, so far from its hinge."""
-    tree_step = 1.5 / (CONFIG.poses - 1)
-    turn = rotation_about([0, 0, 1], 10.5 * tree_step)
-    low, high = (reach_m, -0.004, 0.12), (reach_m + 0.05, -0.001, 0.18)
-    post = box(low, high)
-    return Hull(post.vertices @ turn.T, post.faces)
-
-
-def test_a_long_arm_stays_clear_between_the_poses_that_it_is_cut_at():
-    assert swung_over(post_beyond(2.001)) > 0.75 * CONFIG.clearance_m
-
-
-def test_what_a_long_arm_runs_into_between_two_poses_is_left_to_the_judge():
-    assert swung_over(post_beyond(1.95)) < -0.0005
+@pytest.mark.parametrize(
+    ("reach_m", "least_m", "most_m"),
+    [(2.001, 0.75 * CONFIG.clearance_m, np.inf), (1.95, -np.inf, -0.0005)],
+    ids=["what is just beyond it is clear", "what is in its way is left to the judge"],
+)
+def test_between_the_poses_that_a_long_arm_is_cut_at(reach_m, least_m, most_m):
+    # Half way between two poses of the arm, so far from its hinge.
+    post = box((reach_m, -0.004, 0.12), (reach_m + 0.05, -0.001, 0.18))
+    turn = rotation_about([0, 0, 1], 10.5 * 1.5 / (CONFIG.poses - 1))
+    assert least_m < swung_over(Hull(post.vertices @ turn.T, post.faces)) < most_m

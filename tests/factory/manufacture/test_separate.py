@@ -1,5 +1,7 @@
 """Hulls are cut apart where a real joint has clearance, never where that would hide a fault."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trimesh
@@ -9,9 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from plain_solids import parted
 from plain_solids import sized_box as box
+from plain_solids import sized_hull as hull
 
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Hull
+from asset_factory.factory.geometry.posing import posed
+from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.decompose.outside import outside
 from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
 from asset_factory.factory.manufacture.separate import separate
@@ -22,11 +27,8 @@ from asset_factory.factory.manufacture.separate.clip import (
     meeting,
     volumes_below,
 )
+from asset_factory.factory.manufacture.separate.separate import with_hulls
 from asset_factory.factory.mesh import Mesh
-
-
-def hull(size, center=(0, 0, 0)):
-    return Hull(*box(size, center))
 
 
 def solid(size, center=(0, 0, 0)):
@@ -134,28 +136,22 @@ def test_overlap_without_a_joint_between_is_left_alone():
     assert "overlap by 8.00 mm at rest and no joint" in result.refused[("mover", "third")].reason
 
 
-def turned_box(size, center, axis, angle, about):
-    vertices, faces = box(size, center)
-    turn = trimesh.transformations.rotation_matrix(angle, axis, about)
-    return trimesh.transform_points(vertices, turn), faces
-
-
 def test_sheets_that_cross_at_a_slight_angle_are_not_cut_to_knife_s_edges():
     # Two flaps of a carton, hinged at sides that meet in a corner; one plane takes all of either.
-    angle = np.radians(0.5)
-    shapes = [
-        box((0.4, 0.3, 0.1), (0, 0, -0.06)),
-        turned_box((0.4, 0.15, 0.001), (0, -0.075, 0), [1, 0, 0], angle, [0, -0.15, 0]),
-        turned_box((0.15, 0.3, 0.001), (-0.125, 0, 0), [0, -1, 0], angle, [-0.2, 0, 0]),
-    ]
-    meshes = [Mesh.from_triangles(*shape) for shape in shapes]
     joints = (
         Joint("front", JointKind.REVOLUTE, 0, 1, [1, 0, 0], [0, -0.15, 0], 0.0, 1.5),
         Joint("side", JointKind.REVOLUTE, 0, 2, [0, -1, 0], [-0.2, 0, 0], 0.0, 1.5),
     )
-    carton, front, side = ([mesh] for mesh in meshes)
-    tree = parted({"carton": carton, "front": front, "side": side}, *joints)
-    pieces = pieces_of(*(Hull(*shape) for shape in shapes))
+    meshes = {
+        "carton": [solid((0.4, 0.3, 0.1), (0, 0, -0.06))],
+        "front": [solid((0.4, 0.15, 0.001), (0, -0.075, 0))],
+        "side": [solid((0.15, 0.3, 0.001), (-0.125, 0, 0))],
+    }
+    flat = parted(meshes, *joints)
+    crossed = posed(flat, dict.fromkeys(("front", "side"), np.radians(0.5))).mesh
+    tree = replace(flat, mesh=crossed)
+    meshes = [tree.part_mesh(part) for part in range(3)]
+    pieces = pieces_of(*(Hull(mesh.vertices, mesh.faces) for mesh in meshes))
     result = separate(tree, pieces, [("front", "side")], CONFIG, 64)
     for mesh, piece in zip(meshes, result.pieces, strict=True):
         bare = outside(piece.hulls, SeenSurface.of(mesh).points[:1500])
@@ -181,12 +177,17 @@ def test_what_sticks_out_on_the_other_side_is_not_cut_off():
     assert lengths == pytest.approx([0.0875, 0.2875])
 
 
+def random_hull(generator, count, size, at=0.0):
+    """The convex hull of so many points about a place [m]."""
+    made = trimesh.convex.convex_hull(generator.normal(size=(count, 3)) * size + at)
+    return Hull(made.vertices, made.faces)
+
+
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10_000), st.floats(-0.05, 0.05))
 def test_clipping_keeps_exactly_one_side(seed, offset):
     generator = np.random.default_rng(seed)
-    made = trimesh.convex.convex_hull(generator.normal(size=(20, 3)) * 0.1)
-    whole = Hull(made.vertices, made.faces)
+    whole = random_hull(generator, 20, 0.1)
     normal = generator.normal(size=3)
     normal /= np.linalg.norm(normal)
     below = clipped(whole, normal, offset)
@@ -201,10 +202,7 @@ def test_clipping_keeps_exactly_one_side(seed, offset):
 @given(st.integers(0, 10_000))
 def test_two_hulls_cut_apart_have_the_gap_and_take_no_room(seed):
     generator = np.random.default_rng(seed)
-    solids = []
-    for shift in (0.0, 0.12):
-        made = trimesh.convex.convex_hull(generator.normal(size=(16, 3)) * 0.05 + [shift, 0, 0])
-        solids.append(Hull(made.vertices, made.faces))
+    solids = [random_hull(generator, 16, 0.05, [shift, 0, 0]) for shift in (0.0, 0.12)]
     pose = np.eye(4)
     met = meeting(*solids, pose)
     first, second = cut_apart(*solids, pose, met, 0.002)
@@ -220,8 +218,7 @@ def test_two_hulls_cut_apart_have_the_gap_and_take_no_room(seed):
 @given(st.integers(0, 10_000))
 def test_what_a_plane_would_leave_of_a_hull_is_known_before_it_is_cut(seed):
     generator = np.random.default_rng(seed)
-    made = trimesh.convex.convex_hull(generator.normal(size=(16, 3)) + generator.normal(size=3))
-    one = Hull(made.vertices, made.faces)
+    one = random_hull(generator, 16, 1.0, generator.normal(size=3))
     # Planes through corners as well, and planes beside the hull.
     normals = np.concatenate([generator.normal(size=(4, 3)), np.eye(3)])
     normals /= np.linalg.norm(normals, axis=1)[:, None]
@@ -237,3 +234,26 @@ def test_a_box_cut_by_planes_along_its_faces_leaves_its_share():
     planes = np.array([[1.0, 0, 0]] * 4), np.array([4.5, 4.75, 5.5, 9.0])
     shares = volumes_below(hull((1, 2, 3), (5, 0, 0)), *planes)
     assert shares == pytest.approx([0.0, 1.5, 6.0, 6.0])
+
+
+PANEL = SolidPieces((hull((0.3, 0.3, 0.02)),), "exact")
+#: The panel in nine tiles, without the one in the middle.
+PLACES = [(x, y, 0.0) for x in (-0.1, 0.0, 0.1) for y in (-0.1, 0.0, 0.1) if (x, y) != (0.0, 0.0)]
+TILES = [hull((0.1, 0.1, 0.02), place) for place in PLACES]
+
+
+def test_tiles_around_a_hole_become_four_walls_and_the_hole_stays_open():
+    after = with_hulls(PANEL, TILES, 64)
+    assert len(after.hulls) == 4
+    assert sum(hull.volume for hull in after.hulls) == pytest.approx(8 * 0.1 * 0.1 * 0.02)
+    hole = np.random.default_rng(0).uniform(-0.0499, 0.0499, (500, 3)) * [1.0, 1.0, 0.2]
+    assert max(depth_below(hull, hole).max() for hull in after.hulls) < 0.0
+
+
+def test_tiles_further_apart_than_rounding_stay_apart():
+    apart = [hull((0.1, 0.1, 0.02)), hull((0.1, 0.1, 0.02), (0.101, 0.0, 0.0))]
+    assert len(with_hulls(PANEL, apart, 64).hulls) == 2
+
+
+def test_a_part_that_was_not_cut_is_the_same():
+    assert with_hulls(PANEL, list(PANEL.hulls), 64) is PANEL

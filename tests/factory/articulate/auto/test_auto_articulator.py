@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.auto import proposals
+from asset_factory.factory.articulate.auto import load_auto, proposals
 from asset_factory.factory.articulate.auto.articulator import AutoArticulator
 from asset_factory.factory.articulate.auto.parts import LearnedPart
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust
 from asset_factory.factory.articulate.auto.views import look_around
 from asset_factory.factory.articulate.evidence import Guess, MotionEvidence
+from asset_factory.factory.articulate.geometric import GeometricArticulator
 from asset_factory.factory.articulate.proposal import Motion, Proposal
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
@@ -21,6 +22,7 @@ from asset_factory.factory.models.particulate.prediction import MotionClass, Pre
 from asset_factory.factory.models.perceptron import linear
 from asset_factory.factory.part import Proposer
 from asset_factory.learn.bodies import bodies_of
+from asset_factory.learn.evaluate.physical import physical
 from asset_factory.learn.objects import make_object
 
 SHOWN = ParticulateConfig(points=1500, context_points=500)
@@ -198,10 +200,8 @@ def test_views_are_told_in_the_objects_own_frame():
     np.testing.assert_allclose(across[1], [np.sin(0.3), -np.cos(0.3), 0.0], atol=1e-6)
 
 
-def test_every_face_belongs_to_one_part_and_confidences_are_told():
-    truth = make_object("cabinet", 5)
-    found = asked(truth)
-    assert sorted(np.concatenate([p.faces for p in found.parts])) == [*range(len(truth.mesh.faces))]
+def test_confidences_are_told():
+    found = asked(make_object("cabinet", 5))
     assert all(0.5 <= joint.confidence <= 1.0 for joint in found.movable_joints)
     assert found.articulator == "auto"
 
@@ -213,3 +213,20 @@ def test_one_piece_without_parts_stays_rigid():
     whole.owner = np.zeros(4, dtype=np.int64)
     articulator = AutoArticulator(whole, (), BELIEVING, SHOWN, AutoConfig(views=1))
     assert not articulator.articulate(tetrahedron).joints
+
+
+#: Seeds below a million are never trained on.
+UNSEEN = [("notebook", 5), ("scissors", 5), ("toilet", 5), ("oven", 5)]
+
+
+def right(articulator, category, seed):
+    truth = make_object(category, seed)
+    return float(np.mean(physical(truth, articulator.articulate(truth.mesh)).pooled["joint_right"]))
+
+
+def test_with_the_network_more_joints_are_right_than_by_shape_alone():
+    auto = load_auto(ParticulateConfig(), AutoConfig())
+    together = [right(auto, *case) for case in UNSEEN]
+    alone = [right(GeometricArticulator(), *case) for case in UNSEEN]
+    assert np.mean(together) > np.mean(alone) + 0.3
+    assert np.mean(together) > 0.7

@@ -1,15 +1,22 @@
-"""Views made one, faces shared out, trust in closed form."""
+"""Views made one, faces shared out, loose pieces put to what they touch, trust in closed form."""
+
+import resource
+from itertools import combinations
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
+from plain_solids import box_between
 
+from asset_factory.factory.articulate.auto.contacts import _touching, contacts_of, settled
 from asset_factory.factory.articulate.auto.partition import share_out
 from asset_factory.factory.articulate.auto.parts import agreed_parts, shared
 from asset_factory.factory.articulate.auto.trust import SIGNS, Trust, load_trust, log_odds, signs_of
 from asset_factory.factory.articulate.auto.views import NetworkView, SeenPart
 from asset_factory.factory.articulate.proposal import Motion
+from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.models.perceptron import linear
 
 AREAS = np.ones(10)
@@ -102,3 +109,82 @@ def test_the_shipped_trust_believes_more_where_more_speaks_for_it():
     assert both > trust.confidence(doubtful | {"learned": 1.0})
     assert trust.confidence(seen | {"learned": 1.0}) > trust.confidence(doubtful | {"learned": 1.0})
     assert 0.05 < trust.least < 0.9
+
+
+FACES = 12
+BODY, DOOR, HANDLE, SHELF, FAR = range(5)
+
+
+#: A body, a door 20 mm before it, a handle on the door, a shelf on the body's back, and something
+#: that touches nothing.
+SCENE = concatenate([
+    box_between((-0.5, -0.25, 0.0), (0.5, 0.25, 1.0)),
+    box_between((-0.5, -0.29, 0.0), (0.5, -0.27, 1.0)),
+    box_between((0.39, -0.33, 0.4), (0.41, -0.29, 0.6)),
+    box_between((-0.15, 0.25, 0.49), (0.15, 0.45, 0.51)),
+    box_between((-0.05, -0.05, 1.95), (0.05, 0.05, 2.05)),
+])  # fmt: skip
+COMPONENTS = np.repeat(np.arange(5), FACES)
+
+
+@pytest.mark.parametrize(
+    ("labels", "wanted"),
+    [
+        ([0, 1, 0, 1, 0], [0, 1, 1, 0, 0]),
+        ([0, 1, 1, 0, 1], [0, 1, 1, 0, 1]),
+        ([1, 1, 1, 1, 1], [1, 1, 1, 1, 1]),
+        ([2, 1, 1, 0, 0], [2, 1, 1, 0, 0]),
+    ],
+    ids=[
+        "a handle goes with its door, a shelf with the body",
+        "what is right stays, and what touches nothing",
+        "all are one",
+        "a large piece is no loose one",
+    ],
+)
+def test_loose_pieces_go_with_what_they_touch(labels, wanted):
+    found = settled(contacts_of(SCENE, COMPONENTS), np.repeat(labels, FACES))
+    assert found.tolist() == np.repeat(wanted, FACES).tolist()
+
+
+def test_a_component_of_several_parts_is_left_as_it_is():
+    labels = np.repeat([0, 1, 0, 0, 0], FACES)
+    labels[HANDLE * FACES] = 1
+    assert np.array_equal(settled(contacts_of(SCENE, COMPONENTS), labels), labels)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_contacts_do_not_depend_on_the_order_of_faces(seed):
+    order = np.random.default_rng(seed).permutation(len(SCENE.faces))
+    shuffled = SCENE.submesh(order)
+    there = contacts_of(shuffled, COMPONENTS[order])
+    here = contacts_of(SCENE, COMPONENTS)
+    assert there.pairs.tolist() == here.pairs.tolist() == [[BODY, SHELF], [DOOR, HANDLE]]
+
+
+@given(st.integers(0, 10_000), st.integers(1, 6), st.floats(0.01, 0.5))
+def test_contacts_are_counted_as_if_every_pair_were_listed(seed, owners, reach):
+    chance = np.random.default_rng(seed)
+    points = chance.uniform(size=(60, 3))
+    owner = np.sort(chance.integers(0, owners, 60)) * 3
+    pairs, weights = _touching(points, owner, reach)
+    near = np.linalg.norm(points[:, None] - points[None], axis=2) <= reach
+    both = combinations(np.unique(owner).tolist(), 2)
+    expected = {(a, b): int(near[np.ix_(owner == a, owner == b)].sum()) for a, b in both}
+    found = dict(zip(map(tuple, pairs.tolist()), weights.tolist(), strict=True))
+    assert found == {pair: count for pair, count in expected.items() if count}
+
+
+def test_dense_boards_that_lie_in_one_another_take_no_memory():
+    board = trimesh.creation.box((1.0, 1.0, 0.001))
+    for _ in range(6):
+        board = board.subdivide()
+    boards = [board.copy().apply_translation([0.0, 0.0, 0.0005 * k]) for k in range(3)]
+    both = trimesh.util.concatenate(boards)
+    mesh = Mesh.from_triangles(both.vertices, both.faces)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    components = np.repeat(np.arange(3), len(board.faces))
+    contacts = contacts_of(mesh, components)
+    assert contacts.pairs.tolist() == [[0, 1], [0, 2], [1, 2]]
+    assert contacts.weights.sum() > 1_000_000
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 1_000_000

@@ -29,11 +29,11 @@ def unmoving(kind, seed):
     return rigid_articulation(make_object(kind, seed).mesh, "auto", ())
 
 
-def with_part(articulation, faces, confidence=0.5):
+def with_part(articulation, faces, kind=PartKind.PART, confidence=0.5, source=None):
     """Return the articulation with some of its body's faces as a part that slides to the back."""
     base = articulation.parts[0]
     parts = [replace(base, faces=np.setdiff1d(base.faces, faces)), *articulation.parts[1:]]
-    parts.append(Part("part_0", faces, confidence, kind=PartKind.PART))
+    parts.append(Part("part_0", faces, confidence, kind=kind, source=source))
     joint = Joint(
         "part_0_slide", JointKind.PRISMATIC, 0, len(parts) - 1, np.array([0.0, 1.0, 0.0]),
         np.zeros(3), 0.0, 0.1, confidence=confidence,
@@ -66,9 +66,10 @@ def test_what_it_does_not_see_stays_fixed_and_what_it_sees_moves():
 @pytest.mark.parametrize(("proposer", "moves"), [(Proposer.RULES, True), (Proposer.NETWORK, False)])
 def test_knobs_that_rules_find_move_alone_and_guessed_ones_do_not(proposer, moves):
     table = make_still("still_table", np.random.default_rng(4)).mesh
-    said = with_part(rigid_articulation(table, "auto", ()), np.arange(2))
-    knob = replace(said.parts[1], kind=PartKind.KNOB, source=PartSource("knob", proposer, 0.5, {}))
-    made = detected(replace(said, parts=(said.parts[0], knob)))[0].articulation
+    source = PartSource("knob", proposer, 0.5, {})
+    said = rigid_articulation(table, "auto", ())
+    knob = with_part(said, np.arange(2), PartKind.KNOB, source=source)
+    made = detected(knob)[0].articulation
     assert bool(made.movable_joints) is moves
 
 
@@ -89,11 +90,10 @@ def test_a_part_that_a_network_believes_gives_way_to_drawers_that_are_seen_there
 
 def test_of_one_piece_what_rules_take_for_a_door_gives_way_to_drawers_that_are_seen_there():
     mesh = one_piece.proud_drawers()
-    said = with_part(rigid_articulation(mesh, "auto", ()), front_of(mesh, 0.1))
-    door = replace(
-        said.parts[1], kind=PartKind.DOOR, source=PartSource("0", Proposer.RULES, 0.9, {})
-    )
-    made = detected(replace(said, parts=(said.parts[0], door)))[0].articulation
+    source = PartSource("0", Proposer.RULES, 0.9, {})
+    said = rigid_articulation(mesh, "auto", ())
+    door = with_part(said, front_of(mesh, 0.1), PartKind.DOOR, source=source)
+    made = detected(door)[0].articulation
     assert [part.kind for part in made.parts[1:]] == [PartKind.DRAWER] * 2
 
 
@@ -113,10 +113,9 @@ def test_a_lid_that_is_proposed_with_its_hinge_elsewhere_is_hung_where_its_sides
 def test_a_knob_on_a_door_that_is_seen_is_its_pull():
     truth = make_object("fridge", 4)
     said = unmoving("fridge", 4)
-    proposed = with_part(said, front_of(said.mesh, 0.02))
     source = PartSource("knob", Proposer.RULES, 0.63, {})
-    knob = replace(proposed.parts[1], kind=PartKind.KNOB, source=source)
-    made = detected(replace(proposed, parts=(proposed.parts[0], knob)))[0].articulation
+    knob = with_part(said, front_of(said.mesh, 0.02), PartKind.KNOB, source=source)
+    made = detected(knob)[0].articulation
     assert [part.kind for part in made.parts[1:]] == [PartKind.DOOR] * len(truth.movable_joints)
 
 

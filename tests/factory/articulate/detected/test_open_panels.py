@@ -1,4 +1,4 @@
-"""Panels that stand open are closed; what sticks out of other things is left alone."""
+"""Panels and screens that are drawn open are closed; what sticks out of others is left alone."""
 
 import numpy as np
 import pytest
@@ -6,13 +6,15 @@ import pytest
 pytest.importorskip("torch")
 
 from modelled_furniture import board
-from plain_solids import carcass, parted
+from plain_solids import box_between, carcass, parted
 from tests.factory.articulate.detected.test_detected_articulator import detected
 
 from asset_factory.factory.articulate.detected.open_panels import open_panels, reopened, with_closed
+from asset_factory.factory.articulate.detected.screens import open_screen
 from asset_factory.factory.articulate.rigid import rigid_articulation
 from asset_factory.factory.articulation import Joint, JointKind, rotation_about
-from asset_factory.factory.geometry.posing import closed, posed
+from asset_factory.factory.geometry.posing import closed, posed, turned
+from asset_factory.factory.intake.stated import Hinge
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.models.detector.canvas import KINDS
 from asset_factory.factory.models.detector.detect import Detection
@@ -124,14 +126,59 @@ def test_closed_panels_take_the_place_of_what_others_find_there():
     assert with_closed(elsewhere, made) is made
 
 
-def test_an_open_door_is_closed_before_anybody_else_is_asked():
-    made = make_object("fridge", 2)
-    (true, *_) = made.movable_joints
-    drawn = coloured_skin(posed(made, {true.name: np.radians(75.0)}).mesh, 0)
-    told = detected(rigid_articulation(drawn, "auto", ()))[0].articulation
-    (joint,) = [each for each in told.joints if each.lower < 0.0]
-    assert told.parts[joint.child].kind is PartKind.DOOR
+def opened(kind, seed, angle):
+    """Return a made object whose first joint is open by an angle [rad]."""
+    made = make_object(kind, seed)
+    return posed(made, {made.movable_joints[0].name: angle})
+
+
+@pytest.mark.parametrize("degrees", [70.0, 90.0, 110.0])
+def test_a_screen_is_what_stands_on_the_base(degrees):
+    screen = open_screen(opened("laptop", 1, np.radians(degrees)).mesh)
+    assert screen.hinge is Hinge.BACK
+    assert screen.drawn == pytest.approx(degrees, abs=1.5)
+    assert 0.02 < screen.box[1] < 0.15
+
+
+def test_the_hinge_is_where_the_screen_stands():
+    laptop = turned(opened("laptop", 2, np.radians(100.0)), np.pi / 2.0)
+    assert open_screen(laptop.mesh).hinge is Hinge.LEFT
+
+
+def test_nothing_stands_on_a_closed_laptop_or_is_a_plate_on_a_fridge():
+    assert open_screen(make_object("laptop", 1).mesh) is None
+    assert open_screen(make_object("fridge", 4).mesh) is None
+
+
+def test_a_lying_plate_a_sheet_and_a_tower_have_no_screen():
+    base = box_between((0.0, 0.0, 0.0), (0.3, 0.2, 0.02))
+    shelf = box_between((0.0, 0.15, 0.15), (0.3, 0.2, 0.155))
+    assert open_screen(concatenate([base, shelf])) is None
+    assert open_screen(Mesh.from_triangles(np.eye(3) * [1.0, 1.0, 0.0], [[0, 1, 2]])) is None
+    assert open_screen(box_between((0.0, 0.0, 0.0), (0.1, 0.1, 2.0))) is None
+
+
+@pytest.mark.parametrize(
+    ("kind", "seed", "degrees", "part"),
+    [
+        ("laptop", 0, 70.0, PartKind.LID),
+        ("laptop", 0, 100.0, PartKind.LID),
+        ("fridge", 2, 75.0, PartKind.DOOR),
+    ],
+)
+def test_what_is_open_stays_as_drawn_and_its_joint_closes_it(kind, seed, degrees, part):
+    truth = opened(kind, seed, np.radians(degrees))
+    drawn = coloured_skin(truth.mesh, 0) if kind == "fridge" else truth.mesh
+    made = detected(rigid_articulation(drawn, "auto", ()))[0].articulation
+    (joint,) = [each for each in made.joints if each.lower < 0.0]
+    assert made.parts[joint.child].kind is part
+    assert made.looks_like == kind
+    assert joint.lower == pytest.approx(np.radians(-degrees), abs=0.03)
+    true = truth.movable_joints[0]
     assert joint.axis == pytest.approx(true.axis, abs=0.02)
-    assert joint.lower == pytest.approx(np.radians(-75.0), abs=0.05)
-    assert told.mesh.bounds == pytest.approx(drawn.bounds, abs=1e-6)
-    assert any("stands open by 75 degrees" in note for note in told.notes)
+    if kind == "laptop":
+        assert joint.upper == pytest.approx(max(np.radians(90.0 - degrees), 0.0), abs=0.03)
+        off = np.cross(joint.origin - true.origin, true.axis)
+        assert float(np.linalg.norm(off)) < 0.03 * float(truth.mesh.extents.max())
+    assert made.mesh.bounds == pytest.approx(drawn.bounds, abs=1e-6)
+    assert any(f"stands open by {degrees:.0f} degrees" in note for note in made.notes)

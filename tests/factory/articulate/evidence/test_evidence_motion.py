@@ -9,12 +9,16 @@ from evidence_worlds import apart, chest, cupboard, oven, partition
 from asset_factory.factory.articulate.evidence import NOTHING, Guess, Partition, best_motion
 from asset_factory.factory.articulate.evidence.body import body_of
 from asset_factory.factory.articulate.evidence.candidates import find_candidates
+from asset_factory.factory.articulate.evidence.extent import stands_out_by
 from asset_factory.factory.articulate.evidence.numbers import NAMES, measure
-from asset_factory.factory.articulate.evidence.rating import load_rating
+from asset_factory.factory.articulate.evidence.rating import load_rating, load_usual
+from asset_factory.factory.articulate.evidence.usual import LONGEST_SLIDE
 from asset_factory.factory.articulation import JointKind, rotation_about
+from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.mesh import Mesh, concatenate
 
 UP = np.array([0.0, 0.0, 1.0])
+OUT = np.array([0.0, -1.0, 0.0])
 WORLDS = {"left": cupboard("left"), "right": cupboard("right"), "drawer": chest(), "oven": oven()}
 
 
@@ -139,8 +143,8 @@ def test_a_guessed_limit_is_weighed_against_what_is_usual():
 def test_a_limit_of_the_other_kind_is_not_believed():
     joint = WORLDS["drawer"].joints[0]
     found = best_motion(partition(WORLDS["drawer"]), 1, Guess(0.6, joint.axis, joint.origin, 1.5))
-    if found.motion is not None and found.motion.kind is JointKind.PRISMATIC:
-        assert found.motion.upper < 0.5
+    assert found.motion.kind is JointKind.PRISMATIC
+    assert found.motion.upper < 0.5
 
 
 def test_what_is_blocked_by_its_holder_goes_no_further():
@@ -153,3 +157,40 @@ def test_what_is_blocked_by_its_holder_goes_no_further():
     found = best_motion(walled, 1, Guess(0.05, joint.axis, joint.origin))
     assert found.motion.kind is JointKind.PRISMATIC
     assert found.motion.upper < 0.27
+
+
+#: Of the chest's front, which stands before its carcass [m].
+THICK = 0.021
+
+
+def drawn(by):
+    """The chest with its drawer pulled out [m]."""
+    drawer = WORLDS["drawer"]
+    return partition(posed(drawer, {drawer.joints[0].name: by}))
+
+
+@pytest.mark.parametrize("by", [0.15, 0.25, 0.35])
+def test_an_open_drawer_goes_back_as_far_as_it_stands_out(by):
+    closed = best_motion(drawn(0.0), 1, Guess(0.0, OUT)).motion
+    found = best_motion(drawn(by), 1, Guess(0.0, OUT)).motion
+    assert closed.lower == 0.0
+    assert found.axis @ OUT > 0.999
+    assert -found.lower == pytest.approx(by + THICK, abs=0.01)
+    assert found.upper - found.lower == pytest.approx(closed.upper, rel=0.25)
+
+
+def test_standing_out_is_measured_from_the_holders_mouth():
+    for by in (0.0, 0.1, 0.3):
+        assert stands_out_by(body_of(drawn(by), 1), OUT) == pytest.approx(by + THICK, abs=0.01)
+    assert stands_out_by(body_of(drawn(0.3), 1), -OUT) == 0.0
+
+
+def test_what_lies_outside_its_holder_or_goes_up_does_not_stand_open():
+    assert stands_out_by(body_of(partition(WORLDS["left"]), 1), OUT) == 0.0
+    assert stands_out_by(body_of(partition(WORLDS["oven"]), 2), OUT) == 0.0
+    assert stands_out_by(body_of(drawn(0.2), 1), UP) == 0.0
+
+
+def test_no_slide_is_many_times_as_long_as_its_part():
+    assert load_usual(True).values.max() <= LONGEST_SLIDE
+    assert np.isinf(load_usual(False).values).any(), "turns may have no end"

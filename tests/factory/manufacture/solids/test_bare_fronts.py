@@ -73,12 +73,6 @@ def test_a_drawer_of_a_hollow_case_gets_a_box_too():
     assert not any(each.kind == "hollow" for each in made.surfaces)
 
 
-def test_without_interior_nothing_is_invented_behind_a_front():
-    made = solids(with_drawer(drawer_chest(), 1, 3), SolidsConfig(interior=False))
-    assert not {each.kind for each in made.surfaces} & {"drawer box", "hollow"}
-    assert np.ptp(made.articulation.part_mesh(1).vertices[:, 1]) < 0.1
-
-
 @pytest.mark.parametrize("thickness", [0.03, 0.06])
 def test_a_modelled_door_becomes_a_slab_as_thick_as_it_is(thickness):
     case = board((0.0, 0.0, 0.0), (0.6, 0.5, 1.2))

@@ -1,20 +1,25 @@
 """A labelled skin becomes solids: convex, clear of one another on all of their way, open inside."""
 
 from dataclasses import replace
+from functools import cache
+from itertools import combinations
 
 import numpy as np
 import pytest
 import trimesh
 from labelled_skins import FINE, SIZE, bin_with_lid, box_skin, chest, cupboard, front, labelled
+from manufactured import manufactured
 
 from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.config import SolidsConfig
+from asset_factory.factory.intake.categories import UNKNOWN, Category
 from asset_factory.factory.manufacture.decompose.convex import depth_below
 from asset_factory.factory.manufacture.separate.clip import meeting
+from asset_factory.factory.manufacture.solids.boards import SHELF_M, shelf_boards
+from asset_factory.factory.manufacture.solids.box import Box
 from asset_factory.factory.manufacture.solids.build import solids
 from asset_factory.factory.manufacture.solids.panel import DOOR_M
-from asset_factory.factory.manufacture.solids.surfaces import boundary
 from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.part import PartKind
 from asset_factory.factory.views.raster import Side
@@ -23,18 +28,24 @@ from asset_factory.factory.views.view import elevation
 CONFIG = SolidsConfig()
 #: More than what makes PyBullet's joints jam [m].
 CLEAR_M = 0.002
-KINDS = {"cupboard": cupboard, "chest": chest, "bin": bin_with_lid}
+SHELVED = Category("cupboard", "height", 0.9, (0.3, 2.0), shelves=0.3, liner="#ff0000")
+KINDS = {
+    "cupboard": (cupboard, UNKNOWN),
+    "shelves": (cupboard, SHELVED),
+    "chest": (chest, SHELVED),
+    "bin": (bin_with_lid, SHELVED),
+}
 
 
-@pytest.fixture(scope="module", params=KINDS)
+@cache
+def build(kind):
+    make, usual = KINDS[kind]
+    return solids(make(), CONFIG, usual=usual)
+
+
+@pytest.fixture(params=KINDS)
 def built(request):
-    given = KINDS[request.param]()
-    return request.param, given, solids(given, CONFIG)
-
-
-@pytest.fixture(scope="module")
-def cupboard_built():
-    return solids(cupboard(), CONFIG)
+    return build(request.param)
 
 
 def volume(piece):
@@ -54,40 +65,33 @@ def with_more(given, part, vertices, faces):
     return replace(given, mesh=mesh, parts=tuple(parts))
 
 
-def test_parts_keep_clear_of_the_body_on_all_of_their_way(built):
-    _, _, made = built
-    for joint in made.articulation.joints:
+def test_parts_keep_clear_of_the_body_on_all_of_their_way_and_of_one_another(built):
+    body, *movers = built.pieces
+    for joint, mover in zip(built.articulation.joints, movers, strict=True):
         for value in np.linspace(joint.lower, joint.upper, 31):
-            gap = least_gap(made.pieces[0], made.pieces[joint.child], joint.motion(value))
-            assert gap > CLEAR_M, (joint.name, value)
-
-
-def test_neighbours_keep_clear_of_one_another():
-    made = solids(chest(), CONFIG)
-    assert least_gap(made.pieces[1], made.pieces[2], np.eye(4)) > CLEAR_M
+            assert least_gap(body, mover, joint.motion(value)) > CLEAR_M, (joint.name, value)
+    assert all(least_gap(*pair, np.eye(4)) > CLEAR_M for pair in combinations(movers, 2))
 
 
 def test_pieces_stay_within_the_skin(built):
-    _, _, made = built
     low = np.array([-SIZE[0] / 2, -SIZE[1] / 2, 0.0]) - 2e-3
     high = np.array([SIZE[0] / 2, SIZE[1] / 2, SIZE[2]]) + 2e-3
-    for piece in made.pieces:
-        for hull in piece.hulls:
-            assert (hull.vertices >= low).all()
-            assert (hull.vertices <= high).all()
+    points = np.concatenate([hull.vertices for piece in built.pieces for hull in piece.hulls])
+    assert (points >= low).all()
+    assert (points <= high).all()
 
 
-def test_a_door_is_the_slab_that_its_outline_says(cupboard_built):
+def test_a_door_is_the_slab_that_its_outline_says():
     # Labels end along triangles' edges and a view's pixels: sides are known to a few millimetres.
-    slab = cupboard_built.pieces[1]
+    slab = build("cupboard").pieces[1]
     want = (0.4 - 2 * CONFIG.gap_m) * (0.6 - 2 * CONFIG.gap_m) * DOOR_M
     assert volume(slab) == pytest.approx(want, rel=0.08)
     points = np.concatenate([hull.vertices for hull in slab.hulls])
     assert np.ptp(points[:, 1]) == pytest.approx(DOOR_M, abs=1e-4)
 
 
-def test_a_cupboard_is_walls_around_a_hollow_of_the_recorded_depth(cupboard_built):
-    (hollow,) = [each for each in cupboard_built.surfaces if each.kind == "hollow"]
+def test_a_cupboard_is_walls_around_a_hollow_of_the_recorded_depth():
+    (hollow,) = [each for each in build("cupboard").surfaces if each.kind == "hollow"]
     assert hollow.part == "body"
     assert hollow.thickness_m == CONFIG.wall_m
     depth_m = SIZE[1] - DOOR_M - CONFIG.behind_m - CONFIG.wall_m
@@ -95,14 +99,13 @@ def test_a_cupboard_is_walls_around_a_hollow_of_the_recorded_depth(cupboard_buil
     inside = (0.4 - 2 * CONFIG.wall_m) * (0.6 - 2 * CONFIG.wall_m) * hollow.depth_m
     recess = 0.4 * 0.6 * (DOOR_M + CONFIG.behind_m)
     want = SIZE.prod() - inside - recess
-    assert volume(cupboard_built.pieces[0]) == pytest.approx(want, rel=0.05)
+    assert volume(build("cupboard").pieces[0]) == pytest.approx(want, rel=0.05)
 
 
-def test_a_door_of_its_own_is_a_closed_surface(cupboard_built):
-    mesh = cupboard_built.articulation.part_mesh(1)
-    volume_m3 = pytest.approx(0.4 * 0.6 * DOOR_M, rel=0.08)
-    closed = len(boundary(mesh.vertices[mesh.faces])) == 0
-    assert closed or trimesh.Trimesh(mesh.vertices, mesh.faces).volume == volume_m3
+def test_a_door_of_its_own_has_a_surface_around_its_slab():
+    mesh = build("cupboard").articulation.part_mesh(1)
+    volume_m3 = trimesh.Trimesh(mesh.vertices, mesh.faces).volume
+    assert volume_m3 == pytest.approx(0.4 * 0.6 * DOOR_M, rel=0.08)
 
 
 def test_a_frame_behind_a_door_stays_behind():
@@ -115,7 +118,7 @@ def test_a_frame_behind_a_door_stays_behind():
 
 
 def test_a_drawer_has_a_bottom_two_sides_a_back_and_no_top():
-    made = solids(chest(), CONFIG)
+    made = build("chest")
     assert [each.kind for each in made.surfaces].count("drawer box") == 2
     for part in (1, 2):
         hulls = made.pieces[part].hulls
@@ -123,8 +126,7 @@ def test_a_drawer_has_a_bottom_two_sides_a_back_and_no_top():
         low, high = made.articulation.part_mesh(part).bounds
         middle = (low + high) / 2.0
         above = np.array([[middle[0], middle[1], high[2] - 0.03]])
-        for hull in hulls:
-            assert depth_below(hull, above)[0] < 0.0
+        assert max(depth_below(hull, above)[0] for hull in hulls) < 0.0
 
 
 def test_a_drawer_of_a_case_open_below_and_behind_has_its_box_too():
@@ -152,15 +154,14 @@ def test_a_drawer_stays_in_its_hollow():
 
 
 def test_a_lid_is_hollow_and_so_is_what_it_closes():
-    made = solids(bin_with_lid(), CONFIG)
+    made = build("bin")
     kinds = {(each.part, each.kind) for each in made.surfaces}
     assert {("body", "hollow"), ("panel_1", "lid hollow")} <= kinds
     assert volume(made.pieces[0]) < 0.4 * SIZE[0] * SIZE[1] * 0.7
     assert volume(made.pieces[1]) < 0.7 * SIZE[0] * SIZE[1] * 0.1
     top = np.array([[0.0, 0.0, 0.74], [0.0, 0.0, 0.3]])
-    for piece in made.pieces:
-        for hull in piece.hulls:
-            assert (depth_below(hull, top) < 0.0).all()
+    hulls = (hull for piece in made.pieces for hull in piece.hulls)
+    assert max(depth_below(hull, top).max() for hull in hulls) < 0.0
 
 
 def test_a_high_lid_takes_all_above_its_seam_along():
@@ -225,9 +226,8 @@ def test_without_an_interior_nothing_is_hollow():
 
 def test_an_opened_object_shows_no_hole(built):
     """Of the body alone, what is seen first from the front and from above faces the viewer."""
-    _, _, made = built
     for side in (Side.FRONT, Side.TOP):
-        seen = elevation(made.articulation.part_mesh(0), side)
+        seen = elevation(built.articulation.part_mesh(0), side)
         toward = seen.normal[..., 2][seen.seen] < 1e-6
         assert seen.seen[2:-2, 2:-2].all()
         assert toward.mean() > 0.995
@@ -240,3 +240,55 @@ def test_a_lid_that_is_lifted_gets_no_drawers_box():
     kinds = {record.kind for record in solids(lifted, CONFIG).surfaces}
     assert "lid hollow" in kinds
     assert "drawer box" not in kinds
+
+
+def test_a_skin_is_built_once_says_what_was_invented_and_is_kept(tmp_path):
+    asset, _, stages = manufactured(cupboard(), tmp_path)
+    assert stages.done == ["solids", "finish"]
+    assert {body.decomposition for body in asset.bodies} == {"built"}
+    assert {"hollow", "slab back", "rim", "frame"} <= {each.kind for each in asset.invented}
+    again, _, stages = manufactured(cupboard(), tmp_path)
+    assert (stages.done, stages.reused) == ([], ["solids", "finish"])
+    assert again.invented == asset.invented
+    for one, other in zip(asset.bodies, again.bodies, strict=True):
+        hulls = zip(one.hulls, other.hulls, strict=True)
+        assert all(a.vertices.tobytes() == b.vertices.tobytes() for a, b in hulls)
+
+
+HOLLOW = Box(np.array([-0.3, 0.1, 0.0]), np.array([0.3, 1.0, 0.5]))
+
+
+@pytest.mark.parametrize(("spacing", "count"), [(0.3, 2), (0.4, 1), (0.7, 0), (2.0, 0)])
+def test_shelves_divide_a_hollow_evenly(spacing, count):
+    boards = shelf_boards([HOLLOW], spacing)
+    assert len(boards) == count
+    edges = [0.1, *((board.low[1] + board.high[1]) / 2.0 for board in boards), 1.0]
+    np.testing.assert_allclose(np.diff(edges), 0.9 / (count + 1))
+    for board in boards:
+        assert board.size[1] == pytest.approx(SHELF_M)
+        assert board.low[2] > HOLLOW.low[2]
+        np.testing.assert_array_equal(board.size[[0]], HOLLOW.size[[0]])
+    too_shallow = Box(HOLLOW.low, np.array([0.3, 1.0, 0.05]))
+    assert shelf_boards([too_shallow], spacing) == ()
+
+
+def test_a_cupboard_has_shelves():
+    shelved = build("shelves")
+    (shelf,) = [each for each in shelved.surfaces if each.kind == "shelf"]
+    assert (shelf.part, shelf.rule) == ("body", "usual")
+    # As high as the middle of the hollow, where the plain one is empty.
+    middle = np.array([[0.0, 0.1, SIZE[2] / 2.0]])
+    filled = [any((depth_below(hull, middle) > 0.0).all() for hull in each.pieces[0].hulls)
+              for each in (build("cupboard"), shelved)]  # fmt: skip
+    assert filled == [False, True]
+
+
+def test_the_inside_has_its_own_colour():
+    colors = {each.name: each.color for each in build("shelves").articulation.mesh.materials}
+    assert colors["liner_body"] == colors["liner_panel_1"] == (1.0, 0.0, 0.0, 1.0)
+    assert colors["inner_body"] != colors["liner_body"]
+
+
+@pytest.mark.parametrize("kind", ["chest", "bin"])
+def test_neither_drawers_nor_lids_have_shelves(kind):
+    assert "shelf" not in {each.kind for each in build(kind).surfaces}

@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
 from labelled_skins import SIZE, box_skin, chest, cupboard, labelled
 from plain_solids import box_between, parted
 
@@ -14,7 +15,7 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry import posing
 from asset_factory.factory.geometry.posing import face_parts
-from asset_factory.factory.manufacture.decompose.convex import depth_below
+from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of
 from asset_factory.factory.manufacture.separate.clip import SHEET_M
 from asset_factory.factory.manufacture.solids.boards import BOTTOM_M, HEIGHT, STOP_M, drawer_box
 from asset_factory.factory.manufacture.solids.box import Box
@@ -24,8 +25,8 @@ from asset_factory.factory.manufacture.solids.cavity import hollow
 from asset_factory.factory.manufacture.solids.frame import working_frame
 from asset_factory.factory.manufacture.solids.lattice import Lattice, enclosed
 from asset_factory.factory.manufacture.solids.matter import PATH, Matter
-from asset_factory.factory.manufacture.solids.pieces import convex_pieces
-from asset_factory.factory.manufacture.solids.reach import reaching
+from asset_factory.factory.manufacture.solids.pieces import convex_pieces, filled
+from asset_factory.factory.manufacture.solids.reach import FAR_M, reaching
 from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
 from asset_factory.factory.manufacture.solids.skin import border, parts_to_build, skin_parts
 from asset_factory.factory.manufacture.solids.surfaces import boundary, inside_of, outside_of, plate
@@ -135,17 +136,12 @@ def tapered(depth):
     return cells, room, Box(np.array([0.0, 0.0, -depth]), np.array([1.0, 1.0, 0.0]))
 
 
-def test_a_tapered_room_is_hollowed_in_steps():
-    boxes = hollow(*tapered(0.9), Side.TOP.frame)
+@pytest.mark.parametrize("depth", [0.0776, 0.31, 0.9])
+def test_a_tapered_room_is_hollowed_in_steps_without_a_skin_between(depth):
+    boxes = hollow(*tapered(depth), Side.TOP.frame)
     widths = [box.size[0] for box in boxes]
     assert len(boxes) > 1
     assert widths == sorted(widths, reverse=True)
-
-
-@pytest.mark.parametrize("depth", [0.0776, 0.31, 0.9])
-def test_between_the_steps_of_a_hollow_there_is_no_skin(depth):
-    boxes = hollow(*tapered(depth), Side.TOP.frame)
-    assert len(boxes) > 1
     corners = inside_of(boxes, boxes[0].low[2])
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2.0
     mouth = boxes[0].size[0] * boxes[0].size[1]
@@ -291,3 +287,85 @@ def test_the_working_frame_undoes_a_turn_about_the_vertical(degrees):
     frame = working_frame(turned, (1, 2))
     back = frame @ rotation_about([0.0, 0.0, 1.0], np.radians(degrees))
     assert np.abs(back).max(axis=1) == pytest.approx(np.ones(3), abs=1e-3)
+
+
+LOW = np.full(3, 0.2)
+HIGH = np.full(3, 0.8)
+
+
+@pytest.fixture
+def matter():
+    """A block of 0.6 m in a room of 1 m, seen on all of its surface."""
+    cells = Lattice.over(np.array([[0.0] * 3, [1.0] * 3]), 25, [[0.2, 0.8]] * 3)
+    solid = np.zeros(cells.shape, dtype=bool)
+    solid[cells.span(Box(LOW, HIGH))] = True
+    grid = np.array(np.meshgrid(*[np.linspace(0.2, 0.8, 31)] * 3)).reshape(3, -1).T
+    seen = grid[((np.abs(grid - 0.5) > 0.2999).any(axis=1))]
+    return Matter(cells, solid, solid, np.zeros(cells.shape, dtype=np.uint8), seen)
+
+
+def test_a_piece_that_falls_short_reaches_what_is_seen(matter):
+    short = Box(LOW, np.array([0.8, 0.8, 0.75])).hull()
+    (reached,) = reaching(matter, [short])
+    assert depth_below(reached, matter.sparse).min() >= -FAR_M
+    assert reached.volume == pytest.approx(0.6**3, rel=0.02)
+
+
+def test_pieces_that_cover_all_stay_as_they_are(matter):
+    whole = Box(LOW, HIGH).hull()
+    (reached,) = reaching(matter, [whole])
+    assert reached is whole
+    assert reaching(matter, ()) == ()
+
+
+def test_what_must_stay_free_is_not_filled(matter):
+    free = matter.free.copy()
+    free[matter.lattice.span(Box(np.array([0.2, 0.2, 0.7]), np.array([0.8, 0.8, 0.76])))] = PATH
+    short = Box(LOW, np.array([0.8, 0.8, 0.7])).hull()
+    (reached,) = reaching(replace(matter, free=free), [short])
+    assert reached.vertices[:, 2].max() < 0.71
+
+
+def test_air_is_not_filled_to_reach_a_spike(matter):
+    spike = np.concatenate([matter.points, [[0.5, 0.5, 0.99]]])
+    whole = Box(LOW, HIGH).hull()
+    (reached,) = reaching(replace(matter, points=spike), [whole])
+    assert reached.vertices[:, 2].max() == pytest.approx(0.8)
+
+
+BOUNDS = np.array([[0.0, 0.0, 0.0], [1.0, 0.7, 0.4]])
+LATTICE = Lattice.over(BOUNDS, 24, [[0.31], [0.5], []])
+EVERYWHERE = (slice(None), slice(None), slice(None))
+POINTS = hnp.arrays(np.float64, (12, 3), elements=st.floats(-0.25, 1.25, width=32))
+
+
+@given(POINTS, st.floats(-0.05, 0.05), st.integers(0, 10), st.integers(0, 10))
+def test_cells_below_all_planes_are_found(points, margin, first, second):
+    hull = hull_of(points)
+    assume(hull is not None)
+    planes = hull.planes * [1.0, 1.0, 1.0, -1.0]
+    span = (slice(first, None), slice(second, None), slice(0, 7))
+    shape = np.zeros(LATTICE.shape)[span].shape
+    at = np.argwhere(np.ones(shape)) + np.array([first, second, 0])
+    heights = (LATTICE.centers(at) @ planes[:, :3].T + planes[:, 3]).max(axis=1)
+    found = LATTICE.below(planes, span, margin).reshape(-1)
+    assume(np.abs(heights - margin).min(initial=1.0) > 1e-9)
+    assert (found == (heights < margin)).all()
+
+
+def test_a_box_of_whole_cells_fills_its_volume():
+    box = Box(*(np.array([line[cell] for line in LATTICE.lines]) for cell in (2, 6)))
+    twice = np.full(LATTICE.shape, 2, dtype=np.uint8)
+    hull = box.hull()
+    assert hull is not None
+    assert np.isclose(filled(LATTICE, twice, EVERYWHERE, hull), 2.0 * np.prod(box.size))
+
+
+def test_a_sheet_thinner_than_cells_fills_those_it_crosses():
+    middle = LATTICE.middles[2][4]
+    low, high = (np.append(end, middle) for end in BOUNDS[:, :2])
+    hull = Box(low, high).grown([0.0, 0.0, 5e-4]).hull()
+    assert hull is not None
+    once = np.ones(LATTICE.shape, dtype=np.uint8)
+    crossed = LATTICE.volumes[:, :, 4].sum()
+    assert np.isclose(filled(LATTICE, once, EVERYWHERE, hull), crossed)
