@@ -1,5 +1,4 @@
 import csv
-import hashlib
 import re
 from dataclasses import replace
 
@@ -68,18 +67,13 @@ def test_the_packages_list_is_sound_and_halved_by_its_rule():
     assert {row["half"] for row in rows} == set(HALVES)
     assert len({row["shape"] for row in rows}) < len(rows)
     for row in rows:
-        # So objects of one shape are in one half.
+        # So objects of one shape are in one half; another rule would move those written down.
         assert row["half"] == half_of(row["shape"])
         assert re.fullmatch(r"[0-9a-f]{64}", row["digest"])
         assert row["front_yaw"] == "" or float(row["front_yaw"]) in (-90.0, 0.0, 90.0, 180.0)
         assert row["category"] == row["category"].lower() != ""
     share = np.mean([row["half"] == "develop" for row in rows])
     assert 0.4 < share < 0.6
-
-
-def test_the_half_is_the_parity_of_a_hash():
-    for path in ("a", "b/c.urdf"):
-        assert half_of(path) == HALVES[hashlib.sha256(path.encode()).digest()[0] % 2]
 
 
 @pytest.mark.parametrize(
