@@ -14,19 +14,14 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-HEAVY = (
-    "coacd",
-    "fcl",
-    "gymnasium",
-    "jinja2",
-    "mani_skill",
-    "mujoco",
-    "pybullet",
-    "sapien",
-    "scipy",
-    "torch",
-    "trimesh",
-)
+GEOMETRY = {"fcl", "scipy", "trimesh"}
+SIMULATORS = {"coacd", "gymnasium", "mani_skill", "mujoco", "pybullet", "sapien"}
+HEAVY = GEOMETRY | SIMULATORS | {"jinja2", "torch"}
+HELP = """import asset_factory.factory.cli as cli
+try:
+    cli.run(['--help'])
+except SystemExit:
+    pass"""
 
 
 def modules_after(code):
@@ -38,22 +33,19 @@ def modules_after(code):
 
 
 @pytest.mark.parametrize(
-    "code",
+    ("code", "banned"),
     [
-        "import asset_factory.factory, asset_factory.sim_checks",
-        (
-            "import asset_factory.factory.cli as cli\ntry:\n    cli.run(['--help'])\n"
-            "except SystemExit:\n    pass"
-        ),
-        "import asset_factory.factory.models.particulate.loading",
+        ("import asset_factory.factory, asset_factory.sim_checks", HEAVY),
+        (HELP, HEAVY),
+        ("import asset_factory.factory.models.particulate.loading", HEAVY),
+        ("import asset_factory.factory.intake.discover", HEAVY - {"scipy"}),
+        ("import asset_factory.sim_checks.judge", HEAVY - GEOMETRY),
+        ("import asset_factory.factory.build, asset_factory.factory.jobs", HEAVY - GEOMETRY),
     ],
+    ids=["import", "help", "loading weights", "finding inputs", "judging", "building"],
 )
-def test_importing_and_help_load_nothing_heavy(code):
-    assert modules_after(code).isdisjoint(HEAVY)
-
-
-def test_looking_for_inputs_loads_no_geometry():
-    assert "trimesh" not in modules_after("import asset_factory.factory.intake.discover")
+def test_what_needs_nothing_heavy_loads_nothing_heavy(code, banned):
+    assert modules_after(code).isdisjoint(banned)
 
 
 def test_importing_the_tasks_names_them_and_loads_no_simulator():
@@ -61,16 +53,6 @@ def test_importing_the_tasks_names_them_and_loads_no_simulator():
     names = {"OpenDrawer-v1", "OpenDoor-v1", "OpenJoint-v1", "CloseJoint-v1", "SetJoint-v1"}
     code = f"import asset_factory.envs, gymnasium\nassert {names} <= set(gymnasium.registry)"
     assert modules_after(code).isdisjoint({"torch", "sapien", "mani_skill"})
-
-
-def test_judging_needs_no_torch():
-    loaded = modules_after(
-        "import asset_factory.sim_checks.judge, asset_factory.factory.build, "
-        "asset_factory.factory.jobs"
-    )
-    assert loaded.isdisjoint(
-        {"torch", "mani_skill", "gymnasium", "sapien", "pybullet", "mujoco", "coacd"}
-    )
 
 
 @pytest.fixture(scope="module")

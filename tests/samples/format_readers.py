@@ -222,10 +222,8 @@ def animated_glb(folder: Path) -> Read:
     length = struct.unpack("<I", data[12:16])[0]
     document = json.loads(data[20 : 20 + length])
     binary = data[28 + length :]
-    joints = {}
-    for node in document["nodes"][1:]:
-        if "joint" in node["extras"]:
-            joints[node["name"]] = node["extras"]["joint"]
+    parts = {node["name"]: node["extras"] for node in document["nodes"][1:]}
+    joints = [extras["joint"] for extras in parts.values() if "joint" in extras]
     # By the node that it moves; the one that opens everything moves several.
     moves = {
         each["channels"][0]["target"]["node"]: each
@@ -255,10 +253,10 @@ def animated_glb(folder: Path) -> Read:
 
     limits = {
         joint["name"]: (joint["lower"], joint["upper"])
-        for joint in joints.values()
+        for joint in joints
         if joint["type"] in ("revolute", "prismatic")
     }
-    masses = {node["name"]: node["extras"]["mass_kg"] for node in document["nodes"][1:]}
+    masses = {name: extras["mass_kg"] for name, extras in parts.items()}
     return Read(frames, limits, masses)
 
 
@@ -271,25 +269,19 @@ def _animated(
     local: np.ndarray,
 ) -> np.ndarray:
     """Where a node is when its animation has come as far as a joint's value."""
+    from scipy.spatial.transform import Rotation, Slerp
+
     (sampler,) = animation["samplers"]
     (channel,) = animation["channels"]
     times = _array(document, binary, sampler["input"])
-    rows = _array(document, binary, sampler["output"])
+    # The second half goes back.
     half = len(times) // 2
-    share = (values[joint["name"]] - joint["lower"]) / (joint["upper"] - joint["lower"])
-    time = times[0] + share * (times[half - 1] - times[0])
-    after = min(max(int(np.searchsorted(times[:half], time)), 1), half - 1)
-    part = (time - times[after - 1]) / (times[after] - times[after - 1])
-    one, other = rows[after - 1], rows[after]
+    times = times[:half]
+    rows = _array(document, binary, sampler["output"])[:half]
+    time = np.interp(values[joint["name"]], (joint["lower"], joint["upper"]), times[[0, -1]])
     if channel["target"]["path"] == "translation":
-        return _from_quaternion(*(one + part * (other - one)), 0.0, 0.0, 0.0, 1.0)
-    angle = np.arccos(np.clip(one @ other, -1.0, 1.0))
-    turned = (
-        one
-        if angle < 1e-9
-        else (np.sin((1 - part) * angle) * one + np.sin(part * angle) * other) / np.sin(angle)
-    )
-    return _from_quaternion(*local[:3, 3], *turned)
+        return _pose(np.eye(3), np.array([np.interp(time, times, along) for along in rows.T]))
+    return _pose(Slerp(times, Rotation.from_quat(rows))(time).as_matrix(), local[:3, 3])
 
 
 def _array(document: dict[str, Any], binary: bytes, number: int) -> np.ndarray:

@@ -31,20 +31,10 @@ def assemble(
 
 def cabinet(lower: float = 0.0) -> Asset:
     """A block with a hinged door and a drawer in front; ``lower`` below 0: input half open."""
-    meshes = [
-        box([0.0, 0.0, 0.4], [0.6, 0.4, 0.8]),
-        box([0.0, -0.212, 0.25], [0.56, 0.02, 0.46]),
-        box([0.0, -0.212, 0.65], [0.56, 0.02, 0.26]),
-    ]
-    joints = (
-        Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, -1], [-0.28, -0.212, 0.25], 0.0, 1.6),
-        Joint("slide", JointKind.PRISMATIC, 0, 2, FRONT, [0.0, -0.212, 0.65], lower, 0.3 + lower),
-    )
-    handles = {
-        1: Handle([0.26, -0.222, 0.25], FRONT, FRONT),
-        2: Handle([0.0, -0.222, 0.65], FRONT, FRONT),
-    }
-    return assemble("cabinet", meshes, joints, handles)
+    made = export_samples.cabinet((RED,) * 3)
+    hinge, slide = made.articulation.joints
+    joints = (hinge, replace(slide, lower=lower, upper=0.3 + lower))
+    return replace(made, articulation=replace(made.articulation, joints=joints))
 
 
 def oven() -> Asset:

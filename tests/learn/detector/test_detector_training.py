@@ -188,12 +188,9 @@ def test_drawn_objects_are_of_every_sort():
 
 
 def test_objects_made_one_piece_keep_what_opens():
-    drawn = [drawn_one_piece(np.random.default_rng(seed)) for seed in range(4)]
-    kinds = tuple(kind for kind, _ in drawn)
-    tables = tuple(sides.table for _, sides in drawn)
-    still = [kind in STILL for kind in kinds]
-    assert not all(still)
-    assert [len(table) == 0 for table in tables] == still
+    drawn = [drawn_one_piece(np.random.default_rng(seed)) for seed in (1, 2, 5)]
+    assert [kind in STILL for kind, _ in drawn] == [False, False, True]
+    assert [len(sides.table) == 0 for _, sides in drawn] == [False, False, True]
 
 
 def test_what_is_told_where_nothing_is_known_is_not_held_against_it():

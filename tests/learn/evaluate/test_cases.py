@@ -1,5 +1,4 @@
 import csv
-import hashlib
 import re
 from dataclasses import replace
 
@@ -54,35 +53,27 @@ def cases(root, poses=("closed",), yaws=("front",), store=None):
     return [make_case(request, store) for request in in_settings(objects, poses, yaws)]
 
 
-def listed():
-    """Rows of the package's own list."""
-    return list(csv.DictReader(list_text().splitlines()))
+@pytest.fixture(scope="module")
+def fused():
+    """A fridge made one piece, and what asks for it."""
+    (request,) = procedural_requests(("fridge",), (3,))
+    request = replace(request, fused=True)
+    return request, make_case(request)
 
 
 def test_the_packages_list_is_sound_and_halved_by_its_rule():
-    rows = listed()
+    rows = list(csv.DictReader(list_text().splitlines()))
     assert len(rows) == len({row["path"].rpartition(".")[0] for row in rows}) == 259
     assert {row["half"] for row in rows} == set(HALVES)
+    assert len({row["shape"] for row in rows}) < len(rows)
     for row in rows:
+        # So objects of one shape are in one half; another rule would move those written down.
         assert row["half"] == half_of(row["shape"])
         assert re.fullmatch(r"[0-9a-f]{64}", row["digest"])
         assert row["front_yaw"] == "" or float(row["front_yaw"]) in (-90.0, 0.0, 90.0, 180.0)
         assert row["category"] == row["category"].lower() != ""
     share = np.mean([row["half"] == "develop" for row in rows])
     assert 0.4 < share < 0.6
-
-
-def test_objects_of_one_shape_are_in_one_half():
-    by_shape = {}
-    for row in listed():
-        by_shape.setdefault(row["shape"], set()).add(row["half"])
-    assert len(by_shape) < len(listed())
-    assert all(len(halves) == 1 for halves in by_shape.values())
-
-
-def test_the_half_is_the_parity_of_a_hash():
-    for path in ("a", "b/c.urdf"):
-        assert half_of(path) == HALVES[hashlib.sha256(path.encode()).digest()[0] % 2]
 
 
 @pytest.mark.parametrize(
@@ -183,27 +174,25 @@ def test_a_folder_of_objects_with_joints(tmp_path):
         folder_requests(tmp_path / "empty")
 
 
-def test_skins_are_the_annotated_meshes_of_a_folder(tmp_path):
+def test_skins_are_the_annotated_meshes_of_a_folder(tmp_path, fused):
     write_cabinets(tmp_path / "described")
     with pytest.raises(ConfigError, match="holds no mesh with an annotation"):
         skin_requests(tmp_path)
-    fused = make_case(replace(procedural_requests(("fridge",), (3,))[0], fused=True))
-    write_sample(fused, tmp_path / "fridge_3")
+    write_sample(fused[1], tmp_path / "fridge_3")
     # What lies with a description belongs to it.
     (tmp_path / "fridge_3" / "object.urdf").unlink()
     (request,) = skin_requests(tmp_path)
     assert (request.source, request.category) == ("skins", "fridge")
-    made = make_case(request)
-    assert len(made.movable_joints) == len(fused.movable_joints)
+    assert len(make_case(request).movable_joints) == len(fused[1].movable_joints)
 
 
-def test_a_fused_case_is_one_skin_whose_truth_is_the_objects_own():
-    (request,) = procedural_requests(("fridge",), (3,))
-    skin = replace(request, fused=True)
-    assert skin.name == f"{request.name}-fused"
-    plain, fused = make_case(request), make_case(skin)
-    assert len(np.unique(connected_components(fused.mesh))) < 5
+def test_a_fused_case_is_one_skin_whose_truth_is_the_objects_own(fused):
+    request, skin = fused
+    whole = replace(request, fused=False)
+    assert request.name == f"{whole.name}-fused"
+    plain = make_case(whole)
+    assert len(np.unique(connected_components(skin.mesh))) < 5
     assert len(np.unique(connected_components(plain.mesh))) > 10
-    for one, other in zip(plain.joints, fused.joints, strict=False):
+    for one, other in zip(plain.joints, skin.joints, strict=False):
         assert abs(one.axis @ other.axis) > 0.999
-    np.testing.assert_allclose(fused.mesh.extents, plain.mesh.extents, rtol=0.1)
+    np.testing.assert_allclose(skin.mesh.extents, plain.mesh.extents, rtol=0.1)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from manifold3d import Error, Manifold, Mesh64, OpType
 from PIL import Image
-from solid_pieces import pieces_of, united
 
 from asset_factory.factory.articulation import JointKind
 from asset_factory.learn.objects import make_object
@@ -28,6 +28,20 @@ LIES_UNDER = {("seat", "lid"), ("magazine", "cover"), ("flap_x", "flap_y")}
 TO_THE_FRONT = ("door_", "flap_", "drawer_", "inner_")
 #: What slides aside, swings both ways or opens upwards instead.
 OTHERWISE = ("sliding_door", "window", "swing_bin", "push_bin", "flap_box")
+
+
+def pieces_of(mesh):
+    """One solid for each set of faces that share vertices; each is closed and faces outwards."""
+    whole = Manifold(Mesh64(np.array(mesh.vertices), mesh.faces.astype(np.uint64)))
+    assert whole.status() == Error.NoError
+    pieces = whole.decompose()
+    assert all(piece.volume() > 0.0 for piece in pieces)
+    return pieces
+
+
+def united(mesh):
+    """All pieces of a mesh as one solid; an empty one of a mesh without faces."""
+    return Manifold.batch_boolean(pieces_of(mesh), OpType.Add) if len(mesh.faces) else Manifold()
 
 
 def depth(overlap):

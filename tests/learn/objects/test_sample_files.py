@@ -17,6 +17,7 @@ from asset_factory.factory.intake.load import load
 from asset_factory.factory.mesh import Material
 from asset_factory.factory.runtime.store import folder_digests
 from asset_factory.learn.objects import artist_like, fused_like, make_object, write_sample
+from asset_factory.learn.objects.__main__ import main
 
 
 def read(path):
@@ -126,20 +127,21 @@ def test_a_value_beyond_its_limits_is_refused(tmp_path):
         write_sample(turning_slider(), tmp_path, {"push": 0.0})
 
 
-def test_the_command_writes_the_same_files_for_the_same_options(tmp_path):
-    def run(name, *options):
-        command = [sys.executable, "-m", "asset_factory.learn.objects", tmp_path / name]
-        command += ["--category", "chest", *options]
-        return subprocess.run(command, check=False, capture_output=True, text=True)
+def test_the_command_writes_the_same_files_for_the_same_options(tmp_path, monkeypatch, capsys):
+    def given(name, *options):
+        return [str(tmp_path / name), "--category", "chest", *options]
 
-    for name in ("one", "two"):
-        options = ("--seed", "2", "--character", "artist", "--open", "0.5")
-        assert run(name, *options).returncode == 0
+    options = ("--seed", "2", "--character", "artist", "--open", "0.5")
+    module = [sys.executable, "-m", "asset_factory.learn.objects"]
+    subprocess.run([*module, *given("one", *options)], check=True)
+    monkeypatch.setattr(sys, "argv", ["objects", *given("two", *options)])
+    main()
     one, two = (folder_digests(tmp_path / name) for name in ("one", "two"))
     assert {"object.glb", "object.toml", "object.urdf", "pred.npz"} <= set(one)
     assert one == two
     joint = read(tmp_path / "one" / "object.urdf").joints[0]
     assert joint.lower == pytest.approx(-joint.upper)
-    wrong = run("no", "--open", "2")
-    assert wrong.returncode == 2
-    assert "must be 0 to 1" in wrong.stderr
+    monkeypatch.setattr(sys, "argv", ["objects", *given("no", "--open", "2")])
+    with pytest.raises(SystemExit, match="2"):
+        main()
+    assert "must be 0 to 1" in capsys.readouterr().err

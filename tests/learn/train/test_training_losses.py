@@ -9,6 +9,7 @@ from box_sampled_objects import box_sampled
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
+from stored_arrays import arrays
 
 from asset_factory.factory.models.network.shape import AxisForm, NetworkShape
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
@@ -68,10 +69,9 @@ def found_losses(network, batch, settings, counts=None):
 def test_the_losses_and_the_matcher_are_the_originals(fixtures, seed):
     folder = fixtures / "pat_tiny"
     network = load_model(str(folder / f"weights_seed{seed}.safetensors"))._network
-    with np.load(folder / f"losses_seed{seed}.npz") as stored:
-        wanted = {name: stored[name] for name in stored.files}
+    wanted = arrays(folder / f"losses_seed{seed}.npz")
     structure = wanted["part_structure_matrix"]
-    arrays = {
+    taught_by = {
         "points": wanted["xyz"],
         "normals": wanted["normals"],
         "features": wanted["feats"],
@@ -85,7 +85,7 @@ def test_the_losses_and_the_matcher_are_the_originals(fixtures, seed):
         "prismatic_range": wanted["gt_prismatic_range"],
         "closest_points": wanted["gt_closest_point_on_axis"],
     }
-    batch = Batch(**arrays).to("cpu")
+    batch = Batch(**taught_by).to("cpu")
     settings = LossSettings(dice=1.0)
     found = found_losses(network, batch, settings)
     for name, original in ORIGINAL.items():

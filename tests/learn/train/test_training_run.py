@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -54,6 +55,18 @@ def output(path):
 def assert_same_files(folder, output):
     for name in SAME:
         assert (folder / name).read_bytes() == (output / name).read_bytes(), name
+
+
+def act_at(monkeypatch, wanted, act):
+    """Do something to a trainer just before it takes a step."""
+    step = Trainer.step
+
+    def acting(self, number, batch, stop=False):
+        if number == wanted:
+            act(self)
+        return step(self, number, batch, stop)
+
+    monkeypatch.setattr(Trainer, "step", acting)
 
 
 def edited(path, target, *edits):
@@ -106,14 +119,7 @@ def test_a_killed_run_goes_on_as_if_it_had_not_been(path, output, tmp_path):
 
 
 def test_asked_to_end_it_writes_a_checkpoint_and_goes_on_later(path, output, tmp_path, monkeypatch):
-    step = Trainer.step
-
-    def interrupted(self, number, batch, stop=False):
-        if number == 4:
-            os.kill(os.getpid(), signal.SIGTERM)
-        return step(self, number, batch, stop)
-
-    monkeypatch.setattr(Trainer, "step", interrupted)
+    act_at(monkeypatch, 4, lambda _: signal.raise_signal(signal.SIGTERM))
     assert run(["train", str(path), "--output", str(tmp_path / "run")]) == 130
     monkeypatch.undo()
     assert read_state(tmp_path / "run" / "last.pt").step == 6
@@ -165,15 +171,11 @@ def test_damaged_checkpoints_are_refused(tmp_path):
 
 
 def test_weights_that_are_no_numbers_are_never_written(path, tmp_path, monkeypatch):
-    step = Trainer.step
+    def poison(trainer):
+        with torch.no_grad():
+            next(trainer.network.parameters()).fill_(float("nan"))
 
-    def poisoned(self, number, batch, stop=False):
-        if number == 4:
-            with torch.no_grad():
-                next(self.network.parameters()).fill_(float("nan"))
-        return step(self, number, batch, stop)
-
-    monkeypatch.setattr(Trainer, "step", poisoned)
+    act_at(monkeypatch, 4, poison)
     with pytest.raises(ConfigError, match=r"step 5: .* is not finite any more"):
         train(Train(str(path), tmp_path / "run"))
     assert read_state(tmp_path / "run" / "last.pt").step == 3
@@ -217,11 +219,7 @@ def test_a_run_that_could_not_begin_leaves_none_to_go_on_with(path, tmp_path):
 def test_killed_before_its_first_checkpoint_a_tuned_run_goes_on_from_its_weights(
     path, output, tmp_path, monkeypatch
 ):
-
-    def killed(self, number, batch, stop=False):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(Trainer, "step", killed)
+    act_at(monkeypatch, 0, Mock(side_effect=KeyboardInterrupt))
     with pytest.raises(KeyboardInterrupt):
         train(Train(str(path), tmp_path / "run", start=output / "model.safetensors"))
     found = read_state(tmp_path / "run" / "last.pt")
