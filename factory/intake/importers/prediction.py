@@ -67,22 +67,23 @@ def annotation_in(fields: Fields, face_count: int, file: str) -> Annotation:
         raise _bad(file, f"{said}, want one integer for each of the mesh's {face_count} faces")
     part_count = len(fields["is_part_revolute"]) if fields["is_part_revolute"].ndim else 0
     if not 0 < part_count <= MAX_PARTS:
-        many = f"is_part_revolute speaks of {part_count} parts, want 1 to {MAX_PARTS}"
-        raise _bad(file, many)
+        raise _bad(file, f"is_part_revolute speaks of {part_count} parts, want 1 to {MAX_PARTS}")
     for name, columns in PER_PART.items():
         shape = (part_count, columns) if columns else (part_count,)
-        values = _checked(fields, name, shape, file)
+        values = fields[name]
+        if values.shape != shape or values.dtype.kind not in "biuf":
+            said = f"{name} has shape {list(values.shape)} of {values.dtype}"
+            raise _bad(file, f"{said}, want numbers of shape {list(shape)}")
         # NaN compares as false.
         if not (np.abs(values.astype(np.float64)) <= MOST).all():
             raise _bad(file, f"{name} holds a number that is not finite, or beyond {MOST:g}")
     if len(labels) and not -1 <= labels.min() <= labels.max() < part_count:
         said = f"face_part_ids run from {labels.min()} to {labels.max()}"
         raise _bad(file, f"{said}, want -1 to {part_count - 1}")
-    edges = _edges(fields, part_count, file)
     return Annotation(
         face_part=labels.astype(np.int64),
         part_names=tuple(f"part_{index}" for index in range(part_count)),
-        joints=tuple(_joint(fields, parent, child) for parent, child in edges),
+        joints=tuple(_joint(fields, *edge) for edge in _edges(fields, part_count, file)),
         source="pred.npz",
     )
 
@@ -109,7 +110,8 @@ def load_fields(
         if unpacked > max_bytes:
             raise _bad(path.name, f"unpacks to {unpacked} bytes, want at most {max_bytes}")
         with np.load(path if data is None else io.BytesIO(data), allow_pickle=False) as archive:
-            found = {name: archive[name] for name in names or archive.files}
+            # What is no array is handed out as it lies there: an array of bytes is no number.
+            return {name: np.asarray(archive[name]) for name in names or archive.files}
     except InputRejected:
         raise
     except KeyError as error:
@@ -120,25 +122,10 @@ def load_fields(
         # A file from anybody: zip, zlib, tokenizer and array headers all have errors of their own.
         said = " ".join(f"{type(error).__name__}: {error}".split())[:240]
         raise _bad(path.name, f"is no .npz of plain arrays: {said}") from error
-    for name, values in found.items():
-        # What is no array is handed out as it lies there.
-        if not isinstance(values, np.ndarray):
-            raise _bad(path.name, f"{name} is no array")
-    return found
 
 
 def _bad(file: str, what: str) -> InputRejected:
     return InputRejected("bad_annotation", f"{file}: {what}")
-
-
-def _checked(
-    fields: Fields, name: str, shape: tuple[int, ...], file: str
-) -> npt.NDArray[np.generic]:
-    values = fields[name]
-    if values.shape != shape or values.dtype.kind not in "biuf":
-        said = f"{name} has shape {list(values.shape)} of {values.dtype}"
-        raise _bad(file, f"{said}, want numbers of shape {list(shape)}")
-    return values
 
 
 def _edges(fields: Fields, part_count: int, file: str) -> list[tuple[int, int]]:
@@ -164,11 +151,10 @@ def _joint(fields: Fields, parent: int, child: int) -> AnnotatedJoint:
     slides = bool(fields["is_part_prismatic"][child])
     kind = KINDS[turns + 2 * slides]
     line = row("revolute_plucker")
-    turn = row("revolute_range")
     slide = row("prismatic_range")
     along = row("prismatic_axis")
     sliding = {"slide_axis": along, "slide_lower": slide[0], "slide_upper": slide[1]}
-    lower, upper = (slide if kind == "prismatic" else turn).tolist()
+    lower, upper = (slide if kind == "prismatic" else row("revolute_range")).tolist()
     return AnnotatedJoint(
         name=f"joint_{child}",
         kind=kind,
