@@ -111,7 +111,7 @@ def _found_or_made(
 ) -> Path | ItemRefusal:
     """Return the file of an object's sampled object, or why there is none."""
     try:
-        key = stage_key("sampled", item.name, item.category, item.digest())
+        key = stage_key("sampled", item.name, item.digest())
     except OSError as error:
         said = f"{item.name}: {error.strerror or type(error).__name__}"
         return ItemRefusal("unreadable", said)

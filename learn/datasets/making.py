@@ -59,9 +59,8 @@ def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: in
             from ..surfaces import skin_like
 
             articulation = skin_like(articulation, seed % 2**32)
-        about = {"name": item.name, "category": item.category, "source": kind}
         rng = np.random.default_rng([settings.seed, seed])
-        sampled = sampled_from(articulation, **about, points=settings.points, rng=rng)
+        sampled = sampled_from(articulation, item.name, settings.points, rng)
     require_parts(item.name, len(sampled.parents), settings.max_parts)
     return sampled
 

@@ -34,7 +34,6 @@ from asset_factory.factory.mesh import IntArray, Mesh
 from asset_factory.factory.models.particulate.sampling import Cloud
 
 from ..samples.sampled_object import SampledObject, sampled_at
-from .categories import categories_of
 from .item import SourceItem, find_items
 from .settings import SourceSettings
 
@@ -56,7 +55,7 @@ BEYOND = (-1e8, 1e8)
 
 def find_published(root: Path) -> tuple[SourceItem, ...]:
     """Return the folders with ``original.obj`` and labels, and point caches."""
-    return find_items(root, _mains, categories_of(root))
+    return find_items(root, _mains)
 
 
 def read_published(item: SourceItem, settings: SourceSettings) -> Articulation | SampledObject:
@@ -96,8 +95,7 @@ def _sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledO
     articulator = AnnotatedArticulator(annotation, np.eye(4), rows)
     sharp = stored.get("point_from_sharp", np.zeros(len(points), dtype=np.bool_))
     cloud = Cloud(points, stored["normals"], rows, sharp, np.zeros_like(rows))
-    about = {"name": item.name, "category": item.category, "source": "particulate"}
-    return sampled_at(cloud, articulator.articulate(mesh), **about)
+    return sampled_at(cloud, articulator.articulate(mesh), item.name)
 
 
 def _annotation(labels: Array, structure: Array, lines: Array, ranges: Array) -> Annotation:

@@ -19,7 +19,6 @@ from asset_factory.factory.intake.discover import MAIN_LAYERS
 from asset_factory.factory.intake.importers.usd import read_annotated
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
-from .categories import categories_of
 from .item import SourceItem, find_items
 from .settings import SourceSettings
 
@@ -32,7 +31,7 @@ def find_usd(root: Path) -> tuple[SourceItem, ...]:
     """
     if importlib.util.find_spec("pxr") is None:
         raise ConfigError("reading USD needs usd-core: pip install 'asset-factory[train]'")
-    return find_items(root, _mains, categories_of(root))
+    return find_items(root, _mains)
 
 
 def read_usd(item: SourceItem, settings: SourceSettings) -> Articulation:

@@ -279,8 +279,7 @@ def _made(pool: Generator, seed: tuple[int, ...]) -> SampledObject:
     rng = np.random.default_rng(seed)
     try:
         name, articulation = sample_object(rng, pool.style)
-        about = {"name": name, "category": name.partition("-")[0], "source": "procedural"}
-        return sampled_from(articulation, **about, points=pool.source.points, rng=rng)
+        return sampled_from(articulation, name, pool.source.points, rng)
     except AssetFactoryError:
         raise
     except (ValueError, ArithmeticError, LookupError, RuntimeError) as error:

@@ -91,7 +91,7 @@ def test_parts_axes_and_ranges_agree(fixtures, name):
 @pytest.mark.parametrize("name", [*DESCRIPTIONS, *STAGES])
 def test_point_cache_is_sampled_from_the_same_tree(fixtures, name):
     file = fixtures / "data_formats" / name / "train_cache.npz"
-    cached = sampled_item("particulate", SourceItem(name, "", file, (file,)), SETTINGS, seed=0)
+    cached = sampled_item("particulate", SourceItem(name, file, (file,)), SETTINGS, seed=0)
     folder = find_published(fixtures / "data_formats" / name / "out")[0]
     drawn = sampled_item("particulate", folder, SETTINGS, seed=0)
     assert sorted(cached.motion.tolist()) == sorted(drawn.motion.tolist())
