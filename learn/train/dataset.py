@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
@@ -19,6 +19,8 @@ import numpy as np
 from asset_factory.factory.errors import AssetFactoryError, ConfigError, InputRejected
 from asset_factory.factory.presets import overlay
 
+from ..datasets import SourceReport, SourceSettings, prepare
+from ..datasets.split import read_split
 from ..objects.mixture import MixtureSettings, sample_object
 from ..samples.batches import Batch, collate
 from ..samples.sample import DrawSettings, Sample, draw
@@ -33,15 +35,12 @@ _TRIES = 20
 class Files:
     """Sampled objects in files, sorted, and how often they are drawn relative to the other pools.
 
-    They were made of a source of a ``kind``, of whose objects so many were ``skipped`` by reason;
-    ``lines`` say so for people.
+    ``report`` says what became of the dataset that they were made of; ``None``: of none.
     """
 
     paths: tuple[Path, ...]
     weight: float
-    kind: str = "sampled"
-    skipped: dict[str, int] = field(default_factory=dict)
-    lines: tuple[str, ...] = ()
+    report: SourceReport | None = None
 
 
 @dataclass(frozen=True)
@@ -74,7 +73,8 @@ def _pool(source: DataSource, cache: Path) -> Pool:
 
 def source_lines(pools: Iterable[Pool]) -> list[str]:
     """Return lines for people: what became of the objects of converted sources."""
-    return [line for pool in pools if isinstance(pool, Files) for line in pool.lines]
+    reports = (pool.report for pool in pools if isinstance(pool, Files))
+    return [line for report in reports if report is not None for line in report.lines()]
 
 
 def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
@@ -84,29 +84,25 @@ def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
         if isinstance(pool, Generator):
             objects = pool.source.objects or None
             counts.append({"kind": "procedural", "sampled": objects, "skipped": {}})
-        else:
-            read = len(pool.paths)
-            counts.append({"kind": pool.kind, "sampled": read, "skipped": pool.skipped})
+            continue
+        kind, skipped = (
+            ("sampled", {}) if pool.report is None else (pool.report.kind, pool.report.counts)
+        )
+        counts.append({"kind": kind, "sampled": len(pool.paths), "skipped": skipped})
     return counts
 
 
 def _converted(source: DataSource, cache: Path) -> Files:
-    from ..datasets import SourceSettings, prepare
-
     settings = overlay(SourceSettings(), source.options, f"{source.kind}: options")
     split = Path(source.split) if source.split else None
     report = prepare(source.kind, Path(source.path), cache, split=split, settings=settings)
-    lines = tuple(report.lines())
     if not report.read:
-        said = "\n".join(lines)
+        said = "\n".join(report.lines())
         raise ConfigError(f"{source.path}: no object in it can be used; want at least one\n{said}")
-    read = tuple(sorted(report.read.values()))
-    return Files(read, source.weight, source.kind, report.counts, lines)
+    return Files(tuple(sorted(report.read.values())), source.weight, report)
 
 
 def _sampled_files(source: DataSource) -> Files:
-    from ..datasets.split import read_split
-
     folder = Path(source.path)
     if not folder.is_dir():
         raise ConfigError(f"{folder}: no such folder; want one with .npz sampled objects")
