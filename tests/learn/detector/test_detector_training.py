@@ -66,7 +66,7 @@ def shown_as(kind, objects, seed):
     truth = WholeTruth(kind_number(kind), True, FRONT, False)
     for sides in objects:
         pool.add(sides, truth)
-    batch, _ = pool.take(torch.arange(len(objects)))
+    batch = pool.take(torch.arange(len(objects)))
     textures = torch.full((2, 3, 8, 8), 128, dtype=torch.uint8)
     return show(batch, textures, torch.Generator().manual_seed(seed))
 
