@@ -112,7 +112,12 @@ def sampled_at(cloud: Cloud, articulation: Articulation, name: str) -> SampledOb
     for body, parent in enumerate(bodies.parents):
         held = row[parent] if parent >= 0 else 0
         row[body] = 1 + moving.index(body) if body in moving else held
-    require_parts(name, 1 + len(moving))
+    if not moving:
+        message = f"{name}: nothing moves; want a joint to learn from"
+        raise InputRejected("no_movable_joint", message, value=0.0)
+    if len(moving) >= MOST_PARTS:
+        message = f"{name}: has {1 + len(moving)} parts, want at most {MOST_PARTS}"
+        raise InputRejected("too_many_parts", message, value=1 + len(moving), limit=MOST_PARTS)
     parents = [row[bodies.parents[body]] if bodies.parents[body] >= 0 else 0 for body in moving]
     return SampledObject(
         name=name,
@@ -124,20 +129,6 @@ def sampled_at(cloud: Cloud, articulation: Articulation, name: str) -> SampledOb
         parents=np.array([-1, *parents]),
         **_motions(name, [bodies.joints[body] for body in moving]),
     )
-
-
-def require_parts(name: str, count: int, most: int = MOST_PARTS) -> None:
-    """Refuse an object of too few or too many parts to learn from.
-
-    Raises:
-        InputRejected: ``no_movable_joint``, ``too_many_parts``.
-    """
-    if count < 2:
-        message = f"{name}: nothing moves; want a joint to learn from"
-        raise InputRejected("no_movable_joint", message, value=0.0)
-    if count > most:
-        message = f"{name}: has {count} parts, want at most {most}"
-        raise InputRejected("too_many_parts", message, value=count, limit=most)
 
 
 def _motions(name: str, chains: Sequence[tuple[Joint, ...]]) -> dict[str, Any]:
