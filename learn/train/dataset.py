@@ -181,26 +181,23 @@ class Dataset:
     ) -> tuple[int, ...]:
         """Return the seed of the procedural object behind a sample, but for the attempt.
 
-        Each lane has its own stream of objects, of which ``reuse`` samples are drawn from each, in
-        an order in which objects of a window of steps are mixed; a whole lane makes each once.
+        Each place of a step has its own stream of objects, of which ``reuse`` samples are drawn
+        from each, in an order in which objects of a window of steps are mixed.
         """
         config = self._config
-        lane = number % config.lanes
-        row = number // config.lanes
-        in_lane = len(range(lane, config.batch, config.lanes))
         share = source.weight / sum(each.weight for each in self._pools)
         reuse = max(1, round(source.reuse / share))
-        block, place = divmod(step * in_lane + row, reuse * _WINDOW)
-        rng = np.random.default_rng([config.seed, _ORDER, which, lane, block])
+        block, place = divmod(step, reuse * _WINDOW)
+        rng = np.random.default_rng([config.seed, _ORDER, which, number, block])
         order = rng.permutation(reuse * _WINDOW)
         thing = block * _WINDOW + int(order[place]) // reuse
         if source.objects:
-            return (config.seed, _OBJECT, which, (thing * config.lanes + lane) % source.objects)
-        return (config.seed, _OBJECT, which, lane, thing)
+            return (config.seed, _OBJECT, which, (thing * config.batch + number) % source.objects)
+        return (config.seed, _OBJECT, which, number, thing)
 
 
 _WINDOW = 8
-"""Objects of a lane that are drawn from at a time."""
+"""Objects of a place that are drawn from at a time."""
 
 
 def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sample]:

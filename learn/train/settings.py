@@ -248,8 +248,6 @@ class TrainConfig:
         held_out: sources of validation examples; none: no validation.
         seed: of everything; a sample depends on it, the step and its place in the step alone.
         batch: samples per step, over all processes.
-        lanes: streams of procedural objects; a worker takes whole ones, so at least as many as
-            workers.
         half: write the weights as float16.
         recipe: a name for the run.
         terms: under which the weights may be used, with the sources of the data; written into the
@@ -260,7 +258,6 @@ class TrainConfig:
     held_out: tuple[DataSource, ...] = ()
     seed: Whole = 0
     batch: Count = 128
-    lanes: Count = 16
     half: bool = False
     recipe: str = "paper"
     terms: str = ""
