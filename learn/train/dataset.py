@@ -243,28 +243,20 @@ class _Kept:
     def __init__(self, most: int) -> None:
         self._most = most
         self._bytes = 0
-        self._found: OrderedDict[object, SampledObject | AssetFactoryError] = OrderedDict()
+        self._found: OrderedDict[object, SampledObject] = OrderedDict()
 
     def get(self, key: object, make: Callable[[], SampledObject]) -> SampledObject:
         found = self._found.pop(key, None)
         if found is None:
-            try:
-                found = make()
-            except AssetFactoryError as error:
-                # Without the frames it came through, which hold all that they had made.
-                found = error.with_traceback(None)
+            found = make()
             self._bytes += _size(found)
         self._found[key] = found
         while self._bytes > self._most and len(self._found) > 1:
             self._bytes -= _size(self._found.popitem(last=False)[1])
-        if isinstance(found, AssetFactoryError):
-            raise found.with_traceback(None)
         return found
 
 
-def _size(sampled: SampledObject | AssetFactoryError) -> int:
-    if isinstance(sampled, AssetFactoryError):
-        return 1000
+def _size(sampled: SampledObject) -> int:
     return sum(getattr(getattr(sampled, each.name), "nbytes", 100) for each in fields(sampled))
 
 

@@ -2,7 +2,6 @@
 
 import os
 import signal
-import traceback
 from dataclasses import fields, replace
 
 import numpy as np
@@ -11,9 +10,8 @@ from box_sampled_objects import write_boxes
 from boxy_urdf import URDF
 from tiny_recipe import recipe
 
-from asset_factory.factory.errors import ConfigError, InputRejected
+from asset_factory.factory.errors import ConfigError
 from asset_factory.learn.samples.batches import Batch
-from asset_factory.learn.samples.sampled_object import read_sampled
 from asset_factory.learn.train import data_loader as feeding
 from asset_factory.learn.train import dataset as supplying
 from asset_factory.learn.train.data_loader import DataLoader
@@ -131,16 +129,6 @@ def test_a_made_object_that_goes_wrong_costs_only_itself(config, monkeypatch):
     monkeypatch.setattr(supplying, "sample_object", hopeless)
     with pytest.raises(ConfigError, match=r"20 sampled objects in a row.*ZeroDivisionError: flat"):
         Dataset(config, (pool,)).sample(0, 0)
-
-
-def test_refusals_that_are_kept_hold_nothing_else(config, tmp_path):
-    kept = supplying._Kept(10_000_000)
-    broken = tmp_path / "broken.npz"
-    broken.write_bytes(b"PK")
-    for _ in range(3):
-        with pytest.raises(InputRejected) as caught:
-            kept.get(broken, lambda: read_sampled(broken))
-    assert len(list(traceback.walk_tb(caught.value.__traceback__))) <= 3
 
 
 def test_a_broken_held_out_file_is_passed_over(config, pools, tmp_path):
