@@ -85,12 +85,8 @@ class Makers:
             self.workers[-1].start()
 
     def collect(self, most: int) -> None:
-        """Put at most so many finished objects into the pool; no thread does, it would hinder.
-
-        Nothing is asked of workers that were ended: half an object may be left in the queue, whose
-        other half would be waited for.
-        """
-        for _ in range(most if self.workers else 0):
+        """Put at most so many finished objects into the pool; no thread does, it would hinder."""
+        for _ in range(most):
             try:
                 slot, table, truth = self.ready.get_nowait()
             except Empty:
@@ -100,10 +96,9 @@ class Makers:
             self.free.put(slot)
 
     def stop(self) -> None:
-        """End the workers."""
+        """End the workers; nothing can be collected any more, it may be half an object."""
         for worker in self.workers:
             worker.kill()
-        self.workers = []
 
 
 def make_into(slots: Any, free: Any, ready: Any, seed: int, number: int, one_piece: bool) -> None:

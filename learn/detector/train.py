@@ -47,8 +47,6 @@ FOLLOW = 0.998
 SAID_EVERY_S = 20.0
 #: Finished objects that are taken over between two steps.
 MOST_COLLECTED = 40
-#: Below so many steps a second the makers are in the way, and are stopped.
-SLOW = 1.5
 
 
 def main() -> None:
@@ -161,9 +159,6 @@ def _fitted(
         step += 1
         if now - said > SAID_EVERY_S:
             _say(step, step - said_step, sums, now - said, source.pools[-1].made)
-            if (step - said_step) / (now - said) < SLOW and done > 0.1:
-                for each in makers:
-                    each.stop()
             said = now
             sums = {}
             said_step = step
