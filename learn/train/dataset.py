@@ -82,8 +82,7 @@ def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
     counts: list[dict[str, Any]] = []
     for pool in pools:
         if isinstance(pool, Generator):
-            objects = pool.source.objects or None
-            counts.append({"kind": "procedural", "sampled": objects, "skipped": {}})
+            counts.append({"kind": "procedural", "sampled": None, "skipped": {}})
             continue
         kind, skipped = (
             ("sampled", {}) if pool.report is None else (pool.report.kind, pool.report.counts)
@@ -191,8 +190,6 @@ class Dataset:
         rng = np.random.default_rng([config.seed, _ORDER, which, number, block])
         order = rng.permutation(reuse * _WINDOW)
         thing = block * _WINDOW + int(order[place]) // reuse
-        if source.objects:
-            return (config.seed, _OBJECT, which, (thing * config.batch + number) % source.objects)
         return (config.seed, _OBJECT, which, number, thing)
 
 
