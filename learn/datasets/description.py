@@ -1,7 +1,8 @@
-"""Objects with a URDF or an MJCF each: in folders, PartNet-Mobility's folders, or a registry."""
+"""Objects with a URDF, an MJCF or a USD asset each: in folders of folders, or in a registry."""
 
 from __future__ import annotations
 
+import importlib.util
 import sqlite3
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,11 +11,12 @@ from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.factory.intake.discover import is_description
+from asset_factory.factory.intake.discover import MAIN_LAYERS, is_description
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.runtime.layout import URDF
 from asset_factory.sim_checks import Status
+from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from .item import SourceItem, files_below, find_items
 from .settings import SourceSettings
@@ -49,6 +51,27 @@ def find_partnet(root: Path) -> tuple[SourceItem, ...]:
         return [path for path in files if path.name == PARTNET_MAIN]
 
     return find_items(root, mains)
+
+
+def find_usd(root: Path) -> tuple[SourceItem, ...]:
+    """Return the objects of a folder of folders, or of a folder of files complete in themselves.
+
+    Raises:
+        ConfigError: the library that reads USD is not installed.
+    """
+    if importlib.util.find_spec("pxr") is None:
+        raise ConfigError("reading USD needs usd-core: pip install 'asset-factory[train]'")
+    return find_items(root, _usd_mains)
+
+
+def _usd_mains(files: Sequence[Path]) -> list[Path]:
+    """Return the file called like its folder first, then the names that asset packs use."""
+
+    def rank(path: Path) -> tuple[bool, int, str]:
+        place = (*MAIN_LAYERS, path.stem).index(path.stem)
+        return path.stem != path.parent.name, place, path.name
+
+    return sorted((path for path in files if is_usd(path)), key=rank)
 
 
 def find_registered(root: Path) -> tuple[SourceItem, ...]:

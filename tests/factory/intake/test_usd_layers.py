@@ -8,14 +8,21 @@ pytest.importorskip("pxr")
 from refusing import refusal
 from usda import CABINET, stage, write
 
+from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.intake.importers.usd import read_annotated
+from asset_factory.factory.intake.importers import usd
+from asset_factory.factory.intake.importers.usd import import_usd
+from asset_factory.factory.intake.reads import ReadLog
 
-ROOM = 10_000_000
+
+@pytest.fixture(autouse=True)
+def read_here(monkeypatch):
+    """Spare every read a child process, which other tests prove."""
+    monkeypatch.setattr(usd, "ask_of", lambda _child, _name, ask, *given: ask(*given))
 
 
 def refused(main):
-    return refusal(read_annotated, main, main.parent, ROOM, ROOM).code
+    return refusal(import_usd, main, IntakeConfig(), ReadLog()).code
 
 
 @pytest.fixture
@@ -90,6 +97,6 @@ def test_own_layers_and_looks_elsewhere_are_fine(tmp_path):
             "asset map = @../../outside.png@\n}\n"
         ),
     )
-    read_annotated(main, main.parent, ROOM, ROOM)
+    import_usd(main, IntakeConfig(), ReadLog())
     with pytest.raises(InputRejected, match="limit"):
-        read_annotated(main, folder, 1000, ROOM)
+        import_usd(main, IntakeConfig(max_bytes=1000), ReadLog())

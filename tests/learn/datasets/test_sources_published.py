@@ -5,7 +5,7 @@ import pytest
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.posing import closed
-from asset_factory.learn.datasets.description import find_descriptions, read_description
+from asset_factory.learn.datasets.description import find_descriptions, find_usd, read_description
 from asset_factory.learn.datasets.item import SourceItem
 from asset_factory.learn.datasets.making import sampled_item
 from asset_factory.learn.datasets.published import find_published, read_published
@@ -20,9 +20,7 @@ def original(fixtures, name):
     folder = fixtures / "data_formats" / name / "in"
     if name in STAGES:
         pytest.importorskip("pxr")
-        from asset_factory.learn.datasets.usd import find_usd, read_usd
-
-        return read_usd(find_usd(folder)[0], SETTINGS)
+        return read_description(find_usd(folder)[0], SETTINGS)
     return read_description(find_descriptions(folder)[0], SETTINGS)
 
 
