@@ -152,7 +152,7 @@ def _face_labels(path: Path, bones: Array, face_count: int) -> IntArray:
 
 
 def _of_bones(stored: Fields, count: int, width: int) -> Array:
-    """Return what is stored of each bone by its number, else zeros, shape [count, width]."""
+    """Return the row stored of each bone, by its number, else zeros, shape [count, width]."""
     found = np.zeros((count, width))
     for bone in range(count):
         found[bone] = stored.get(str(bone), 0.0)

@@ -21,7 +21,7 @@ FLOOR = 0.7
 
 
 def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
-    """Return how many true parts are found, how many others are told, and what is right else."""
+    """Return how many true parts are found and others told, and how often the rest is right."""
     counts = np.zeros((OPENING, 4), np.int64)
     still = fronts = kinds = opening = quiet = 0
     for number in range(pool.made):
@@ -31,8 +31,8 @@ def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
         with torch.no_grad():
             answers = network(cues)
         table = batch.table[0].cpu().numpy()
-        found = found_parts(dense_of(answers), FLOOR)
-        found = [part for part in found if SORTS.index(part.sort) < OPENING]
+        told = found_parts(dense_of(answers), FLOOR)
+        found = [part for part in told if SORTS.index(part.sort) < OPENING]
         counts += compared(found, table[table[:, 0] >= 0])
         fronts += int(answers.front.argmax() == front) * opens
         kinds += int(answers.kind.argmax() == kind)

@@ -43,14 +43,14 @@ def joint_figures(pairing: Pairing) -> dict[str, tuple[float, ...]]:
     """
     true = pairing.true
     predicted = pairing.predicted
-    partners = dict(pairing.pairs[pairing.iou > FOUND_IOU].tolist())
+    partners: dict[int, int] = dict(pairing.pairs[pairing.iou > FOUND_IOU].tolist())
     figures: dict[str, list[float]] = {name: [] for name in NAMES}
     for real in np.flatnonzero(true.moving).tolist():
         guess = partners.get(real)
-        moves = guess is not None and predicted.moving[guess]
+        mover = guess if guess is not None and predicted.moving[guess] else None
         alike = guess is not None and true.kind(real) == predicted.kind(guess)
-        turns = (true.turn(real), predicted.turn(guess) if moves else None)
-        slides = (true.slide(real), predicted.slide(guess) if moves else None)
+        turns = (true.turn(real), None if mover is None else predicted.turn(mover))
+        slides = (true.slide(real), None if mover is None else predicted.slide(mover))
         angle = max(_angles(turns, slides), default=None)
         place = _offset(pairing, real, turns)
         parallel = angle is not None and angle < RIGHT_ANGLE_DEG
@@ -70,8 +70,9 @@ def joint_figures(pairing: Pairing) -> dict[str, tuple[float, ...]]:
         for name, unit, (ours, theirs) in (("rad", 1.0, turns), ("size", pairing.size, slides)):
             if ours and theirs and ours.kind is not JointKind.CONTINUOUS:
                 figures[f"range_error_{name}"].append(abs(ours.range - theirs.range) / unit)
-        if moves and (slides[0] or turns[0] is None or turns[0].kind is not JointKind.CONTINUOUS):
-            figures["opens_right_way"].append(_opens_alike(pairing, real, guess))
+        endless = turns[0] is not None and turns[0].kind is JointKind.CONTINUOUS
+        if mover is not None and (slides[0] is not None or not endless):
+            figures["opens_right_way"].append(_opens_alike(pairing, real, mover))
     return {name: tuple(map(float, values)) for name, values in figures.items()}
 
 
