@@ -145,11 +145,8 @@ def make_objects(folder: Path, character: str, count: int) -> None:
             continue
         rng = np.random.default_rng(number)
         name, whole = sample_object(rng, settings)
-        category = name.partition("-")[0]
         try:
-            sampled = sampled_from(
-                whole, name=name, category=category, source="made", points=POINTS, rng=rng
-            )
+            sampled = sampled_from(whole, name, POINTS, rng)
         except InputRejected as error:
             print(f"{name} left out: {error}")
             continue

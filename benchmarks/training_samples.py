@@ -40,9 +40,7 @@ def ours(category: str, seed: int, reuse: int) -> tuple[float, float, float]:
     rng = np.random.default_rng(seed)
     _, articulation = sample_object(rng, MixtureSettings(categories=(category,)))
     made = time.process_time()
-    sampled = sampled_from(
-        articulation, name="object", category=category, source="", points=POOL, rng=rng
-    )
+    sampled = sampled_from(articulation, "object", POOL, rng)
     pooled = time.process_time()
     for _ in range(reuse):
         draw(sampled, rng, SETTINGS)

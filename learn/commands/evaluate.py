@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import tyro
 
@@ -17,8 +17,7 @@ if TYPE_CHECKING:
     from ..evaluate.cases import Request
     from ..evaluate.methods import Method
 
-SETS = ("real", "procedural", "folder", "skins")
-HALVES = ("develop", "report", "both")
+ObjectSet = Literal["real", "procedural", "folder", "skins"]
 
 
 @dataclass(frozen=True)
@@ -34,13 +33,13 @@ class Evaluate:
 
     output: Path
     """Folder for evaluation.json and cases.csv; made if it is not there."""
-    kind: Annotated[str, tyro.conf.arg(name="set")] = "real"
+    kind: Annotated[ObjectSet, tyro.conf.arg(name="set")] = "real"
     """real (a frozen list), procedural, folder (any with joints), or skins (one-piece meshes)."""
     data: Path | None = None
     """real: root of the list's paths; folder, skins: folder of the objects."""
     listed: Annotated[Path | None, tyro.conf.arg(name="list")] = None
     """real: another list than the package's own."""
-    half: str = "develop"
+    half: Literal["develop", "report", "both"] = "develop"
     """real: develop, to choose and tune on; report, held out for one last measurement; both."""
     category: tuple[str, ...] = ()
     """Only these; for procedural objects all by default."""
@@ -48,9 +47,9 @@ class Evaluate:
     """procedural: objects per category."""
     first_seed: int = 0
     """procedural: seed of the first one; leave it away from the seeds that training draws."""
-    pose: tuple[str, ...] = ("closed",)
+    pose: tuple[Literal["closed", "open"], ...] = ("closed",)
     """closed: every joint at its closed end; open: anywhere in its range, at random."""
-    yaw: tuple[str, ...] = ("front",)
+    yaw: tuple[Literal["front", "random"], ...] = ("front",)
     """front: its front towards -Y; random: turned about the vertical by any angle."""
     method: tuple[str, ...] = ("naive", "geometric")
     """naive, geometric, particulate, auto, predictions."""
@@ -60,7 +59,7 @@ class Evaluate:
     """Fuse each object to one closed mesh with engraved seams, as image-to-3D tools make them."""
     meshes: Path | None = None
     """Write the cases' meshes there as <case>.obj and evaluate nothing."""
-    convention: str = "physical"
+    convention: Literal["physical", "paper", "release"] = "physical"
     """physical (faces' areas and motion), or published metrics: paper (worded), release (coded)."""
     points: int = 100_000
     """paper, release: points per object."""
@@ -119,16 +118,6 @@ def run(command: Evaluate) -> int:
 
 
 def _require_sound(command: Evaluate) -> None:
-    from ..evaluate.trial import CONVENTIONS
-
-    known = (
-        ("--set", command.kind, SETS),
-        ("--convention", command.convention, CONVENTIONS),
-        ("--half", command.half, HALVES),
-    )
-    for flag, given, choices in known:
-        if given not in choices:
-            raise ConfigError(f"{flag} must be one of {', '.join(choices)}, not {given!r}")
     least = {"points": 1, "seeds": 1, "repeats": 1, "workers": 1, "first_seed": 0, "limit": 1}
     for name, lowest in least.items():
         number = getattr(command, name)
@@ -164,7 +153,7 @@ def _requests(command: Evaluate) -> tuple[Request, ...]:
 
 
 def _objects(command: Evaluate) -> tuple[Request, ...]:
-    from ..evaluate.cases import folder_requests, procedural_requests, skin_requests
+    from ..evaluate.cases import folder_requests, procedural_requests
     from ..evaluate.listing import real_requests
 
     if command.kind == "procedural" or command.data is None:
@@ -172,10 +161,8 @@ def _objects(command: Evaluate) -> tuple[Request, ...]:
 
         seeds = range(command.first_seed, command.first_seed + command.seeds)
         return procedural_requests(CATEGORIES, seeds)
-    if command.kind == "folder":
-        return folder_requests(command.data)
-    if command.kind == "skins":
-        return skin_requests(command.data)
+    if command.kind in ("folder", "skins"):
+        return folder_requests(command.data, skins=command.kind == "skins")
     half = None if command.half == "both" else command.half
     return real_requests(command.data, half, command.listed)
 

@@ -21,9 +21,7 @@ from .split import write_split
 def main(arguments: list[str] | None = None) -> int:
     """Parse, prepare, print; 0, or 2 where the question makes no sense."""
     asked = _parser().parse_args(arguments)
-    settings = SourceSettings(
-        points=asked.points, max_parts=asked.max_parts, front=asked.front, wall_s=asked.wall
-    )
+    settings = SourceSettings(points=asked.points, front=asked.front, wall_s=asked.wall)
     try:
         if asked.write_split is not None:
             names = [item.name for item in find_all(asked.kind, asked.path)]
@@ -63,7 +61,6 @@ def _parser() -> argparse.ArgumentParser:
     add("--cache", type=Path, default=kept, help="where sampled objects are kept")
     add("--split", type=Path, help="a file with the names of the objects wanted, one per line")
     add("--points", type=int, default=default.points, help="of the surface, per sampled object")
-    add("--max-parts", type=int, default=default.max_parts, help="pass over objects with more")
     fronts = ["auto", *FRONTS]
     add("--front", choices=fronts, default="auto", help="where the objects' fronts look")
     add("--wall", type=float, default=default.wall_s, help="longest for one object [s]")

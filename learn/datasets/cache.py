@@ -22,7 +22,7 @@ from ..children import ask_children
 from .catalog import source
 from .item import SourceItem
 from .making import make_sampled
-from .report import ItemRefusal, SourceReport, names_read, read_refusal
+from .report import ItemRefusal, SourceReport, read_refusal
 from .settings import SourceSettings
 from .split import read_split
 
@@ -79,9 +79,7 @@ def prepare(
         else:
             skipped.setdefault(outcome.reason, {})[item.name] = outcome.message
     said = folder / f"{safe_name(Path(path.resolve().name + '.json'))}.json"
-    gone = tuple(sorted(set(names_read(said)) - {item.name for item in found}))
-    made = len(set(read.values()) - there_before)
-    report = SourceReport(kind, read, skipped, made, gone)
+    report = SourceReport(kind, read, skipped, made=len(set(read.values()) - there_before))
     report.write(said)
     return report
 
@@ -111,7 +109,7 @@ def _found_or_made(
 ) -> Path | ItemRefusal:
     """Return the file of an object's sampled object, or why there is none."""
     try:
-        key = stage_key("sampled", item.name, item.category, item.digest())
+        key = stage_key("sampled", item.name, item.digest())
     except OSError as error:
         said = f"{item.name}: {error.strerror or type(error).__name__}"
         return ItemRefusal("unreadable", said)

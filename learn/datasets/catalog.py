@@ -14,13 +14,13 @@ from .description import (
     find_descriptions,
     find_partnet,
     find_registered,
+    find_usd,
     read_description,
 )
 from .item import SourceItem
 from .predictions import find_predictions, read_prediction_item
 from .published import find_published, read_published
 from .settings import SourceSettings
-from .usd import find_usd, read_usd
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,8 @@ SOURCES: Mapping[str, SourceKind] = {
     ),
     "registry": SourceKind(find_registered, read_description, "an output folder of factory build"),
     "usd": SourceKind(
-        find_usd, read_usd, "a folder with a USD asset of rigid bodies and physics joints each"
+        find_usd, read_description,
+        "a folder with a USD asset of rigid bodies and physics joints each",
     ),
 }  # fmt: skip
 

@@ -1,33 +1,28 @@
-"""Objects with a URDF or an MJCF each: in folders, PartNet-Mobility's folders, or a registry."""
+"""Objects with a URDF, an MJCF or a USD asset each: in folders of folders, or in a registry."""
 
 from __future__ import annotations
 
-import json
-import re
+import importlib.util
 import sqlite3
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import ConfigError, RegistryError
-from asset_factory.factory.intake.categories import normalised
-from asset_factory.factory.intake.discover import is_description
+from asset_factory.factory.intake.discover import MAIN_LAYERS, is_description
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.runtime.layout import URDF
 from asset_factory.sim_checks import Status
+from asset_factory.sim_checks.read.usd.layers import is_usd
 
-from .categories import categories_of
 from .item import SourceItem, files_below, find_items
 from .settings import SourceSettings
 
 #: Of PartNet-Mobility's folders, whose objects look along -X.
 PARTNET_MAIN = "mobility.urdf"
-PARTNET_META = "meta.json"
-MAX_META_BYTES = 1_000_000
 
 
 def read_description(item: SourceItem, settings: SourceSettings) -> Articulation:
@@ -37,7 +32,7 @@ def read_description(item: SourceItem, settings: SourceSettings) -> Articulation
 
 def find_descriptions(root: Path) -> tuple[SourceItem, ...]:
     """Return the objects of a folder of folders."""
-    return find_items(root, _mains, categories_of(root))
+    return find_items(root, _mains)
 
 
 def _mains(files: Sequence[Path]) -> list[Path]:
@@ -55,25 +50,28 @@ def find_partnet(root: Path) -> tuple[SourceItem, ...]:
     def mains(files: Sequence[Path]) -> list[Path]:
         return [path for path in files if path.name == PARTNET_MAIN]
 
-    found = find_items(root, mains, lambda _: "")
-    return tuple(replace(item, category=_partnet_category(item)) for item in found)
+    return find_items(root, mains)
 
 
-def _partnet_category(item: SourceItem) -> str:
-    """Return the ``model_cat`` of its ``meta.json``; empty if there is none."""
-    path = next((path for path in item.files if path == item.folder / PARTNET_META), None)
-    try:
-        if path is None or path.stat().st_size > MAX_META_BYTES:
-            return ""
-        stated = json.loads(path.read_text(encoding="utf-8"))["model_cat"]
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
-        return ""
-    return normalised(words(stated)) if isinstance(stated, str) else ""
+def find_usd(root: Path) -> tuple[SourceItem, ...]:
+    """Return the objects of a folder of folders, or of a folder of files complete in themselves.
+
+    Raises:
+        ConfigError: the library that reads USD is not installed.
+    """
+    if importlib.util.find_spec("pxr") is None:
+        raise ConfigError("reading USD needs usd-core: pip install 'asset-factory[train]'")
+    return find_items(root, _usd_mains)
 
 
-def words(name: str) -> str:
-    """Split ``StorageFurniture`` into ``Storage Furniture``."""
-    return re.sub("(?<=[^A-Z])(?=[A-Z])", " ", name)
+def _usd_mains(files: Sequence[Path]) -> list[Path]:
+    """Return the file called like its folder first, then the names that asset packs use."""
+
+    def rank(path: Path) -> tuple[bool, int, str]:
+        place = (*MAIN_LAYERS, path.stem).index(path.stem)
+        return path.stem != path.parent.name, place, path.name
+
+    return sorted((path for path in files if is_usd(path)), key=rank)
 
 
 def find_registered(root: Path) -> tuple[SourceItem, ...]:
@@ -93,5 +91,5 @@ def find_registered(root: Path) -> tuple[SourceItem, ...]:
     for entry in entries:
         folder = registry.folder(entry)
         if entry.status is Status.PASSED and (folder / URDF).is_file():
-            found.append(SourceItem(entry.id, entry.category, folder / URDF, files_below(folder)))
+            found.append(SourceItem(entry.id, folder / URDF, files_below(folder)))
     return tuple(found)

@@ -22,13 +22,11 @@ class SourceItem:
 
     Attributes:
         name: unique within its source: its folder, relative to the source's, or its file's stem.
-        category: of household object, or empty.
         main: the file that says what the object is.
         files: everything that it may consist of; ``main`` is one of them.
     """
 
     name: str
-    category: str
     main: Path
     files: tuple[Path, ...]
 
@@ -47,14 +45,14 @@ class SourceItem:
 
 
 def find_items(
-    root: Path, mains: Callable[[Sequence[Path]], Sequence[Path]], category: Callable[[str], str]
+    root: Path, mains: Callable[[Sequence[Path]], Sequence[Path]]
 ) -> tuple[SourceItem, ...]:
     """Return the objects in and below a folder, by name.
 
     A folder that holds a main file is an object, and so is nothing below it. Several main files in
     ``root`` itself are an object each; elsewhere the first counts. Hidden files, and links that
     lead out of ``root``, do not exist. ``mains`` returns which of a folder's files could be an
-    object's main file, best first; ``category`` that of an object's name.
+    object's main file, best first.
     """
     items: list[SourceItem] = []
     real = root.resolve()
@@ -68,7 +66,7 @@ def find_items(
         flat = here == root
         for main in found if flat else found[:1]:
             name = main.stem if flat else here.relative_to(root).as_posix()
-            items.append(SourceItem(name, category(name), main, files_below(here, real)))
+            items.append(SourceItem(name, main, files_below(here, real)))
     return tuple(sorted(items, key=lambda item: item.name))
 
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.errors import AssetFactoryError, InputRejected
-from asset_factory.factory.geometry.posing import UP, turned
+from asset_factory.factory.geometry.posing import UP
 
-from ..samples.sampled_object import SampledObject, require_parts, sampled_from, write_sampled
+from ..samples.sampled_object import SampledObject, sampled_from, write_sampled
 from .catalog import source
 from .item import SourceItem
 from .report import ItemRefusal
@@ -49,21 +49,14 @@ def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: in
     """Return one object's sample, front along -Y. Raises InputRejected and readers' errors."""
     known = source(kind)
     read = known.read(item, settings)
-    quarters = FRONTS[known.front if settings.front == "auto" else settings.front]
-    yaw = quarters * np.pi / 2.0
-    if isinstance(read, SampledObject):
-        sampled = replace(read if not quarters else turned_sampled(read, yaw), name=item.name)
-    else:
-        articulation = read if not quarters else turned(read, yaw)
+    if not isinstance(read, SampledObject):
         if settings.skin:
             from ..surfaces import skin_like
 
-            articulation = skin_like(articulation, seed % 2**32)
-        about = {"name": item.name, "category": item.category, "source": kind}
-        rng = np.random.default_rng([settings.seed, seed])
-        sampled = sampled_from(articulation, **about, points=settings.points, rng=rng)
-    require_parts(item.name, len(sampled.parents), settings.max_parts)
-    return sampled
+            read = skin_like(read, seed % 2**32)
+        read = sampled_from(read, item.name, settings.points, np.random.default_rng(seed))
+    quarters = FRONTS[known.front if settings.front == "auto" else settings.front]
+    return turned_sampled(read, quarters * np.pi / 2.0)
 
 
 def turned_sampled(sampled: SampledObject, yaw: float) -> SampledObject:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from asset_factory.factory.articulation import Articulation
@@ -16,12 +16,14 @@ from .settings import SourceSettings
 
 
 def generated(
-    seeds: Sequence[int], categories: Sequence[str] = CATEGORIES
+    seeds: Iterable[int],
+    categories: Sequence[str] = CATEGORIES,
+    characters: Sequence[str] = ("plain", "artist"),
 ) -> Iterator[tuple[str, Articulation]]:
-    """Yield an object per category and seed, with names; every other one as an artist makes it."""
-    for category in categories:
-        for seed in seeds:
-            character = "artist" if seed % 2 else "plain"
+    """Yield an object per seed and category, with names; each character is as frequent."""
+    for seed in seeds:
+        for number, category in enumerate(categories):
+            character = characters[(seed + number) % len(characters)]
             made, _ = in_character(make_object(category, seed), character, seed)
             yield f"generated/{category}_{seed}", made
 

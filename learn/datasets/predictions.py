@@ -17,7 +17,6 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.formats.catalog import is_mesh
 from asset_factory.factory.intake.load import load
 
-from .categories import categories_of
 from .item import SourceItem, find_items
 from .settings import SourceSettings
 
@@ -26,7 +25,7 @@ LONE = "pred.npz"
 
 def find_predictions(root: Path) -> tuple[SourceItem, ...]:
     """Return every mesh with labels; in ``root`` itself an object each, below it one per folder."""
-    found = find_items(root, _mains, categories_of(root))
+    found = find_items(root, _mains)
     return tuple(_alone(item) if item.folder == root else item for item in found)
 
 

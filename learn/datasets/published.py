@@ -21,19 +21,23 @@ from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.rows import distinct_rows
-from asset_factory.factory.intake.annotation import AnnotatedJoint, Annotation
-from asset_factory.factory.intake.importers.prediction import point_on_line
+from asset_factory.factory.intake.annotation import Annotation
+from asset_factory.factory.intake.importers.prediction import (
+    MAX_PARTS,
+    Fields,
+    annotation_in,
+    load_fields,
+)
 from asset_factory.factory.intake.limits import require_at_most
 from asset_factory.factory.intake.loading import load_visual
 from asset_factory.factory.mesh import IntArray, Mesh
 from asset_factory.factory.models.particulate.sampling import Cloud
 
 from ..samples.sampled_object import SampledObject, sampled_at
-from .categories import categories_of
 from .item import SourceItem, find_items
 from .settings import SourceSettings
 
-Arrays = dict[str, npt.NDArray[Any]]
+Array = npt.NDArray[Any]
 MESH = "original.obj"
 META = "meta.npz"
 AXES = "link_axes_plucker.npz"
@@ -41,16 +45,17 @@ RANGES = "link_range.npz"
 POINT_FIELDS = frozenset(
     {"points", "normals", "point_to_bone", "bone_structure", "link_axes_plucker", "link_range"}
 )
-MOST_BONES = 4096
 TINY = 1e-6
 """Side of the triangle that stands for a point, in lengths of the object's longest side."""
 FULL_TURN = 2.0 * np.pi - 1e-3
 """A range of so much is a turn without an end: the release writes those as -pi to pi [rad]."""
+BEYOND = (-1e8, 1e8)
+"""Limits of such a turn: so far that they count as none [rad]."""
 
 
 def find_published(root: Path) -> tuple[SourceItem, ...]:
     """Return the folders with ``original.obj`` and labels, and point caches."""
-    return find_items(root, _mains, categories_of(root))
+    return find_items(root, _mains)
 
 
 def read_published(item: SourceItem, settings: SourceSettings) -> Articulation | SampledObject:
@@ -58,14 +63,19 @@ def read_published(item: SourceItem, settings: SourceSettings) -> Articulation |
     if item.main.name != META:
         return _sampled_from_points(item, settings)
     folder = item.folder
-    intake = settings.intake
-    visual = load_visual(folder / MESH, folder, intake)
-    bones = _arrays_of(item.main, settings.max_bytes)
-    axes, ranges = (_arrays_of(folder / name, settings.max_bytes) for name in (AXES, RANGES))
-    labels = _face_labels(folder / MESH, bones, visual.source_face_count)
+    visual = load_visual(folder / MESH, folder, settings.intake)
+    bones, axes, ranges = (
+        load_fields(folder / name, settings.max_bytes) for name in (META, AXES, RANGES)
+    )
+    structure = bones["bone_structure"]
+    labels = _face_labels(folder / MESH, bones["vert_to_bone"], visual.source_face_count)
+    count = int(max(labels.max(), structure.max(initial=0))) + 1
+    require_at_most("its labels", count, MAX_PARTS, "bones")
+    lines = _of_bones(axes, count, 12)
+    annotation = _annotation(labels, structure, lines, _of_bones(ranges, count, 4))
     # The release writes visuals twice: of all faces on the same vertices the first is kept.
     kept = np.sort(distinct_rows(np.sort(visual.mesh.faces, axis=1))[0])
-    articulator = _articulator(labels, visual.source_faces[kept], bones, axes, ranges)
+    articulator = AnnotatedArticulator(annotation, np.eye(4), visual.source_faces[kept])
     return articulator.articulate(visual.mesh.submesh(kept))
 
 
@@ -75,40 +85,39 @@ def _sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledO
     Raises:
         InputRejected: ``bad_annotation``, ``not_a_tree``, ``no_movable_joint``, ``too_many_parts``.
     """
-    stored = _arrays_of(item.main, settings.max_bytes)
+    stored: dict[str, Any] = dict(load_fields(item.main, settings.max_bytes))
     points = stored["points"]
-    bones = stored["point_to_bone"].astype(np.int64)
-    lines = stored["link_axes_plucker"]
-    ranges = stored["link_range"]
-    count = len(lines)
-    name = item.main.name
-    fitting = bones.shape == (len(points),) and len(bones) and len(ranges) == count
-    if not fitting or not 0 <= bones.min() <= bones.max() < count:
-        wrong = f"do not fit its points and {count} bones"
-        raise _bad_annotation(f"{name}: point_to_bone, link_range {wrong}")
-    axes, ends = ({str(bone): row for bone, row in enumerate(of)} for of in (lines, ranges))
+    lines = (stored["link_axes_plucker"], stored["link_range"])
+    annotation = _annotation(stored["point_to_bone"], stored["bone_structure"], *lines)
     corners = points[:, None] + TINY * np.eye(3)
     rows = np.arange(len(points))
     mesh = Mesh.from_triangles(corners, np.arange(3 * len(points)))
-    articulator = _articulator(bones, rows, stored, axes, ends)
+    articulator = AnnotatedArticulator(annotation, np.eye(4), rows)
     sharp = stored.get("point_from_sharp", np.zeros(len(points), dtype=np.bool_))
     cloud = Cloud(points, stored["normals"], rows, sharp, np.zeros_like(rows))
-    about = {"name": item.name, "category": item.category, "source": "particulate"}
-    return sampled_at(cloud, articulator.articulate(mesh), **about)
+    return sampled_at(cloud, articulator.articulate(mesh), item.name)
 
 
-def _articulator(
-    labels: IntArray, faces: IntArray, bones: Arrays, axes: Arrays, ranges: Arrays
-) -> AnnotatedArticulator:
-    """Return who believes labels of faces, shape [face_count], and the joints between bones."""
-    structure = bones["bone_structure"]
-    if structure.min(initial=0) < 0:
-        raise _bad_annotation(f"bone_structure holds {structure.min()}, want 0 and more")
-    count = int(max(labels.max(), structure.max(initial=0))) + 1
-    require_at_most("its labels", count, MOST_BONES, "bones")
-    names = tuple(f"part_{bone}" for bone in range(count))
-    annotation = Annotation(labels, names, _joints(bones, axes, ranges), "pred.npz")
-    return AnnotatedArticulator(annotation, np.eye(4), faces)
+def _annotation(labels: Array, structure: Array, lines: Array, ranges: Array) -> Annotation:
+    """Return labels of faces, shape [face_count], and joints between bones, as an annotation.
+
+    ``lines`` are ``(l, l x p)`` of the turn and of the slide, zero where there is none, shape
+    [bone_count, 12]; ``ranges`` of the turn [rad] and of the slide, from the pose that the object
+    is in, shape [bone_count, 4].
+    """
+    turns = ranges[:, :2]
+    endless = np.ptp(turns, axis=1) >= FULL_TURN
+    fields: Fields = {
+        "face_part_ids": labels.astype(np.int64),
+        "motion_hierarchy": structure.reshape(-1, 2).astype(np.int64),
+        "is_part_revolute": np.asarray(lines[:, :3].any(axis=1)),
+        "is_part_prismatic": np.asarray(lines[:, 6:9].any(axis=1)),
+        "revolute_plucker": lines[:, :6],
+        "revolute_range": np.where(endless[:, None], BEYOND, turns),
+        "prismatic_axis": lines[:, 6:9],
+        "prismatic_range": ranges[:, 2:],
+    }
+    return annotation_in(fields, len(labels), "its bones")
 
 
 def _mains(files: Sequence[Path]) -> list[Path]:
@@ -126,87 +135,25 @@ def _holds_points(path: Path) -> bool:
         return False
 
 
-def _face_labels(path: Path, bones: Arrays, face_count: int) -> IntArray:
+def _face_labels(path: Path, bones: Array, face_count: int) -> IntArray:
     """Return the bone of every OBJ triangle, polygons fanned, by its first vertex, [face_count]."""
     first: list[int] = []
     for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
         if line.startswith("f "):
             corners = line.split()[1:]
             first += [int(corners[0].split("/")[0])] * (len(corners) - 2)
-    labels = bones["vert_to_bone"].reshape(-1).astype(np.int64)
+    labels = bones.reshape(-1).astype(np.int64)
     vertices = np.asarray(first, dtype=np.int64) - 1
     fitting = len(vertices) == face_count and len(labels)
     if not fitting or not 0 <= vertices.min() <= vertices.max() < len(labels):
-        labelled = f"{len(labels)} labelled vertices"
-        raise _bad_annotation(f"{path.name}: its faces do not fit the {labelled}")
-    if labels.min() < 0:
-        raise _bad_annotation(f"{META}: vert_to_bone holds {labels.min()}, want 0 and more")
+        said = f"{path.name}: its faces do not fit the {len(labels)} labelled vertices"
+        raise InputRejected("bad_annotation", said)
     return labels[vertices]
 
 
-def _joints(bones: Arrays, axes: Arrays, ranges: Arrays) -> tuple[AnnotatedJoint, ...]:
-    nothing = np.zeros(12)
-    return tuple(
-        _annotated_joint(
-            parent, child, axes.get(str(child), nothing), ranges.get(str(child), nothing[:4])
-        )
-        for parent, child in bones["bone_structure"].reshape(-1, 2).astype(int).tolist()
-    )
-
-
-def _bad_annotation(message: str) -> InputRejected:
-    """Return the refusal of labels that contradict themselves or their mesh."""
-    return InputRejected("bad_annotation", message)
-
-
-def _arrays_of(path: Path, max_bytes: int) -> Arrays:
-    """Return the arrays of an ``.npz``, unpickled nothing.
-
-    Raises:
-        InputRejected: ``missing_file``, ``too_large``, or ``bad_annotation``: damaged, not finite.
-    """
-    if not path.is_file():
-        raise InputRejected("missing_file", f"{path.name}: is not there")
-    try:
-        with zipfile.ZipFile(path) as archive:
-            size = sum(entry.file_size for entry in archive.infolist())
-            require_at_most(path.name, size, max_bytes, "bytes")
-        with np.load(path, allow_pickle=False) as stored:
-            arrays = {name: stored[name] for name in stored.files}
-    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
-        raise _bad_annotation(f"{path.name}: is no .npz of plain arrays: {error}") from error
-    for name, values in arrays.items():
-        if values.dtype.kind not in "biuf" or not np.isfinite(values.astype(np.float64)).all():
-            raise _bad_annotation(f"{path.name}: {name} holds what is no finite number")
-    return arrays
-
-
-def _annotated_joint(
-    parent: int, child: int, lines: npt.NDArray[Any], ranges: npt.NDArray[Any]
-) -> AnnotatedJoint:
-    """Return the joint of one bone.
-
-    ``lines`` are ``(l, l x p)`` of the turn and of the slide, zero where there is none, shape [12];
-    ``ranges`` of the turn [rad] and of the slide, from the pose that the object is in, shape [4].
-    """
-    if lines.shape != (12,) or ranges.shape != (4,):
-        shapes = f"axes of shape {list(lines.shape)}, ranges {list(ranges.shape)}"
-        raise _bad_annotation(f"bone {child}: {shapes}; want 12, 4")
-    turn, moment, slide = (np.asarray(lines[i : i + 3], dtype=np.float64) for i in (0, 3, 6))
-    low, high, near, far = (float(value) for value in ranges.astype(np.float64))
-    kind = ("fixed", "revolute", "prismatic", "both")[turn.any() + 2 * slide.any()]
-    endless = high - low >= FULL_TURN
-    ends = (near, far) if kind == "prismatic" else (None, None) if endless else (low, high)
-    return AnnotatedJoint(
-        name=f"joint_{child}",
-        kind=kind,
-        parent=parent,
-        child=child,
-        axis=slide if kind == "prismatic" else turn,
-        origin=point_on_line(turn, moment) if turn.any() else np.zeros(3),
-        lower=ends[0],
-        upper=ends[1],
-        slide_axis=slide if kind == "both" else None,
-        slide_lower=near if kind == "both" else None,
-        slide_upper=far if kind == "both" else None,
-    )
+def _of_bones(stored: Fields, count: int, width: int) -> Array:
+    """Return the row stored of each bone, by its number, else zeros, shape [count, width]."""
+    found = np.zeros((count, width))
+    for bone in range(count):
+        found[bone] = stored.get(str(bone), 0.0)
+    return found

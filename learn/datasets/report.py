@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
@@ -37,14 +36,12 @@ class SourceReport:
         read: by name of the objects that are sampled objects now, their files in the cache.
         skipped: why the others are not, by reason code: names, each with a sentence.
         made: how many of ``read`` were not in the cache before.
-        gone: names that a former pass read and that are not among the dataset's objects any more.
     """
 
     kind: str
     read: dict[str, Path]
     skipped: dict[str, dict[str, str]]
     made: int
-    gone: tuple[str, ...] = ()
 
     @property
     def counts(self) -> dict[str, int]:
@@ -59,8 +56,6 @@ class SourceReport:
         for reason, count in self.counts.items():
             name, message = next(iter(self.skipped[reason].items()))
             said.append(f"  {count} skipped: {reason}; first {name}: {message}")
-        if self.gone:
-            said.append(f"  {len(self.gone)} gone since the last pass, e.g. {self.gone[0]}")
         return said
 
     def write(self, path: Path) -> None:
@@ -69,11 +64,3 @@ class SourceReport:
             reason: dict(sorted(names.items())) for reason, names in sorted(self.skipped.items())
         }
         write_json(path, {"kind": self.kind, "read": list(self.read), "skipped": skipped})
-
-
-def names_read(path: Path) -> tuple[str, ...]:
-    """Return the names in an earlier report; none if there is no readable one."""
-    try:
-        return tuple(str(name) for name in json.loads(path.read_text(encoding="utf-8"))["read"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return ()

@@ -8,8 +8,6 @@ from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.sim_checks.processes.isolation import Limits
 
-from ..samples.sampled_object import MOST_PARTS
-
 FRONTS = {"-y": 0, "x": -1, "y": 2, "-x": 1}
 """Where an object's front looks, and the quarter turns about the vertical that give -Y."""
 
@@ -20,24 +18,20 @@ class SourceSettings:
 
     Attributes:
         points: of the surface, per sampled object.
-        max_parts: objects of more parts are passed over; the network tells no more than 16 apart.
         front: where the objects' doors and drawers look: ``-y``, ``x``, ``y``, ``-x``, or ``auto``,
             which is ``-x`` for PartNet-Mobility and ``-y`` for everything else.
         skin: every object is made one closed skin first, as image-to-3D tools give it.
         max_bytes: most that the files of one object may hold together [bytes].
         max_faces: most triangles of one object.
-        seed: of the points.
         wall_s: longest that one object may take [s].
         memory_bytes: most address space of the process that reads it [bytes].
     """
 
     points: int = 16_384
-    max_parts: int = MOST_PARTS
     front: str = "auto"
     skin: bool = False
     max_bytes: int = 512 * 1024 * 1024
     max_faces: int = 1_000_000
-    seed: int = 0
     wall_s: float = 120.0
     memory_bytes: int = 8 * 1024**3
 
@@ -46,8 +40,6 @@ class SourceSettings:
             raise ConfigError(f"front {self.front!r}: want auto, {', '.join(FRONTS)}")
         if self.points < 1:
             raise ConfigError(f"points {self.points}: want at least 1")
-        if not 2 <= self.max_parts <= MOST_PARTS:
-            raise ConfigError(f"max_parts {self.max_parts}: want 2 to {MOST_PARTS}")
 
     @property
     def intake(self) -> IntakeConfig:

@@ -16,48 +16,39 @@ from asset_factory.factory.models.detector.network import cues_of
 from .sides import Instances
 from .stream import Pool
 
-#: Scores from which on parts count.
-FLOORS = (0.3, 0.4, 0.5, 0.6, 0.7)
+#: Score from which on parts count.
+FLOOR = 0.7
 
 
 def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
-    """Return by floor how many true parts are found and how many others are told."""
-    counts = {floor: np.zeros((OPENING, 4), np.int64) for floor in FLOORS}
-    still = dict.fromkeys(FLOORS, 0)
-    fronts = kinds = opening = quiet = 0
+    """Return how many true parts are found and others told, and how often the rest is right."""
+    counts = np.zeros((OPENING, 4), np.int64)
+    still = fronts = kinds = opening = quiet = 0
     for number in range(pool.made):
-        batch, whole = pool.take(torch.tensor([number], device=pool.device))
+        batch = pool.take(torch.tensor([number], device=pool.device))
+        kind, opens, front, _ = batch.whole[0].tolist()
         cues = cues_of(batch.color.flatten(0, 1), batch.depth.flatten(0, 1))[None]
         with torch.no_grad():
             answers = network(cues)
         table = batch.table[0].cpu().numpy()
-        table = table[table[:, 0] >= 0]
-        fronts += int(answers.front.argmax() == whole[0, 2]) * int(whole[0, 1])
-        kinds += int(answers.kind.argmax() == whole[0, 0])
-        opening += int(whole[0, 1])
-        quiet += int((answers.opens[0] > 0) == (whole[0, 1] > 0))
-        dense = dense_of(answers)
-        for floor in FLOORS:
-            found = [p for p in found_parts(dense, floor) if SORTS.index(p.sort) < OPENING]
-            if not whole[0, 1]:
-                still[floor] += int(bool(found))
-            counts[floor] += compared(found, table)
-    shut = pool.made - opening
-    figures: dict[str, Any] = {
+        told = found_parts(dense_of(answers), FLOOR)
+        found = [part for part in told if SORTS.index(part.sort) < OPENING]
+        counts += compared(found, table[table[:, 0] >= 0])
+        fronts += int(answers.front.argmax() == front) * opens
+        kinds += int(answers.kind.argmax() == kind)
+        opening += opens
+        quiet += int((answers.opens[0] > 0) == (opens > 0))
+        still += int(bool(found) and not opens)
+    names = ("true", "found", "way right", "spurious")
+    rows = zip(SORTS, counts.tolist(), strict=False)
+    return {
         "objects": pool.made,
         "kind right": kinds / pool.made,
         "opens right": quiet / pool.made,
         "front right of those that open": fronts / max(opening, 1),
+        "of those that stay shut something is told": f"{still} of {pool.made - opening}",
+        f"from {FLOOR}": {str(sort): dict(zip(names, row, strict=True)) for sort, row in rows},
     }
-    told = {str(floor): f"{count} of {shut}" for floor, count in still.items()}
-    figures["of those that stay shut something is told"] = told
-    names = ("true", "found", "way right", "spurious")
-    for floor, count in counts.items():
-        rows = zip(SORTS, count.tolist(), strict=False)
-        figures[f"from {floor}"] = {
-            str(sort): dict(zip(names, row, strict=True)) for sort, row in rows
-        }
-    return figures
 
 
 def compared(found: list[Found], table: FloatArray) -> Any:

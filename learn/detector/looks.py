@@ -32,16 +32,14 @@ class ObjectBatch:
         depth: int16, [n, 5, rows, columns].
         part: uint8, [n, 5, rows, columns]; 0 all over for real objects.
         table: of moving parts, [n, most, 10]; view -1 where there is nothing.
-        real: objects whose own colours and shapes stay, [n].
-        front: number of the side that is the front, [n].
+        whole: truths about them as wholes, columns as :class:`WholeTruth` has fields, [n, 4].
     """
 
     color: Tensor
     depth: Tensor
     part: Tensor
     table: Tensor
-    real: Tensor
-    front: Tensor
+    whole: Tensor
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,11 +62,12 @@ def show(batch: ObjectBatch, textures: Tensor, generator: Any) -> Shown:
     """
     count = len(batch.color)
     draw = Drawing(generator, batch.color.device, count)
-    color, depth, part, table, front = _placed(batch, draw)
+    real = batch.whole[:, 3] > 0
+    color, depth, part, table, front = _placed(batch, real, draw)
     seen = depth.flatten(0, 1) >= 0
     part = part.flatten(0, 1)
     height = heights_of(depth.flatten(0, 1), seen)
-    made = (~batch.real).repeat_interleave(VIEWS)
+    made = (~real).repeat_interleave(VIEWS)
     border = _borders(part)
     height, light = _shaped(height, seen, border, made, draw)
     paint = color.flatten(0, 1).permute(0, 3, 1, 2).float() / 255.0
@@ -119,11 +118,11 @@ class Drawing:
         return 0.6 * field[:, 0]
 
 
-def _placed(batch: ObjectBatch, draw: Drawing) -> tuple[Tensor, ...]:
+def _placed(batch: ObjectBatch, real: Tensor, draw: Drawing) -> tuple[Tensor, ...]:
     """Return objects stretched, mirrored and turned by quarters, with their tables."""
     count = draw.count
     stretch = torch.exp(draw.uniform(-0.3, 0.3, count, 3))
-    stretch = torch.where(batch.real[:, None], stretch**0.5, stretch)
+    stretch = torch.where(real[:, None], stretch**0.5, stretch)
     mirrored = draw.happens(0.5, count)
     seen = batch.depth >= 0
     extents = _extents(seen)
@@ -161,7 +160,7 @@ def _placed(batch: ObjectBatch, draw: Drawing) -> tuple[Tensor, ...]:
     target = torch.argsort(order, 1)
     view = table[..., 0].long()
     table[..., 0] = torch.where(view >= 0, target.gather(1, view.clamp(min=0)), -1).float()
-    front = target.gather(1, batch.front[:, None])[:, 0]
+    front = target.gather(1, batch.whole[:, 2:3])[:, 0]
     return *_top_turned(color, depth, part, table, turn), front
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import astuple, fields
 from queue import Empty
 from typing import Any
 
@@ -41,28 +41,26 @@ class Pool:
             return
         rows = np.full((MOST, 10), -1.0, np.float32)
         rows[: len(sides.table)] = sides.table
-        whole = (truth.kind, truth.opens, truth.front, truth.real)
-        shown = (sides.color, sides.depth, sides.part)
-        for kept, given in zip(self.kept, (*shown, rows, whole), strict=True):
+        shown = (sides.color, sides.depth, sides.part, rows, astuple(truth))
+        for kept, given in zip(self.kept, shown, strict=True):
             kept[self.made % self.size].copy_(torch.from_numpy(np.array(given)))
         self.made += 1
 
-    def draw(self, count: int, generator: Any) -> tuple[ObjectBatch, Any]:
-        """Return so many objects and the truth about each as a whole, [n, 4]."""
+    def draw(self, count: int, generator: Any) -> ObjectBatch:
+        """Return so many objects."""
         filled = min(self.made, self.size)
         chosen = torch.randint(filled, (count,), generator=generator, device=self.device)
         return self.take(chosen)
 
-    def take(self, chosen: Any) -> tuple[ObjectBatch, Any]:
+    def take(self, chosen: Any) -> ObjectBatch:
         """Return the objects at these places."""
-        color, depth, part, table, whole = (kept[chosen] for kept in self.kept)
-        return ObjectBatch(color, depth, part, table, whole[:, 3] > 0, whole[:, 2]), whole
+        return ObjectBatch(*(kept[chosen] for kept in self.kept))
 
 
-def joined(batches: list[tuple[ObjectBatch, Any]]) -> tuple[ObjectBatch, Any]:
+def joined(batches: list[ObjectBatch]) -> ObjectBatch:
     """Return several batches as one."""
-    columns = ([getattr(batch, each.name) for batch, _ in batches] for each in fields(ObjectBatch))
-    return ObjectBatch(*map(torch.cat, columns)), torch.cat([whole for _, whole in batches])
+    columns = ([getattr(batch, each.name) for batch in batches] for each in fields(ObjectBatch))
+    return ObjectBatch(*map(torch.cat, columns))
 
 
 class Makers:
@@ -87,12 +85,8 @@ class Makers:
             self.workers[-1].start()
 
     def collect(self, most: int) -> None:
-        """Put at most so many finished objects into the pool; no thread does, it would hinder.
-
-        Nothing is asked of workers that were ended: half an object may be left in the queue, whose
-        other half would be waited for.
-        """
-        for _ in range(most if self.workers else 0):
+        """Put at most so many finished objects into the pool; no thread does, it would hinder."""
+        for _ in range(most):
             try:
                 slot, table, truth = self.ready.get_nowait()
             except Empty:
@@ -102,10 +96,9 @@ class Makers:
             self.free.put(slot)
 
     def stop(self) -> None:
-        """End the workers."""
+        """End the workers; nothing can be collected any more, it may be half an object."""
         for worker in self.workers:
             worker.kill()
-        self.workers = []
 
 
 def make_into(slots: Any, free: Any, ready: Any, seed: int, number: int, one_piece: bool) -> None:

@@ -47,8 +47,6 @@ FOLLOW = 0.998
 SAID_EVERY_S = 20.0
 #: Finished objects that are taken over between two steps.
 MOST_COLLECTED = 40
-#: Below so many steps a second the makers are in the way, and are stopped.
-SLOW = 1.5
 
 
 def main() -> None:
@@ -161,9 +159,6 @@ def _fitted(
         step += 1
         if now - said > SAID_EVERY_S:
             _say(step, step - said_step, sums, now - said, source.pools[-1].made)
-            if (step - said_step) / (now - said) < SLOW and done > 0.1:
-                for each in makers:
-                    each.stop()
             said = now
             sums = {}
             said_step = step
@@ -228,7 +223,7 @@ def _loss(network: Any, source: Pools, count: int) -> tuple[Any, dict[str, Any]]
     counts = [round(share * count) for share in SHARES]
     counts.append(count - sum(counts))
     drawn = zip(source.pools, counts, strict=True)
-    batch, whole = joined([pool.draw(each, generator) for pool, each in drawn])
+    batch = joined([pool.draw(each, generator) for pool, each in drawn])
     with torch.no_grad():
         shown = show(batch, source.textures, generator)
         targets = targets_of(shown)
@@ -236,8 +231,8 @@ def _loss(network: Any, source: Pools, count: int) -> tuple[Any, dict[str, Any]]
     with torch.autocast(batch.color.device.type, torch.bfloat16, enabled=on_gpu):
         answers = network(shown.cues)
     loss, terms = loss_of(answers, targets)
-    terms["kind"] = 0.3 * functional.cross_entropy(answers.kind.float(), whole[:, 0])
-    opens = whole[:, 1].float()
+    terms["kind"] = 0.3 * functional.cross_entropy(answers.kind.float(), batch.whole[:, 0])
+    opens = batch.whole[:, 1].float()
     terms["opens"] = 0.5 * functional.binary_cross_entropy_with_logits(answers.opens.float(), opens)
     front = functional.cross_entropy(answers.front.float(), shown.front, reduction="none")
     terms["front"] = 0.3 * (front * opens).sum() / opens.sum().clamp(min=1.0)

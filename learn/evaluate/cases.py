@@ -23,8 +23,6 @@ from asset_factory.factory.runtime.store import Store, digest_file
 from .stored import imported
 from .transfer import merged
 
-POSES = ("closed", "open")
-YAWS = ("front", "random")
 FULL_TURN = 2.0 * np.pi
 #: Of skins along their longest side, about as fine as image-to-3D tools give them.
 CELLS = 200
@@ -68,15 +66,7 @@ class Request:
 def in_settings(
     objects: Sequence[Request], poses: Sequence[str], yaws: Sequence[str]
 ) -> tuple[Request, ...]:
-    """Return every object in every pose of ``POSES`` and yaw of ``YAWS`` asked for.
-
-    Raises:
-        ConfigError: no such pose or yaw.
-    """
-    for what, given, known in (("pose", poses, POSES), ("yaw", yaws, YAWS)):
-        wrong = [name for name in given if name not in known]
-        if wrong:
-            raise ConfigError(f"no {what} {wrong[0]!r}; there are {', '.join(known)}")
+    """Return every object in every pose and yaw asked for."""
     return tuple(
         replace(each, pose=pose, yaw=yaw) for each, pose, yaw in product(objects, poses, yaws)
     )
@@ -88,8 +78,10 @@ def procedural_requests(categories: Sequence[str], seeds: Sequence[int]) -> tupl
     return tuple(Request(f"{kind}_{seed}", "procedural", kind, seed=seed) for kind, seed in made)
 
 
-def folder_requests(folder: Path) -> tuple[Request, ...]:
+def folder_requests(folder: Path, *, skins: bool = False) -> tuple[Request, ...]:
     """Return every URDF, MJCF and annotated mesh of a folder; fronts look along -Y.
+
+    Of ``skins``, meshes of one piece, there are only annotated ones.
 
     Raises:
         ConfigError: there is none.
@@ -98,36 +90,22 @@ def folder_requests(folder: Path) -> tuple[Request, ...]:
     found = [
         path
         for path in find_inputs((folder,))
-        if is_description(path)
+        if (not skins and is_description(path))
         or read_sidecar(path, InputFiles(path.parent, config)).annotation is not None
     ]
     if not found:
-        said = "holds no URDF, no MJCF and no mesh with an annotation"
+        described = "" if skins else "no URDF, no MJCF and "
+        said = f"holds {described}no mesh with an annotation"
         raise ConfigError(f"{folder}: {said}; want at least one")
     return tuple(
         Request(
             object=path.relative_to(folder).with_suffix("").as_posix().replace("/", "__"),
-            source=folder.resolve().name,
+            source="skins" if skins else folder.resolve().name,
             category=guess_category(path.stem, path.parent.name) or "unknown",
             file=path,
         )
         for path in found
     )
-
-
-def skin_requests(folder: Path) -> tuple[Request, ...]:
-    """Return every annotated mesh in a folder that is one skin; fronts look along -Y.
-
-    Raises ConfigError as :func:`folder_requests`.
-    """
-    skins = tuple(
-        replace(request, source="skins")
-        for request in folder_requests(folder)
-        if request.file is not None and not is_description(request.file)
-    )
-    if not skins:
-        raise ConfigError(f"{folder}: holds no mesh with an annotation; want at least one")
-    return skins
 
 
 def make_case(request: Request, store: Store | None = None) -> Articulation:

@@ -13,11 +13,10 @@ import numpy as np
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.triangles import face_areas
-from asset_factory.factory.mesh import BoolArray, FloatArray
-from asset_factory.factory.models.particulate.prediction import MotionClass
+from asset_factory.factory.mesh import FloatArray
 
-from ..bodies import Bodies, bodies_of, face_centres
-from .hits import FOUND_IOU, angles, hits, offset
+from ..bodies import bodies_of
+from .joints import FOUND_IOU, joint_figures
 from .pairing import Pairing, paired, shared_areas
 from .score import Score
 
@@ -30,22 +29,17 @@ STRICT_TOLERANCE = 0.02
 TRAVEL_TOLERANCE = 0.5
 #: A joint that turns so far [rad] comes back to where it was.
 WHOLE_TURN = 2.0 * np.pi - 0.01
-#: Share of the range after which the directions of opening are compared.
-FIRST_SHARE = 0.25
 
 
 def physical(true: Articulation, predicted: Articulation) -> Score:
     """Compare two articulations of the same mesh, faces in the same order and the same pose.
 
     Returns:
-        Of the object: ``part_miou`` (mean of both directions, a part without match is 0),
-        ``part_miou_true``, ``part_miou_predicted``; ``articulated_iou`` of moving parts, where only
-        faces that get where they truly get are shared, ``articulated_iou_strict`` with a smaller
-        tolerance, and both over all parts; numbers of parts.
-        Of its parts: ``recall``, ``precision``, ``type_accuracy``, ``axis_angle_deg``,
-        ``axis_offset`` (share of the longest side), ``opens_right_way``, ``range_error_rad``,
-        ``range_error_size`` (share of the longest side), ``left_fixed``, ``still_moved``; and of
-        all true moving parts the scores of their joints, see :func:`.hits.hits`.
+        Of the object: ``part_miou`` (mean of both directions, a part without match is 0), and
+        ``articulated_iou`` of moving parts, where only faces that get where they truly get are
+        shared; ``articulated_iou_strict`` with a smaller tolerance.
+        Of its parts: ``recall``, ``precision``, ``left_fixed``, ``still_moved``, and figures of
+        their joints, see :func:`.joints.joint_figures`.
 
     Raises:
         ValueError: the two are over different meshes.
@@ -58,21 +52,10 @@ def physical(true: Articulation, predicted: Articulation) -> Score:
     real, guess = (bodies_of(_without_needless_ends(each)) for each in (true, predicted))
     pairing = _with_aligned_turns(paired(real, guess, areas))
     of_true, of_predicted = pairing.spread(pairing.iou)
-    values = {
-        "part_miou": (of_true.mean() + of_predicted.mean()) / 2.0,
-        "part_miou_true": of_true.mean(),
-        "part_miou_predicted": of_predicted.mean(),
-        "true_parts": len(real),
-        "predicted_parts": len(guess),
-        "true_moving": real.moving.sum(),
-        "predicted_moving": guess.moving.sum(),
-    }
+    values = {"part_miou": (of_true.mean() + of_predicted.mean()) / 2.0}
     for suffix, tolerance in (("", TOLERANCE), ("_strict", STRICT_TOLERANCE)):
-        moved = _motion_aware(pairing, areas, tolerance)
-        values[f"articulated_iou{suffix}"] = _both_ways(moved, real.moving, guess.moving)
-        everything = np.ones(len(real), bool), np.ones(len(guess), bool)
-        values[f"articulated_iou_all{suffix}"] = _both_ways(moved, *everything)
-    return Score(values, _shares(pairing) | _joint_errors(pairing, areas) | hits(pairing))
+        values[f"articulated_iou{suffix}"] = _motion_aware(pairing, areas, tolerance)
+    return Score(values, _shares(pairing) | joint_figures(pairing))
 
 
 def _without_needless_ends(articulation: Articulation) -> Articulation:
@@ -86,16 +69,8 @@ def _without_needless_ends(articulation: Articulation) -> Articulation:
     return replace(articulation, joints=tuple(endless(joint) for joint in articulation.joints))
 
 
-def _both_ways(of: tuple[FloatArray, FloatArray], true: BoolArray, predicted: BoolArray) -> float:
-    """Return the mean over chosen true and over chosen predicted bodies, averaged; none: 0."""
-    chosen = of[0][true], of[1][predicted]
-    return sum(float(values.mean()) if len(values) else 0.0 for values in chosen) / 2.0
-
-
-def _motion_aware(
-    pairing: Pairing, areas: FloatArray, tolerance: float
-) -> tuple[FloatArray, FloatArray]:
-    """Return the mean over states of each body's intersection over union, true and predicted."""
+def _motion_aware(pairing: Pairing, areas: FloatArray, tolerance: float) -> float:
+    """Return the intersection over union of moving bodies, averaged over states and both ways."""
     true = pairing.true
     predicted = pairing.predicted
     farthest = tolerance * pairing.size
@@ -116,7 +91,9 @@ def _motion_aware(
             if true.moving[real] == predicted.moving[guess]:
                 both = true_area[real] + predicted_area[guess]
                 total[index] += met[real, guess] / (both - met[real, guess])
-    return pairing.spread(total / len(STATES))
+    of_true, of_predicted = pairing.spread(total / len(STATES))
+    chosen = of_true[true.moving], of_predicted[predicted.moving]
+    return sum(float(values.mean()) if len(values) else 0.0 for values in chosen) / 2.0
 
 
 def _shares(pairing: Pairing) -> dict[str, tuple[float, ...]]:
@@ -135,49 +112,6 @@ def _shares(pairing: Pairing) -> dict[str, tuple[float, ...]]:
         "left_fixed": tuple(left[true.moving].astype(float)),
         "still_moved": tuple(still[predicted.moving].astype(float)),
     }
-
-
-def _joint_errors(pairing: Pairing, areas: FloatArray) -> dict[str, tuple[float, ...]]:
-    """Return per matched true moving part if its type is right; errors of axis and range."""
-    names = (
-        "type_accuracy", "axis_angle_deg", "axis_offset", "opens_right_way", "range_error_rad",
-        "range_error_size",
-    )  # fmt: skip
-    errors: dict[str, list[float]] = {name: [] for name in names}
-    true = pairing.true
-    predicted = pairing.predicted
-    centres = face_centres(true.articulation.mesh)
-    for (real, guess), iou in zip(pairing.pairs, pairing.iou, strict=True):
-        if not true.moving[real] or iou <= FOUND_IOU:
-            continue
-        errors["type_accuracy"].append(float(true.kind(real) == predicted.kind(guess)))
-        if not predicted.moving[guess]:
-            continue
-        own = true.labels == real
-        turns = true.turn(real), predicted.turn(guess)
-        slides = true.slide(real), predicted.slide(guess)
-        between = angles(pairing, real, guess)
-        apart = offset(pairing, real, guess)
-        if between:
-            errors["axis_angle_deg"].append(max(between))
-        if turns[0] is not None and turns[1] is not None and apart is not None:
-            errors["axis_offset"].append(apart / pairing.size)
-            if turns[0].kind is not JointKind.CONTINUOUS:
-                errors["range_error_rad"].append(abs(turns[0].range - turns[1].range))
-        if slides[0] is not None and slides[1] is not None:
-            errors["range_error_size"].append(abs(slides[0].range - slides[1].range) / pairing.size)
-        slid = true.kind(real) is not MotionClass.REVOLUTE
-        if slid or turns[0] is None or turns[0].kind is JointKind.REVOLUTE:
-            ways = _opening(true, real, centres[own]), _opening(predicted, guess, centres[own])
-            along = float((areas[own] * np.einsum("ij,ij->i", *ways)).sum())
-            errors["opens_right_way"].append(float(along > 0.0))
-    return {name: tuple(values) for name, values in errors.items()}
-
-
-def _opening(bodies: Bodies, body: int, points: FloatArray) -> FloatArray:
-    """Return how points of a body begin to move by its own joints [m], shape [point_count, 3]."""
-    change = bodies.own_motion(body, FIRST_SHARE) - bodies.own_motion(body, 0.0)
-    return np.asarray(points @ change[:3, :3].T + change[:3, 3])
 
 
 def _with_aligned_turns(pairing: Pairing) -> Pairing:

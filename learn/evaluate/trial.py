@@ -26,7 +26,6 @@ from .published.state import paper
 from .score import Score
 from .transfer import on_mesh
 
-CONVENTIONS = ("physical", "paper", "release")
 #: Imported once per evaluation instead of once per child.
 COMMON_MODULES = ("scipy.optimize", "scipy.spatial", "asset_factory.learn.evaluate.trial")
 #: A child that holds more than this after an answer is replaced [bytes].
@@ -35,7 +34,7 @@ RESIDENT_BYTES = 3 * 1024**3
 
 @dataclass(frozen=True)
 class Trial:
-    """What to do: ``convention`` is of ``CONVENTIONS``, the published ones with so many points.
+    """What to do: ``convention`` is physical, paper or release, the latter two with so many points.
 
     ``kept`` is the folder of objects read before; ``None`` to read them anew.
     """

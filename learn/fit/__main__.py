@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from itertools import chain, islice
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -46,7 +46,7 @@ def _motions(asked: Asked) -> Fit:
 
     seeds = range(asked.seed, asked.seed + asked.seeds)
     objects = chain(generated(seeds), *(described(folder) for folder in asked.data))
-    samples = list(measured(islice(objects, 0, None, asked.every)))
+    samples = list(measured(objects))
     stored = fit_motions(samples, asked.steps)
     what = (
         "Four small networks: which motion of a part the evidence speaks for, where somebody "
@@ -63,16 +63,15 @@ def _trust(asked: Asked) -> Fit:
     from asset_factory.factory.config import AutoConfig, ParticulateConfig
     from asset_factory.factory.models.perceptron import linear
 
-    from .trust import described_turned, fit_trust, procedural, tried
+    from .trust import CHARACTERS, fit_trust, tried, turned_at_random
 
     trusting_none = Trust(linear(np.zeros(len(SIGNS))), 0.5)
     articulator = load_auto(ParticulateConfig(), AutoConfig(), trusting_none)
-    made = procedural(range(asked.seed, asked.seed + asked.seeds))
+    made = generated(range(asked.seed, asked.seed + asked.seeds), characters=CHARACTERS)
     folders = zip(asked.data, asked.split, strict=True)
-    others = (described_turned(folder, read_split(split)) for folder, split in folders)
-    objects = chain(made, *others)
-    trials = list(tried(articulator, objects))
-    stored = fit_trust(articulator, trials, asked.least)
+    others = (described(folder, read_split(split)) for folder, split in folders)
+    trials = list(tried(articulator, turned_at_random(chain(made, *others))))
+    stored = fit_trust(articulator, trials)
     right = np.concatenate([trial.right for trial in trials])
     what = (
         "A logistic model of what speaks for a part that may move, and the probability below "
@@ -126,12 +125,10 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument(
             "--data", type=Path, action="append", default=[], help="folder of objects' folders"
         )
-    motions.add_argument("--every", type=int, default=1, help="learn from every n-th object only")
     motions.add_argument("--steps", type=int, default=250, help="of each optimisation at most")
     trust.add_argument(
         "--split", type=Path, action="append", default=[], help="names in each folder to use"
     )
-    trust.add_argument("--least", type=float, help="probability to ask for; else one is looked for")
     return parser
 
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -19,10 +18,7 @@ from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
 
-from ..datasets.objects import described
 from ..evaluate.physical import physical
-from ..objects.catalog import CATEGORIES, make_object
-from ..objects.mixture import in_character
 from .perceptron import Examples, FitSettings, Weighing, fit_perceptron
 from .writing import networks_stored
 
@@ -36,6 +32,7 @@ STEPS = 1000
 #: Thresholds that score less than the best by no more than this are as good: the highest is taken.
 NEARLY = 0.02
 LEAST = np.round(np.arange(0.1, 0.75, 0.05), 2)
+#: Surfaces of generated objects, each as frequent.
 CHARACTERS = ("artist", "artist", "generated", "plain")
 
 
@@ -48,26 +45,13 @@ class TrustTrial:
     right: FloatArray
 
 
-def procedural(seeds: Iterable[int]) -> Iterator[Articulation]:
-    """Yield objects of every kind and character that training never sees, turned about z."""
-    for seed in seeds:
-        for number, category in enumerate(CATEGORIES):
-            rng = np.random.default_rng((seed, number))
-            character = CHARACTERS[(seed + number) % len(CHARACTERS)]
-            made, _ = in_character(make_object(category, seed), character, seed)
-            yield _turned_at_random(made, rng)
-
-
-def described_turned(folder: Path, names: Collection[str]) -> Iterator[Articulation]:
-    """Yield the named objects of a folder of descriptions, closed and turned about z."""
-    for number, (_, found) in enumerate(described(folder, names)):
-        yield _turned_at_random(closed(found), np.random.default_rng(number))
-
-
-def _turned_at_random(made: Articulation, rng: np.random.Generator) -> Articulation:
-    """Turn an object by quarters half of the time, else by any angle."""
-    quarters = float(rng.integers(4)) * np.pi / 2.0
-    return turned(made, quarters if rng.random() < 0.5 else float(rng.uniform(0.0, 2.0 * np.pi)))
+def turned_at_random(objects: Iterable[tuple[str, Articulation]]) -> Iterator[Articulation]:
+    """Yield objects closed and turned about z: half of them by quarters, others by any angle."""
+    for number, (_, made) in enumerate(objects):
+        rng = np.random.default_rng(number)
+        quarters = float(rng.integers(4)) * np.pi / 2.0
+        anywhere = float(rng.uniform(0.0, 2.0 * np.pi))
+        yield turned(closed(made), quarters if rng.random() < 0.5 else anywhere)
 
 
 def tried(articulator: AutoArticulator, objects: Iterable[Articulation]) -> Iterator[TrustTrial]:
@@ -129,11 +113,8 @@ def best_threshold(
     return float(LEAST[np.flatnonzero(np.array(scores) >= max(scores) - NEARLY)[-1]])
 
 
-def fit_trust(
-    articulator: AutoArticulator, trials: Sequence[TrustTrial], least: float | None
-) -> Arrays:
-    """Fit the trust in every source of proposals; ``least`` is looked for where it is ``None``."""
+def fit_trust(articulator: AutoArticulator, trials: Sequence[TrustTrial]) -> Arrays:
+    """Fit the trust in every source of proposals, and the probability to ask for."""
     network = fit_signs(trials)
-    if least is None:
-        least = best_threshold(articulator, trials, network)
-    return networks_stored({NAME: network}, {NAME: SIGNS}, {"least": np.array([least])})
+    least = np.array([best_threshold(articulator, trials, network)])
+    return networks_stored({NAME: network}, {NAME: SIGNS}, {"least": least})

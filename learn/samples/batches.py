@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from asset_factory.factory.mesh import IntArray
+
 from .sample import Array, Sample
 
 NO_PARENT = -1
@@ -72,8 +74,7 @@ def collate(samples: Sequence[Sample], parts: int) -> Batch:
     return Batch(**found, counts=np.array([len(sample.parents) for sample in samples]))
 
 
-def join(batches: Sequence[Batch], order: Sequence[int]) -> Batch:
+def join(batches: Sequence[Batch], order: IntArray) -> Batch:
     """Return the batches of arrays, one after the other, their rows put in an order."""
-    rows = np.asarray(order, dtype=np.int64)
     columns = ([getattr(batch, each.name) for batch in batches] for each in fields(Batch))
-    return Batch(*(None if each[0] is None else np.concatenate(each)[rows] for each in columns))
+    return Batch(*(None if each[0] is None else np.concatenate(each)[order] for each in columns))

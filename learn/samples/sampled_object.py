@@ -31,7 +31,6 @@ COVERED = 0.25
 MOST_BYTES = 512 * 1024 * 1024
 """Of a sampled object's arrays; a thousandth is usual."""
 _MOST_COMPONENTS = 10_000_000
-_TEXTS = ("name", "category", "source")
 _TYPES: dict[str, Any] = {
     "part_ids": np.int16, "components": np.int32, "sharp": np.bool_, "endless": np.bool_,
     "parents": np.int16, "motion": np.int16,
@@ -45,8 +44,6 @@ class SampledObject:
 
     Attributes:
         name: unique within its source.
-        category: of household object, or empty.
-        source: where it came from.
         points: shape [point_count, 3], float32.
         normals: shape [point_count, 3], float32; the mean of two, shorter than 1, at sharp edges.
         part_ids: part of each point, shape [point_count], int16.
@@ -63,8 +60,6 @@ class SampledObject:
     """
 
     name: str
-    category: str
-    source: str
     points: FloatArray
     normals: FloatArray
     part_ids: IntArray
@@ -81,20 +76,14 @@ class SampledObject:
 
     def __post_init__(self) -> None:
         for each in fields(self):
-            if each.name not in _TEXTS:
+            if each.name != "name":
                 dtype = _TYPES.get(each.name, np.float32)
                 object.__setattr__(self, each.name, read_only(getattr(self, each.name), dtype))
         _check(self)
 
 
 def sampled_from(
-    articulation: Articulation,
-    *,
-    name: str,
-    category: str,
-    source: str,
-    points: int,
-    rng: np.random.Generator,
+    articulation: Articulation, name: str, points: int, rng: np.random.Generator
 ) -> SampledObject:
     """Return the training view of an object; its joint values 0 need not be closed.
 
@@ -105,12 +94,10 @@ def sampled_from(
     """
     surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
     cloud = draw(surface, sharp_edges(surface), points, rng, most_covered=int(COVERED * points))
-    return sampled_at(cloud, articulation, name=name, category=category, source=source)
+    return sampled_at(cloud, articulation, name)
 
 
-def sampled_at(
-    cloud: Cloud, articulation: Articulation, *, name: str, category: str, source: str
-) -> SampledObject:
+def sampled_at(cloud: Cloud, articulation: Articulation, name: str) -> SampledObject:
     """Return the training view of an object at these points of its surface.
 
     A part that does not move is one with its parent: nobody could tell them apart. A part behind a
@@ -125,12 +112,15 @@ def sampled_at(
     for body, parent in enumerate(bodies.parents):
         held = row[parent] if parent >= 0 else 0
         row[body] = 1 + moving.index(body) if body in moving else held
-    require_parts(name, 1 + len(moving))
+    if not moving:
+        message = f"{name}: nothing moves; want a joint to learn from"
+        raise InputRejected("no_movable_joint", message, value=0.0)
+    if len(moving) >= MOST_PARTS:
+        message = f"{name}: has {1 + len(moving)} parts, want at most {MOST_PARTS}"
+        raise InputRejected("too_many_parts", message, value=1 + len(moving), limit=MOST_PARTS)
     parents = [row[bodies.parents[body]] if bodies.parents[body] >= 0 else 0 for body in moving]
     return SampledObject(
         name=name,
-        category=category,
-        source=source,
         points=cloud.points,
         normals=cloud.normals,
         part_ids=row[bodies.labels[cloud.faces]],
@@ -139,20 +129,6 @@ def sampled_at(
         parents=np.array([-1, *parents]),
         **_motions(name, [bodies.joints[body] for body in moving]),
     )
-
-
-def require_parts(name: str, count: int, most: int = MOST_PARTS) -> None:
-    """Refuse an object of too few or too many parts to learn from.
-
-    Raises:
-        InputRejected: ``no_movable_joint``, ``too_many_parts``.
-    """
-    if count < 2:
-        message = f"{name}: nothing moves; want a joint to learn from"
-        raise InputRejected("no_movable_joint", message, value=0.0)
-    if count > most:
-        message = f"{name}: has {count} parts, want at most {most}"
-        raise InputRejected("too_many_parts", message, value=count, limit=most)
 
 
 def _motions(name: str, chains: Sequence[tuple[Joint, ...]]) -> dict[str, Any]:
@@ -223,8 +199,7 @@ def read_sampled(path: Path) -> SampledObject:
             file.seek(0)
             stored = np.load(file, allow_pickle=False)
             found: dict[str, Any] = {each.name: stored[each.name] for each in fields(SampledObject)}
-        found |= {name: str(found[name]) for name in _TEXTS}
-        return SampledObject(**found)
+        return SampledObject(**found | {"name": str(found["name"])})
     except InputRejected:
         raise
     except (OSError, ValueError, KeyError, EOFError, MemoryError, RuntimeError, *_DAMAGED) as error:

@@ -6,8 +6,10 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import lru_cache
-from itertools import count
+from itertools import chain, count
 from multiprocessing.reduction import ForkingPickler
+
+import numpy as np
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.sim_checks.processes.isolation import Limits, WarmChild
@@ -35,13 +37,10 @@ class DataLoader:
         say: Callable[[str], None] = lambda _line: None,
     ) -> None:
         self._numbers = range(rank, config.batch, world)
-        lanes = sorted({number % config.lanes for number in self._numbers})
-        workers = min(config.run.workers, len(lanes))
-        shares: list[list[int]] = [[] for _ in range(workers)]
-        for number in self._numbers if workers else ():
-            shares[lanes.index(number % config.lanes) % workers].append(number)
-        order = [number for share in shares for number in share]
-        self._order = sorted(range(len(order)), key=order.__getitem__)
+        workers = min(config.run.workers, len(self._numbers))
+        # A worker draws the same places of every step: it makes each procedural object once.
+        shares = [self._numbers[first::workers] for first in range(workers)]
+        self._order = np.argsort(list(chain.from_iterable(shares)))
         self._supply = Dataset(config, pools) if not workers else None
         given = bytes(ForkingPickler.dumps((config, pools)))
         ahead = config.run.ahead

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from functools import partial
 from hashlib import sha256
 from pathlib import Path
@@ -19,6 +19,8 @@ import numpy as np
 from asset_factory.factory.errors import AssetFactoryError, ConfigError, InputRejected
 from asset_factory.factory.presets import overlay
 
+from ..datasets import SourceReport, SourceSettings, prepare
+from ..datasets.split import read_split
 from ..objects.mixture import MixtureSettings, sample_object
 from ..samples.batches import Batch, collate
 from ..samples.sample import DrawSettings, Sample, draw
@@ -33,15 +35,12 @@ _TRIES = 20
 class Files:
     """Sampled objects in files, sorted, and how often they are drawn relative to the other pools.
 
-    They were made of a source of a ``kind``, of whose objects so many were ``skipped`` by reason;
-    ``lines`` say so for people.
+    ``report`` says what became of the dataset that they were made of; ``None``: of none.
     """
 
     paths: tuple[Path, ...]
     weight: float
-    kind: str = "sampled"
-    skipped: dict[str, int] = field(default_factory=dict)
-    lines: tuple[str, ...] = ()
+    report: SourceReport | None = None
 
 
 @dataclass(frozen=True)
@@ -74,7 +73,8 @@ def _pool(source: DataSource, cache: Path) -> Pool:
 
 def source_lines(pools: Iterable[Pool]) -> list[str]:
     """Return lines for people: what became of the objects of converted sources."""
-    return [line for pool in pools if isinstance(pool, Files) for line in pool.lines]
+    reports = (pool.report for pool in pools if isinstance(pool, Files))
+    return [line for report in reports if report is not None for line in report.lines()]
 
 
 def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
@@ -82,31 +82,26 @@ def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
     counts: list[dict[str, Any]] = []
     for pool in pools:
         if isinstance(pool, Generator):
-            objects = pool.source.objects or None
-            counts.append({"kind": "procedural", "sampled": objects, "skipped": {}})
-        else:
-            read = len(pool.paths)
-            counts.append({"kind": pool.kind, "sampled": read, "skipped": pool.skipped})
+            counts.append({"kind": "procedural", "sampled": None, "skipped": {}})
+            continue
+        kind, skipped = (
+            ("sampled", {}) if pool.report is None else (pool.report.kind, pool.report.counts)
+        )
+        counts.append({"kind": kind, "sampled": len(pool.paths), "skipped": skipped})
     return counts
 
 
 def _converted(source: DataSource, cache: Path) -> Files:
-    from ..datasets import SourceSettings, prepare
-
     settings = overlay(SourceSettings(), source.options, f"{source.kind}: options")
     split = Path(source.split) if source.split else None
     report = prepare(source.kind, Path(source.path), cache, split=split, settings=settings)
-    lines = tuple(report.lines())
     if not report.read:
-        said = "\n".join(lines)
+        said = "\n".join(report.lines())
         raise ConfigError(f"{source.path}: no object in it can be used; want at least one\n{said}")
-    read = tuple(sorted(report.read.values()))
-    return Files(read, source.weight, source.kind, report.counts, lines)
+    return Files(tuple(sorted(report.read.values())), source.weight, report)
 
 
 def _sampled_files(source: DataSource) -> Files:
-    from ..datasets.split import read_split
-
     folder = Path(source.path)
     if not folder.is_dir():
         raise ConfigError(f"{folder}: no such folder; want one with .npz sampled objects")
@@ -185,26 +180,21 @@ class Dataset:
     ) -> tuple[int, ...]:
         """Return the seed of the procedural object behind a sample, but for the attempt.
 
-        Each lane has its own stream of objects, of which ``reuse`` samples are drawn from each, in
-        an order in which objects of a window of steps are mixed; a whole lane makes each once.
+        Each place of a step has its own stream of objects, of which ``reuse`` samples are drawn
+        from each, in an order in which objects of a window of steps are mixed.
         """
         config = self._config
-        lane = number % config.lanes
-        row = number // config.lanes
-        in_lane = len(range(lane, config.batch, config.lanes))
         share = source.weight / sum(each.weight for each in self._pools)
         reuse = max(1, round(source.reuse / share))
-        block, place = divmod(step * in_lane + row, reuse * _WINDOW)
-        rng = np.random.default_rng([config.seed, _ORDER, which, lane, block])
+        block, place = divmod(step, reuse * _WINDOW)
+        rng = np.random.default_rng([config.seed, _ORDER, which, number, block])
         order = rng.permutation(reuse * _WINDOW)
         thing = block * _WINDOW + int(order[place]) // reuse
-        if source.objects:
-            return (config.seed, _OBJECT, which, (thing * config.lanes + lane) % source.objects)
-        return (config.seed, _OBJECT, which, lane, thing)
+        return (config.seed, _OBJECT, which, number, thing)
 
 
 _WINDOW = 8
-"""Objects of a lane that are drawn from at a time."""
+"""Objects of a place that are drawn from at a time."""
 
 
 def held_out_samples(config: TrainConfig, pools: tuple[Pool, ...]) -> list[Sample]:
@@ -250,28 +240,20 @@ class _Kept:
     def __init__(self, most: int) -> None:
         self._most = most
         self._bytes = 0
-        self._found: OrderedDict[object, SampledObject | AssetFactoryError] = OrderedDict()
+        self._found: OrderedDict[object, SampledObject] = OrderedDict()
 
     def get(self, key: object, make: Callable[[], SampledObject]) -> SampledObject:
         found = self._found.pop(key, None)
         if found is None:
-            try:
-                found = make()
-            except AssetFactoryError as error:
-                # Without the frames it came through, which hold all that they had made.
-                found = error.with_traceback(None)
+            found = make()
             self._bytes += _size(found)
         self._found[key] = found
         while self._bytes > self._most and len(self._found) > 1:
             self._bytes -= _size(self._found.popitem(last=False)[1])
-        if isinstance(found, AssetFactoryError):
-            raise found.with_traceback(None)
         return found
 
 
-def _size(sampled: SampledObject | AssetFactoryError) -> int:
-    if isinstance(sampled, AssetFactoryError):
-        return 1000
+def _size(sampled: SampledObject) -> int:
     return sum(getattr(getattr(sampled, each.name), "nbytes", 100) for each in fields(sampled))
 
 
@@ -279,8 +261,7 @@ def _made(pool: Generator, seed: tuple[int, ...]) -> SampledObject:
     rng = np.random.default_rng(seed)
     try:
         name, articulation = sample_object(rng, pool.style)
-        about = {"name": name, "category": name.partition("-")[0], "source": "procedural"}
-        return sampled_from(articulation, **about, points=pool.source.points, rng=rng)
+        return sampled_from(articulation, name, pool.source.points, rng)
     except AssetFactoryError:
         raise
     except (ValueError, ArithmeticError, LookupError, RuntimeError) as error:

@@ -35,7 +35,6 @@ class DataSource:
             working folder.
         split: file with the names to take, one per line; empty: all of them.
         weight: how often it is drawn from, relative to the other sources.
-        objects: procedural: how many different ones; 0: ever new ones.
         reuse: procedural: examples drawn from each object before a new one is made.
         points: procedural: pooled per object, of which each example takes some.
         style: procedural: what differs from the defaults of ``MixtureSettings``.
@@ -46,7 +45,6 @@ class DataSource:
     path: str = ""
     split: str = ""
     weight: Annotated[float, Meta(ge=1e-9, le=1e9)] = 1.0
-    objects: Whole = 0
     reuse: Count = 8
     points: Count = 8192
     style: dict[str, Any] = field(default_factory=dict)
@@ -248,8 +246,6 @@ class TrainConfig:
         held_out: sources of validation examples; none: no validation.
         seed: of everything; a sample depends on it, the step and its place in the step alone.
         batch: samples per step, over all processes.
-        lanes: streams of procedural objects; a worker takes whole ones, so at least as many as
-            workers.
         half: write the weights as float16.
         recipe: a name for the run.
         terms: under which the weights may be used, with the sources of the data; written into the
@@ -260,7 +256,6 @@ class TrainConfig:
     held_out: tuple[DataSource, ...] = ()
     seed: Whole = 0
     batch: Count = 128
-    lanes: Count = 16
     half: bool = False
     recipe: str = "paper"
     terms: str = ""

@@ -22,8 +22,6 @@ def box_sampled(seed, points=600):
     sliding = ~turning & (np.arange(len(boxes)) > 0)[:, None]
     return SampledObject(
         name=f"box-{seed}",
-        category="box",
-        source="test",
         points=np.concatenate([surface[0] for surface in surfaces]),
         normals=np.concatenate([surface[1] for surface in surfaces]),
         part_ids=ids,

@@ -2,7 +2,6 @@
 
 TEXT = """
 batch = 6
-lanes = 4
 recipe = "tiny"
 terms = "for tests"
 

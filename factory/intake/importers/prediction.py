@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import io
 import zipfile
+from collections.abc import Collection
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,7 @@ from ...errors import InputRejected
 from ...mesh import FloatArray
 from ..annotation import AnnotatedJoint, Annotation
 
+Fields = dict[str, npt.NDArray[np.generic]]
 #: Field name -> number of columns; 0 for a plain list.
 PER_PART = {
     "is_part_revolute": 0,
@@ -50,29 +52,38 @@ def read_prediction(path: Path, face_count: int, data: bytes | None = None) -> A
         InputRejected: ``missing_file``, or ``bad_annotation``: which field, what it is, what it
             should be.
     """
-    fields = _load(path, data)
+    names = ("face_part_ids", "motion_hierarchy", *PER_PART)
+    return annotation_in(load_fields(path, MAX_BYTES, names, data), face_count, path.name)
+
+
+def annotation_in(fields: Fields, face_count: int, file: str) -> Annotation:
+    """Return the annotation that fields hold; arguments and errors as of :func:`read_prediction`.
+
+    ``file`` is what messages call the fields.
+    """
     labels = fields["face_part_ids"]
     if labels.ndim != 1 or labels.dtype.kind not in "iu" or len(labels) < face_count:
         said = f"face_part_ids has shape {list(labels.shape)} of {labels.dtype}"
-        raise _bad(path.name, f"{said}, want one integer for each of the mesh's {face_count} faces")
+        raise _bad(file, f"{said}, want one integer for each of the mesh's {face_count} faces")
     part_count = len(fields["is_part_revolute"]) if fields["is_part_revolute"].ndim else 0
     if not 0 < part_count <= MAX_PARTS:
-        many = f"is_part_revolute speaks of {part_count} parts, want 1 to {MAX_PARTS}"
-        raise _bad(path.name, many)
+        raise _bad(file, f"is_part_revolute speaks of {part_count} parts, want 1 to {MAX_PARTS}")
     for name, columns in PER_PART.items():
         shape = (part_count, columns) if columns else (part_count,)
-        values = _checked(fields, name, shape, path.name)
+        values = fields[name]
+        if values.shape != shape or values.dtype.kind not in "biuf":
+            said = f"{name} has shape {list(values.shape)} of {values.dtype}"
+            raise _bad(file, f"{said}, want numbers of shape {list(shape)}")
         # NaN compares as false.
         if not (np.abs(values.astype(np.float64)) <= MOST).all():
-            raise _bad(path.name, f"{name} holds a number that is not finite, or beyond {MOST:g}")
+            raise _bad(file, f"{name} holds a number that is not finite, or beyond {MOST:g}")
     if len(labels) and not -1 <= labels.min() <= labels.max() < part_count:
         said = f"face_part_ids run from {labels.min()} to {labels.max()}"
-        raise _bad(path.name, f"{said}, want -1 to {part_count - 1}")
-    edges = _edges(fields, part_count, path.name)
+        raise _bad(file, f"{said}, want -1 to {part_count - 1}")
     return Annotation(
         face_part=labels.astype(np.int64),
         part_names=tuple(f"part_{index}" for index in range(part_count)),
-        joints=tuple(_joint(fields, parent, child) for parent, child in edges),
+        joints=tuple(_joint(fields, *edge) for edge in _edges(fields, part_count, file)),
         source="pred.npz",
     )
 
@@ -83,17 +94,24 @@ def point_on_line(direction: FloatArray, moment: FloatArray) -> FloatArray:
     return np.cross(moment, direction) / squared if squared > 0.0 else np.zeros(3)
 
 
-def _load(path: Path, data: bytes | None) -> dict[str, npt.NDArray[np.generic]]:
+def load_fields(
+    path: Path, max_bytes: int, names: Collection[str] = (), data: bytes | None = None
+) -> Fields:
+    """Return the named arrays of an ``.npz``, all of them by default; nothing is unpickled.
+
+    Raises:
+        InputRejected: ``missing_file``, or ``bad_annotation``: what the file is instead.
+    """
     if data is None and not path.is_file():
         raise InputRejected("missing_file", f"{path.name}: is not there")
     try:
         with zipfile.ZipFile(path if data is None else io.BytesIO(data)) as archive:
             unpacked = sum(entry.file_size for entry in archive.infolist())
-        if unpacked > MAX_BYTES:
-            raise _bad(path.name, f"unpacks to {unpacked} bytes, want at most {MAX_BYTES}")
+        if unpacked > max_bytes:
+            raise _bad(path.name, f"unpacks to {unpacked} bytes, want at most {max_bytes}")
         with np.load(path if data is None else io.BytesIO(data), allow_pickle=False) as archive:
-            names = ("face_part_ids", "motion_hierarchy", *PER_PART)
-            found = {name: archive[name] for name in names}
+            # What is no array is handed out as it lies there: an array of bytes is no number.
+            return {name: np.asarray(archive[name]) for name in names or archive.files}
     except InputRejected:
         raise
     except KeyError as error:
@@ -104,30 +122,13 @@ def _load(path: Path, data: bytes | None) -> dict[str, npt.NDArray[np.generic]]:
         # A file from anybody: zip, zlib, tokenizer and array headers all have errors of their own.
         said = " ".join(f"{type(error).__name__}: {error}".split())[:240]
         raise _bad(path.name, f"is no .npz of plain arrays: {said}") from error
-    for name, values in found.items():
-        # What is no array is handed out as it lies there.
-        if not isinstance(values, np.ndarray):
-            raise _bad(path.name, f"{name} is no array")
-    return found
 
 
 def _bad(file: str, what: str) -> InputRejected:
     return InputRejected("bad_annotation", f"{file}: {what}")
 
 
-def _checked(
-    fields: dict[str, npt.NDArray[np.generic]], name: str, shape: tuple[int, ...], file: str
-) -> npt.NDArray[np.generic]:
-    values = fields[name]
-    if values.shape != shape or values.dtype.kind not in "biuf":
-        said = f"{name} has shape {list(values.shape)} of {values.dtype}"
-        raise _bad(file, f"{said}, want numbers of shape {list(shape)}")
-    return values
-
-
-def _edges(
-    fields: dict[str, npt.NDArray[np.generic]], part_count: int, file: str
-) -> list[tuple[int, int]]:
+def _edges(fields: Fields, part_count: int, file: str) -> list[tuple[int, int]]:
     edges = fields["motion_hierarchy"]
     if edges.size == 0:
         return []
@@ -142,7 +143,7 @@ def _edges(
     return [(int(parent), int(child)) for parent, child in edges]
 
 
-def _joint(fields: dict[str, npt.NDArray[np.generic]], parent: int, child: int) -> AnnotatedJoint:
+def _joint(fields: Fields, parent: int, child: int) -> AnnotatedJoint:
     def row(name: str) -> FloatArray:
         return np.asarray(fields[name][child], dtype=np.float64)
 
@@ -150,11 +151,10 @@ def _joint(fields: dict[str, npt.NDArray[np.generic]], parent: int, child: int) 
     slides = bool(fields["is_part_prismatic"][child])
     kind = KINDS[turns + 2 * slides]
     line = row("revolute_plucker")
-    turn = row("revolute_range")
     slide = row("prismatic_range")
     along = row("prismatic_axis")
     sliding = {"slide_axis": along, "slide_lower": slide[0], "slide_upper": slide[1]}
-    lower, upper = (slide if kind == "prismatic" else turn).tolist()
+    lower, upper = (slide if kind == "prismatic" else row("revolute_range")).tolist()
     return AnnotatedJoint(
         name=f"joint_{child}",
         kind=kind,

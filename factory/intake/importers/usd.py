@@ -37,7 +37,8 @@ def import_usd(path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
     ``path`` is the root layer's; everything that it is composed of lies in or below its folder.
 
     Raises:
-        InputRejected: ``unsupported``: the library that reads USD is not installed;
+        InputRejected: ``unsupported``: the library that reads USD is not installed, or value clips
+            and computed references, whose files cannot be known beforehand;
             ``external_reference``, ``missing_file``, ``too_large``, ``unreadable``, ``empty``,
             ``not_a_tree``, ``unsupported_joint``.
         TimeoutError, ChildProcessError: what reads it hung or was killed, which is no verdict.
@@ -48,25 +49,6 @@ def import_usd(path: Path, config: IntakeConfig, log: ReadLog) -> Imported:
         digests = tuple(log.digest(layer) for layer in layers)
         stage = ask_of(child, path.name, _read_leniently, path)
     return replace(_imported(stage, path.name, config.max_faces), digests=digests)
-
-
-def read_annotated(main: Path, folder: Path, max_bytes: int, max_faces: int) -> Imported:
-    """Return what :func:`import_usd` does, of a stage that is read in this process.
-
-    Args:
-        main: the layer to begin with.
-        folder: everything lies in or below it, symbolic links followed.
-        max_bytes: of all layers' files together [bytes].
-        max_faces: of all surfaces together.
-
-    Raises:
-        InputRejected: ``external_reference``, ``missing_file``, ``unreadable``, ``unsupported``
-            (value clips and computed references, whose files cannot be known beforehand),
-            ``too_large``, ``empty``, ``not_a_tree``, ``unsupported_joint``.
-    """
-    with rejecting(main.name, folder):
-        require_inside(main, folder, max_bytes)
-        return _imported(_read_leniently(main), main.name, max_faces)
 
 
 def _read_leniently(path: Path) -> PhysicsStage:

@@ -112,7 +112,7 @@ TABLE = {
     "nightly --input nowhere --output new": "nowhere: does not exist",
     "nightly --input folder --output new --sim no": "no simulator 'no'; there are sapien",
     "nightly --input text.txt --output new --name a/b": "--name: is 'a/b', want letters, digits",
-    "evaluate --output new --set nothing": "--set must be one of real, procedural, folder, skins",
+    "evaluate --output new --set nothing": "invalid choice 'nothing'",
     "train nothing": "no recipe 'nothing'; there are laptop, paper",
     "train nowhere.toml": "recipe 'nowhere.toml': No such file or directory",
 }

@@ -10,12 +10,20 @@ from refusing import refusal
 from usda import CABINET, stage, write
 
 from asset_factory.factory.articulate.annotated import articulator_for
-from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.intake.importers.usd import read_annotated
+from asset_factory.factory.config import BuildConfig, IntakeConfig
+from asset_factory.factory.intake.importers import usd
+from asset_factory.factory.intake.importers.usd import import_usd
 from asset_factory.factory.intake.load import load
+from asset_factory.factory.intake.reads import ReadLog
 
 CONFIG = BuildConfig(articulator="annotated")
-ROOM = 10_000_000
+
+
+@pytest.fixture(autouse=True)
+def read_here(request, monkeypatch):
+    """Spare every read a child process but the first test's."""
+    if request.function is not test_its_parts_joints_and_sidecar_come_with_it_in_metres_and_z_up:
+        monkeypatch.setattr(usd, "ask_of", lambda _child, _name, ask, *given: ask(*given))
 
 
 def test_its_parts_joints_and_sidecar_come_with_it_in_metres_and_z_up(tmp_path):
@@ -68,8 +76,8 @@ REFUSED = {
 }
 
 
-def refused(main):
-    return refusal(read_annotated, main, main.parent, ROOM, ROOM).code
+def refused(main, **limits):
+    return refusal(import_usd, main, IntakeConfig(**limits), ReadLog())
 
 
 @pytest.mark.parametrize("what", REFUSED)
@@ -80,7 +88,7 @@ def test_a_layer_that_leads_out_or_nowhere_is_refused(tmp_path, what):
     folder = tmp_path / "thing"
     write(folder / "parts", prim("references = @../../outside.usda@"), "inner.usda")
     (folder / "link.usda").symlink_to(outside)
-    assert refused(write(folder, text.replace("ABSOLUTE", str(outside)))) == code
+    assert refused(write(folder, text.replace("ABSOLUTE", str(outside)))).code == code
 
 
 def test_a_package_that_leads_out_is_refused(tmp_path):
@@ -89,12 +97,12 @@ def test_a_package_that_leads_out_is_refused(tmp_path):
     package.parent.mkdir()
     with zipfile.ZipFile(package, "w", zipfile.ZIP_STORED) as archive:
         archive.writestr("inner.usda", prim(f"references = @{outside}@"))
-    assert refused(package) == "external_reference"
+    assert refused(package).code == "external_reference"
 
 
 def test_own_layers_and_looks_elsewhere_are_fine_up_to_a_limit(tmp_path):
     write(tmp_path / "parts", stage(CABINET), "inner.usda")
     looks = "asset map = @../../outside.png@\n"
     main = write(tmp_path, prim("references = @parts/inner.usda@</obj>", looks))
-    read_annotated(main, tmp_path, ROOM, ROOM)
-    assert "limit" in refusal(read_annotated, main, tmp_path, 1000, ROOM).message
+    import_usd(main, IntakeConfig(), ReadLog())
+    assert "limit" in refused(main, max_bytes=1000).message

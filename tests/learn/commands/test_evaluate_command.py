@@ -120,7 +120,6 @@ def test_the_published_conventions_and_procedural_objects(tmp_path):
             ("--method", "particulate", "--checkpoint", "nowhere.safetensors"),
             "nowhere.safetensors: no such file",
         ),
-        (("--pose", "ajar"), "no pose 'ajar'; there are closed, open"),
         (("--category", "spaceship"), "none of these objects is a 'spaceship'"),
         (("--timeout", "0"), "--timeout must be"),
         (("--repeats", "0"), "--repeats must be at least 1, not 0"),

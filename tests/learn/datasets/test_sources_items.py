@@ -1,7 +1,5 @@
 """What counts as an object of a dataset, what it is called, and what it consists of."""
 
-import json
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -11,8 +9,7 @@ from plain_solids import parted
 from asset_factory.factory.articulation import Joint
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import Material, Mesh
-from asset_factory.learn.datasets.categories import categories_of, prefix_of
-from asset_factory.learn.datasets.description import find_descriptions, find_partnet, words
+from asset_factory.learn.datasets.description import find_descriptions, find_partnet
 from asset_factory.learn.datasets.predictions import find_predictions, read_prediction_item
 from asset_factory.learn.datasets.settings import SourceSettings
 from asset_factory.learn.datasets.split import is_held_out
@@ -36,7 +33,6 @@ def test_folder_with_a_description_is_one_object(tmp_path):
     items = find_descriptions(tmp_path)
     names = [(item.name, item.main.name) for item in items]
     assert names == [("kitchen/fridge_1", "fridge_1.urdf"), ("lamp-2", "lamp.xml")]
-    assert [item.category for item in items] == ["fridge", "lamp"]
     assert {path.name for path in items[0].files} == {"a.urdf", "fridge_1.urdf", "door.urdf"}
 
 
@@ -67,25 +63,10 @@ def test_digest_is_of_contents_and_not_of_looks(tmp_path):
     assert find_descriptions(tmp_path / "data")[0].digest() != before
 
 
-def test_category_from_inventory_prefix_or_metadata(tmp_path):
-    inventory = "path,category\ndata/a_1,Refrigerator\nb_2,lamp\n,\n"
-    touch(tmp_path / "data" / "INVENTORY.csv", inventory)
-    category = categories_of(tmp_path / "data")
-    wanted = ["fridge", "lamp", "wall_cabinet", ""]
-    assert [category(name) for name in ("a_1", "b_2", "wall_cabinet_07", "123")] == wanted
-    touch(tmp_path / "data" / "INVENTORY.csv", "\0nonsense")
-    assert categories_of(tmp_path / "data")("b_2") == "b"
-    assert prefix_of("TrashCan_3") == "trashcan"
-    touch(tmp_path / "partnet" / "123" / "mobility.urdf")
-    touch(tmp_path / "partnet" / "123" / "meta.json", json.dumps({"model_cat": "StorageFurniture"}))
-    touch(tmp_path / "partnet" / "124" / "mobility.urdf")
-    touch(tmp_path / "partnet" / "124" / "meta.json", "{")
-    touch(tmp_path / "partnet" / "125" / "other.urdf")
-    items = find_partnet(tmp_path / "partnet")
-    named = [(item.name, item.category != "") for item in items]
-    assert named == [("123", True), ("124", False)]
-    wanted = ["Storage Furniture", "USB", "Box"]
-    assert [words(name) for name in ("StorageFurniture", "USB", "Box")] == wanted
+def test_partnet_objects_are_called_by_their_numbers(tmp_path):
+    for folder, file in (("123", "mobility.urdf"), ("124", "mobility.urdf"), ("125", "other.urdf")):
+        touch(tmp_path / folder / file)
+    assert [item.name for item in find_partnet(tmp_path)] == ["123", "124"]
 
 
 def chest():
@@ -109,7 +90,7 @@ def test_labels_beside_a_mesh(tmp_path, named):
     if named == "sidecar":
         write_sidecar(folder / "chest.toml", {"scale": 1.0, "annotation": labels})
     (item,) = find_predictions(tmp_path)
-    assert (item.name, item.category) == ("chest_1", "chest")
+    assert item.name == "chest_1"
     read = read_prediction_item(item, SourceSettings())
     assert [len(part.faces) for part in read.parts] == [12, 12]
     np.testing.assert_allclose(np.abs(read.joints[0].axis), [1, 0, 0], atol=1e-9)

@@ -5,7 +5,7 @@ import pytest
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.posing import closed
-from asset_factory.learn.datasets.description import find_descriptions, read_description
+from asset_factory.learn.datasets.description import find_descriptions, find_usd, read_description
 from asset_factory.learn.datasets.item import SourceItem
 from asset_factory.learn.datasets.making import sampled_item
 from asset_factory.learn.datasets.published import find_published, read_published
@@ -20,9 +20,7 @@ def original(fixtures, name):
     folder = fixtures / "data_formats" / name / "in"
     if name in STAGES:
         pytest.importorskip("pxr")
-        from asset_factory.learn.datasets.usd import find_usd, read_usd
-
-        return read_usd(find_usd(folder)[0], SETTINGS)
+        return read_description(find_usd(folder)[0], SETTINGS)
     return read_description(find_descriptions(folder)[0], SETTINGS)
 
 
@@ -91,7 +89,7 @@ def test_parts_axes_and_ranges_agree(fixtures, name):
 @pytest.mark.parametrize("name", [*DESCRIPTIONS, *STAGES])
 def test_point_cache_is_sampled_from_the_same_tree(fixtures, name):
     file = fixtures / "data_formats" / name / "train_cache.npz"
-    cached = sampled_item("particulate", SourceItem(name, "", file, (file,)), SETTINGS, seed=0)
+    cached = sampled_item("particulate", SourceItem(name, file, (file,)), SETTINGS, seed=0)
     folder = find_published(fixtures / "data_formats" / name / "out")[0]
     drawn = sampled_item("particulate", folder, SETTINGS, seed=0)
     assert sorted(cached.motion.tolist()) == sorted(drawn.motion.tolist())

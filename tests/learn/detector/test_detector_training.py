@@ -20,7 +20,7 @@ from asset_factory.factory.views.raster import Side  # noqa: E402
 from asset_factory.learn.detector.evaluate import compared  # noqa: E402
 from asset_factory.learn.detector.looks import show  # noqa: E402
 from asset_factory.learn.detector.pack import read_pack, read_textures, write_pack  # noqa: E402
-from asset_factory.learn.detector.stream import Makers, Pool  # noqa: E402
+from asset_factory.learn.detector.stream import Pool  # noqa: E402
 from asset_factory.learn.detector.targets import loss_of, targets_of  # noqa: E402
 
 FRONT, TOP = 0, SIDES.index("top")
@@ -66,7 +66,7 @@ def shown_as(kind, objects, seed):
     truth = WholeTruth(kind_number(kind), True, FRONT, False)
     for sides in objects:
         pool.add(sides, truth)
-    batch, _ = pool.take(torch.arange(len(objects)))
+    batch = pool.take(torch.arange(len(objects)))
     textures = torch.full((2, 3, 8, 8), 128, dtype=torch.uint8)
     return show(batch, textures, torch.Generator().manual_seed(seed))
 
@@ -167,16 +167,6 @@ def test_a_pack_keeps_objects_and_labels(tmp_path, monkeypatch):
     assert row[2] == pytest.approx(CANVAS / 2, abs=2.0)
     assert (packed.sides.depth[FRONT] >= 0).any()
     assert read_textures(tmp_path / "pack.zip").shape == (1, 3, 128, 128)
-
-
-def test_nothing_is_asked_of_makers_that_were_stopped(monkeypatch):
-    monkeypatch.setattr("asset_factory.learn.detector.stream.SLOTS", 1)
-    makers = Makers(Pool(1, torch.device("cpu")), 0, 0)
-    makers.stop()
-    monkeypatch.setattr(
-        makers.ready, "get_nowait", lambda: pytest.fail("half of it was waited for")
-    )
-    makers.collect(1)
 
 
 def test_drawn_objects_are_of_every_sort():

@@ -18,7 +18,6 @@ from asset_factory.learn.evaluate.cases import (
     in_settings,
     make_case,
     procedural_requests,
-    skin_requests,
 )
 from asset_factory.learn.evaluate.listing import (
     COLUMNS,
@@ -177,11 +176,11 @@ def test_a_folder_of_objects_with_joints(tmp_path):
 def test_skins_are_the_annotated_meshes_of_a_folder(tmp_path, fused):
     write_cabinets(tmp_path / "described")
     with pytest.raises(ConfigError, match="holds no mesh with an annotation"):
-        skin_requests(tmp_path)
+        folder_requests(tmp_path, skins=True)
     write_sample(fused[1], tmp_path / "fridge_3")
     # What lies with a description belongs to it.
     (tmp_path / "fridge_3" / "object.urdf").unlink()
-    (request,) = skin_requests(tmp_path)
+    (request,) = folder_requests(tmp_path, skins=True)
     assert (request.source, request.category) == ("skins", "fridge")
     assert len(make_case(request).movable_joints) == len(fused[1].movable_joints)
 

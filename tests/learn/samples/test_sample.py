@@ -27,10 +27,7 @@ BUSY = DrawSettings(points=400, **SHARES, stretch=0.6, components=True)
 
 
 def sampled(category="cabinet", seed=0, points=3000):
-    return sampled_from(
-        make_object(category, seed), name="one", category=category, source="test", points=points,
-        rng=np.random.default_rng(0),
-    )  # fmt: skip
+    return sampled_from(make_object(category, seed), "one", points, np.random.default_rng(0))
 
 
 CABINET = sampled()
@@ -52,8 +49,7 @@ def lid_on_a_post():
 
 
 def test_a_part_behind_a_carrier_turns_and_slides_and_what_is_fixed_is_one_with_its_parent():
-    named = {"name": "lid", "category": "", "source": ""}
-    found = sampled_from(lid_on_a_post(), **named, points=500, rng=np.random.default_rng(0))
+    found = sampled_from(lid_on_a_post(), "lid", 500, np.random.default_rng(0))
     assert found.motion.tolist() == [MotionClass.FIXED, MotionClass.BOTH]
     assert found.parents.tolist() == [-1, 0]
     assert found.endless.tolist() == [False, True]
@@ -179,6 +175,5 @@ def test_a_sampled_survives_its_file(tmp_path):
 def test_what_cannot_be_learnt_from_says_so():
     fridge = make_object("fridge", 0)
     rigid = replace(fridge, joints=(), parts=(Part("all", np.arange(len(fridge.mesh.faces))),))
-    known = {"name": "rock", "category": "", "source": ""}
-    refused = refusal(sampled_from, rigid, **known, points=100, rng=np.random.default_rng(0))
+    refused = refusal(sampled_from, rigid, "rock", 100, np.random.default_rng(0))
     assert refused.code == "no_movable_joint"

@@ -66,7 +66,7 @@ def test_components_bring_their_channels():
         (f"[optimiser]\nema = 1.5\n{DATA}", "optimiser.ema must be float <= 1.0"),
         (f"[schedule]\nrate = nan\n{DATA}", "schedule.rate must be"),
         (f"{DATA}weight = inf\n", "data\\[0\\].weight must be"),
-        (f"{DATA}objects = -3\n", "data\\[0\\].objects must be int >= 0, not -3"),
+        (f"{DATA}reuse = -3\n", "data\\[0\\].reuse must be int >= 1, not -3"),
         (f'{DATA}style = "plain"\n', "data 1: style must be dict"),
     ],
 )
