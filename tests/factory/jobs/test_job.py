@@ -32,9 +32,8 @@ from asset_factory.sim_checks.report import KILLED, OUT_OF_TIME, Status
 
 
 @pytest.fixture(autouse=True)
-def _pretending(monkeypatch):
-    monkeypatch.setattr(job_module, "build_here", pretend)
-    monkeypatch.setattr(job_module, "modules_for", lambda config: ())
+def _pretending(monkeypatch, builds_are):
+    builds_are(pretend)
     monkeypatch.setattr(job_module, "POLL_S", 0.01)
 
 
