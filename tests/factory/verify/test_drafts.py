@@ -4,12 +4,11 @@ What only simulators refuse is repaired too: the guess that is worth least is gi
 """
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
-import trimesh
 from export_samples import cabinet
-from modelled_furniture import METAL, PAINT, board
 
 from asset_factory.factory.articulate import standing
 from asset_factory.factory.articulate.proposal import Hypothesis
@@ -17,7 +16,6 @@ from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig, ReadingsConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.manufacture.plan import Plan
-from asset_factory.factory.mesh import concatenate
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import read_report
 from asset_factory.factory.verify import rounds
@@ -65,28 +63,16 @@ def test_one_that_passes_without_a_joint_is_better_than_none_and_worse_than_whol
     assert best_of(iter([first, draft(DEEP)]))[0] is first
 
 
+FRIDGE = Path(__file__).resolve().parents[3] / "examples" / "meshes" / "fridge.obj"
 CONFIG = BuildConfig(articulator="geometric", simulators=())
 
 
-@pytest.fixture(scope="module")
-def two_doors(tmp_path_factory):
-    """A block with two doors, one above the other, and their bars, which rules of shape find."""
-    solids = [board((0.0, 0.0, 0.0), (0.6, 0.6, 1.0))]
-    for low in (0.02, 0.51):
-        solids.append(board((0.0, -0.06, low), (0.6, -0.001, low + 0.47), PAINT))
-        solids.append(board((0.05, -0.1, low + 0.1), (0.08, -0.06, low + 0.35), METAL))
-    mesh = concatenate(solids)
-    file = tmp_path_factory.mktemp("two_doors") / "cupboard.obj"
-    trimesh.Trimesh(mesh.vertices, mesh.faces, process=False).export(file)
-    return file
-
-
 @pytest.fixture
-def built(two_doors, output):
-    """Builds it: the entry, and its report with the repairs."""
+def built(output):
+    """Builds a fridge of two doors: the entry, and its report with the repairs."""
 
     def build(config=CONFIG):
-        entry = build_asset(two_doors, output, config).entry
+        entry = build_asset(FRIDGE, output, config).entry
         return entry, read_report(Registry(output).folder(entry)).told
 
     return build
