@@ -1,6 +1,7 @@
 """One command turns meshes into registered assets; failures have a reason and cost no other."""
 
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 from command_line import COMMAND
+from fault_corpus.things import Body, Move, Thing, at, box, write_urdf
 
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.cli.build import build_config
@@ -25,26 +27,35 @@ def build(output, *arguments):
     return done, json.loads((output / "summary.json").read_text())
 
 
-def test_an_example_passes_in_all_three_simulators(tmp_path):
+def test_an_example_and_a_generated_skin_pass_in_all_three_simulators(tmp_path):
     output = tmp_path / "out"
-    engines = "sapien,mujoco,pybullet"
-    done, summary = build(output, "--input", EXAMPLES / "fridge.obj", "--sim", engines)
+    inputs = (EXAMPLES / "fridge.obj", GENERATED)
+    done, summary = build(output, "--input", *inputs, "--sim", "sapien,mujoco,pybullet")
     assert done.returncode == 0, done.stderr
-    assert (summary["inputs"], summary["passed"], summary["rejected"]) == (1, 1, 0), summary
-    (row,) = summary["assets"]
-    assert {"id", "input", "status", "reason", "joints", "hulls", "seconds"} <= set(row)
-    assert row["joints"] == 2
-    folder = output / "assets" / row["id"]
+    assert (summary["inputs"], summary["passed"], summary["rejected"]) == (2, 2, 0), summary
     files = {"asset.urdf", "asset.xml", "asset.json", "view.glb", "report.json", "meshes"}
-    assert {path.name for path in folder.iterdir()} == files
-    report = json.loads((folder / "report.json").read_text())
-    assert report["passed"] is True
-    assert report["simulators"] == ["sapien", "mujoco", "pybullet"]
+    manifests = {}
+    for row in summary["assets"]:
+        assert {"id", "input", "status", "reason", "joints", "hulls", "seconds"} <= set(row)
+        assert (row["status"], row["joints"]) == ("passed", 2)
+        folder = output / "assets" / row["id"]
+        assert {path.name for path in folder.iterdir()} == files
+        report = json.loads((folder / "report.json").read_text())
+        assert report["passed"] is True
+        assert report["simulators"] == ["sapien", "mujoco", "pybullet"]
+        # Lines are plain where there is no terminal.
+        assert re.search(rf"^\[[12]/2\] passed: {row['id']}", done.stderr, re.MULTILINE)
+        manifests[Path(row["input"]).name] = json.loads((folder / "asset.json").read_text())
+    assert "2 inputs: 2 passed, 0 rejected, 0 could not be validated." in done.stdout
     assert list((output / ".staging").iterdir()) == []
     assert (output / "report" / "index.html").is_file()
-    # Lines are plain where there is no terminal.
-    assert f"[1/1] passed: {row['id']}" in done.stderr
-    assert "1 inputs: 1 passed, 0 rejected, 0 could not be validated." in done.stdout
+
+    generated = manifests["fridge.glb"]
+    assert [joint["kind"] for joint in generated["joints"]] == ["revolute", "revolute"]
+    surface = {"part", "kind", "rule", "thickness_m", "depth_m"}
+    assert all(set(each) == surface for each in generated["invented"])
+    invented = {(each["part"], each["kind"]) for each in generated["invented"]}
+    assert {("base", "hollow"), ("door_0", "slab back"), ("door_1", "slab back")} <= invented
 
 
 def bad_inputs(folder):
@@ -93,25 +104,15 @@ def test_what_is_left_is_said(tmp_path, capsys):
 
 def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
     # Two drawers of one chest, modelled with 8 mm of overlap: no repair may hide that.
-    parts = {
-        "base": ("1 0.02 1", "0 0.265 0.5"),
-        "one": ("0.5 0.5 0.4", "-0.246 0 0.5"),
-        "two": ("0.5 0.5 0.4", "0.246 0 0.5"),
-    }
-    urdf = ['<robot name="chest">']
-    for name, (size, center) in parts.items():
-        urdf.append(
-            f'<link name="{name}"><visual><origin xyz="{center}"/><geometry><box size="{size}"/>'
-            "</geometry></visual></link>"
-        )
-        if name != "base":
-            urdf.append(
-                f'<joint name="slide_{name}" type="prismatic"><parent link="base"/>'
-                f'<child link="{name}"/>'
-                '<axis xyz="0 -1 0"/><limit lower="0" upper="0.3" effort="1" velocity="1"/></joint>'
-            )
-    (tmp_path / "chest.urdf").write_text("".join([*urdf, "</robot>"]))
-    result = build_asset(tmp_path / "chest.urdf", tmp_path / "out", BuildConfig(simulators=()))
+    bodies = [Body("base", (box((0.0, 0.265, 0.5), (1.0, 0.02, 1.0)),), at(0.0, 0.0, 0.0), 1.0)]
+    moves = []
+    for name, x in (("one", -0.246), ("two", 0.246)):
+        front = box((x, 0.0, 0.5), (0.5, 0.5, 0.4))
+        bodies.append(Body(name, (front,), at(0.0, 0.0, 0.0), 1.0))
+        out = (0.0, -1.0, 0.0)
+        moves.append(Move(f"slide_{name}", "prismatic", "base", name, out, 0.0, 0.3))
+    file = write_urdf(Thing("chest", tuple(bodies), tuple(moves)), tmp_path)
+    result = build_asset(file, tmp_path / "out", BuildConfig(simulators=()))
     assert (result.entry.status, result.entry.reason) == ("rejected", "rest_penetration")
     folder = tmp_path / "out" / "rejected" / result.entry.id
     report = json.loads((folder / "report.json").read_text())
@@ -120,20 +121,6 @@ def test_overlapping_neighbours_are_rejected_with_the_millimetres(tmp_path):
     assert set(finding["parts"]) == {"one", "two"}
     assert finding["unit"] == "mm"
     assert np.isclose(finding["limit"], 2.0)
-
-
-def test_a_generated_skin_opens_in_all_three_simulators(tmp_path):
-    output = tmp_path / "out"
-    asked = ("--input", GENERATED, "--sim", "sapien,mujoco,pybullet", "--no-report")
-    _, summary = build(output, *asked)
-    (row,) = summary["assets"]
-    assert (row["status"], row["joints"]) == ("passed", 2), row
-    manifest = json.loads((output / "assets" / row["id"] / "asset.json").read_text())
-    assert [joint["kind"] for joint in manifest["joints"]] == ["revolute", "revolute"]
-    surface = {"part", "kind", "rule", "thickness_m", "depth_m"}
-    assert all(set(each) == surface for each in manifest["invented"])
-    invented = {(each["part"], each["kind"]) for each in manifest["invented"]}
-    assert {("base", "hollow"), ("door_0", "slab back"), ("door_1", "slab back")} <= invented
 
 
 @pytest.mark.parametrize(("flags", "interior"), [((), True), (("--no-interior",), False)])

@@ -1,6 +1,8 @@
 """Every code that somebody says, or asks for, is declared with its meaning, and none else is."""
 
 import ast
+from functools import cache
+from itertools import chain
 from pathlib import Path
 
 from asset_factory.factory import reasons
@@ -12,10 +14,15 @@ ROOT = Path(__file__).parents[2]
 SAYING = {"Finding", "InputRejected", "DescriptionError", "found", "_finding"}
 
 
+@cache
+def parsed(folder):
+    """Files and what Python's parser makes of them."""
+    paths = sorted((ROOT / folder).rglob("*.py"))
+    return [(path, ast.parse(path.read_text(encoding="utf-8"))) for path in paths]
+
+
 def sources(*folders):
-    for folder in folders:
-        for path in sorted((ROOT / folder).rglob("*.py")):
-            yield path, ast.parse(path.read_text(encoding="utf-8"))
+    return chain.from_iterable(parsed(folder) for folder in folders)
 
 
 def said(tree):

@@ -10,6 +10,7 @@ import trimesh
 from asset_factory.factory.articulation import Articulation, Joint, Part
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.mesh import Material, Mesh, concatenate
+from asset_factory.factory.models.particulate.surface import Surface
 from asset_factory.learn.objects.kit import shapes
 
 Span = tuple[float, float]
@@ -51,6 +52,12 @@ def signed_volume(mesh: Any) -> float:
     """The volume of vertices and faces [m3]: positive where the faces look outwards."""
     a, b, c = (mesh.vertices[mesh.faces[:, corner]] for corner in range(3))
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
+
+
+def surface_of(*meshes: trimesh.Trimesh) -> Surface:
+    """Some meshes as one surface, of which a network is shown points."""
+    mesh = trimesh.util.concatenate(meshes)
+    return Surface.of(np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64))
 
 
 def carcass(width: float, depth: float, height: float) -> list[Mesh]:

@@ -11,6 +11,7 @@ from asset_factory.factory.manufacture.repair import Repair, RepairKind
 from asset_factory.factory.part import PartKind, PartSource, Proposer
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import BuildReport
+from asset_factory.factory.report.site.site import stale, write_asset, write_index
 from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.measurements import MeasuredJoint, MeasuredPair, MeasuredPenetration
 
@@ -70,6 +71,13 @@ def make_registry(root):
     none = Finding("no_movable_joint", Severity.ERROR, HOSTILE)
     registry.add(_rejected("still-3", none), BuildReport(Report("a.glb", findings=(none,))))
     return registry
+
+
+def draw(registry):
+    """Draw every page that is not up to date; returns the first one."""
+    for entry in stale(registry):
+        write_asset(registry.root, entry)
+    return write_index(registry)
 
 
 def _rejected(asset_id, finding):

@@ -8,7 +8,6 @@ import pytest
 from job_samples import PLAIN, job, made, note
 
 from asset_factory.factory.jobs import Budget, LocalExecutor
-from asset_factory.factory.jobs import job as job_module
 from asset_factory.factory.registry import Registry, keys
 from asset_factory.factory.runtime.clock import Stopwatch
 
@@ -32,9 +31,8 @@ def dying(source, **rest):
 
 
 @pytest.fixture(autouse=True)
-def _dying(monkeypatch):
-    monkeypatch.setattr(job_module, "build_here", dying)
-    monkeypatch.setattr(job_module, "modules_for", lambda config: ())
+def _dying(builds_are):
+    builds_are(dying)
 
 
 def built(tmp_path, name, retries=1, **more):

@@ -11,7 +11,6 @@ import pytest
 from job_samples import MADE, job, made, pretend, write_inputs
 from waiting import alive, until
 
-from asset_factory.factory.jobs import job as job_module
 from asset_factory.factory.jobs.signals import Terminated, interruptible, undisturbed
 from asset_factory.factory.registry import Registry
 
@@ -19,12 +18,17 @@ SCRIPT = Path(__file__).parents[2] / "samples" / "slow_job.py"
 PATIENCE_S = 60.0
 
 
+def started(folder, output, *flags):
+    """A job on a folder of inputs, in a process of its own."""
+    command = [sys.executable, str(SCRIPT), str(folder), str(output), *flags]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+
+
 def begun(folder, output, *flags):
-    """A job that has finished three inputs and hangs in the fourth."""
+    """One that has finished three inputs and hangs in the fourth."""
     write_inputs(folder, 3)
     (folder / "zz_slow.stl").write_text("solid slow")
-    command = [sys.executable, str(SCRIPT), str(folder), str(output), *flags]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    process = started(folder, output, *flags)
     assert process.stdout is not None
     for _ in range(3):
         assert process.stdout.readline() == "passed\n"
@@ -63,9 +67,8 @@ def test_the_first_ctrl_c_finishes_what_is_begun_and_the_second_stops(tmp_path):
     assert len(Registry(tmp_path / "out").entries()) == 3
 
 
-def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch):
-    monkeypatch.setattr(job_module, "build_here", pretend)
-    monkeypatch.setattr(job_module, "modules_for", lambda config: ())
+def test_a_job_that_winds_up_begins_nothing_more(tmp_path, builds_are):
+    builds_are(pretend)
     inputs = write_inputs(tmp_path / "in", 8)
     winding = job(inputs, tmp_path / "out")
     finished = []
@@ -81,11 +84,9 @@ def test_a_job_that_winds_up_begins_nothing_more(tmp_path, monkeypatch):
 def test_a_job_out_of_time_stops_what_runs_and_registers_nothing_of_it(tmp_path):
     (tmp_path / "in").mkdir()
     (tmp_path / "in" / "slow.stl").write_text("solid slow")
-    command = [sys.executable, str(SCRIPT), str(tmp_path / "in"), str(tmp_path / "out")]
-    started = time.monotonic()
-    told = subprocess.run([*command, "--max-s", "8"], capture_output=True, text=True, check=True)
-    assert time.monotonic() - started < PATIENCE_S
-    assert told.stdout == "out_of_time 1\n"
+    with started(tmp_path / "in", tmp_path / "out", "--max-s", "8") as process:
+        assert process.wait(PATIENCE_S) == 0
+        assert process.stdout.read() == "out_of_time 1\n"
     assert Registry(tmp_path / "out").entries() == ()
 
 
@@ -93,23 +94,21 @@ def test_with_one_worker_ctrl_c_builds_what_is_begun_and_no_more(tmp_path):
     (tmp_path / "in").mkdir()
     for number in range(3):
         (tmp_path / "in" / f"nap_{number}.stl").write_text("solid nap")
-    command = [sys.executable, str(SCRIPT), str(tmp_path / "in"), str(tmp_path / "out")]
-    command = [*command, "--wind-up", "--one"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    with started(tmp_path / "in", tmp_path / "out", "--wind-up", "--one") as process:
         until(lambda: (tmp_path / "in" / MADE).exists() and made(tmp_path / "in"))
         process.send_signal(signal.SIGINT)
         assert process.stdout.read() == "passed\ninterrupted 2\n"
     assert made(tmp_path / "in") == ["nap_0.stl"]
 
 
-def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(tmp_path, monkeypatch):
+def test_a_killed_job_leaves_no_orphans_and_the_next_one_does_the_rest(tmp_path, builds_are):
     with begun(tmp_path / "in", tmp_path / "out") as process:
         process.kill()
         assert process.wait(PATIENCE_S) == -signal.SIGKILL
     until(lambda: not any(alive(worker) for worker in workers(tmp_path / "in")))
     # What it had claimed is free again.
     (tmp_path / "in" / "zz_slow.stl").rename(tmp_path / "in" / "zz.stl")
-    monkeypatch.setattr(job_module, "build_here", pretend)
+    builds_are(pretend)
     inputs = tuple(sorted((tmp_path / "in").glob("*.stl")))
     assert [result.attempts for result in job(inputs, tmp_path / "out").run()] == [0, 0, 0, 1]
 

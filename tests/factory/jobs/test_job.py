@@ -13,11 +13,12 @@ import numpy as np
 import pytest
 from job_samples import PLAIN, job, made, pretend, write_inputs
 
-from asset_factory.factory.errors import InputRejected, RegistryError
+from asset_factory.factory.errors import ConfigError, InputRejected, RegistryError
 from asset_factory.factory.intake import source as source_module
 from asset_factory.factory.intake.source import Source
 from asset_factory.factory.jobs import Budget, LocalExecutor, run_builds
 from asset_factory.factory.jobs import job as job_module
+from asset_factory.factory.jobs.budget import modified_since, parse_since
 from asset_factory.factory.jobs.probe import KnownReads
 from asset_factory.factory.registry import Registry, claims
 from asset_factory.factory.registry.logged import LOG_NAME
@@ -32,9 +33,8 @@ from asset_factory.sim_checks.report import KILLED, OUT_OF_TIME, Status
 
 
 @pytest.fixture(autouse=True)
-def _pretending(monkeypatch):
-    monkeypatch.setattr(job_module, "build_here", pretend)
-    monkeypatch.setattr(job_module, "modules_for", lambda config: ())
+def _pretending(monkeypatch, builds_are):
+    builds_are(pretend)
     monkeypatch.setattr(job_module, "POLL_S", 0.01)
 
 
@@ -258,3 +258,24 @@ def test_that_something_was_stopped_is_not_remembered_as_an_answer(tmp_path):
         message = "mujoco died on asset.xml"
         finding = Finding("simulator_crashed", Severity.ERROR, message, cause=cause)
         assert bool(without_asset(origin, finding, Status.UNJUDGED)[0].key) == remembered
+
+
+def test_a_point_in_time_is_seconds_ago_a_date_or_a_file(tmp_path):
+    assert parse_since("3600", now=10_000.0) == 6_400.0
+    assert parse_since("2026-11-21T00:00+00:00") == 1_795_219_200.0
+    assert parse_since("2026-11-21T01:00+01:00") == 1_795_219_200.0
+    stamp = tmp_path / "stamp"
+    stamp.touch()
+    os.utime(stamp, (500.0, 500.0))
+    assert parse_since(str(stamp)) == 500.0
+    for text in ("yesterday", "-1", "nan", str(tmp_path / "nothing")):
+        with pytest.raises(ConfigError, match="must be seconds ago, a date such as"):
+            parse_since(text)
+
+
+def test_only_what_was_modified_since_is_wanted(tmp_path):
+    for name, modified in (("old", 100.0), ("new", 300.0)):
+        (tmp_path / name).touch()
+        os.utime(tmp_path / name, (modified, modified))
+    paths = (tmp_path / "old", tmp_path / "new", tmp_path / "gone")
+    assert list(modified_since(paths, 200.0)) == [tmp_path / "new", tmp_path / "gone"]

@@ -1,4 +1,7 @@
-"""Small networks: their sum in closed form, and files that are for other numbers refused."""
+"""Small networks: their sum in closed form, and files that are for other numbers refused.
+
+Beside each shipped file of plain arrays a card says which command makes it.
+"""
 
 from pathlib import Path
 
@@ -9,6 +12,9 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.perceptron import Perceptron, inputs_of, linear
 from asset_factory.factory.models.shipped import Arrays, load_arrays
 from asset_factory.factory.models.weights.safetensors import write_arrays
+
+WEIGHTS = Path(__file__).parents[3] / "configs" / "weights"
+FILES = sorted(path.name for path in WEIGHTS.iterdir() if path.suffix != ".md")
 
 
 def _network():
@@ -52,3 +58,17 @@ def test_a_file_for_other_numbers_is_refused():
         Perceptron.read(stored, "some", ("a", "b", "c"))
     with pytest.raises(ConfigError, match="another order"):
         Perceptron.read(stored, "some", ("b", "a"))
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_weights_are_plain_numbers_with_a_card(file):
+    arrays = load_arrays(WEIGHTS / file).arrays
+    # A turn without end is longer than any.
+    assert not any(np.isnan(values).any() for values in arrays.values())
+    card = (WEIGHTS / file).with_suffix(".md").read_text(encoding="utf-8")
+    assert card.startswith(f"# {file}\n")
+    assert "| made" in card
+    assert f"configs/weights/{file}" in card or "`factory train " in card
+    assert "seed" in card
+    assert "by hand" not in card
+    assert "| terms | Apache-2.0 |" in card

@@ -128,34 +128,9 @@ def test_a_section_that_a_stage_declares_and_that_is_not_there_is_an_error():
         stage.key(BuildConfig())
 
 
-@pytest.mark.parametrize("stage", STAGES, ids=lambda stage: stage.name)
-def test_a_changed_line_in_what_a_stage_runs_changes_its_key_and_that_of_a_build(
-    stage, monkeypatch
-):
-    config = BuildConfig()
-    before = stage.key(config), build_key("an input", config)
-    registry_keys._pipeline_key.cache_clear()
-    with monkeypatch.context() as patch:
-        patch.setattr(runtime_keys, "code_digest", lambda *names: f"edited {names}")
-        after = stage.key(config), build_key("an input", config)
-    registry_keys._pipeline_key.cache_clear()
-    assert not {*before} & {*after}
-
-
-def test_a_changed_line_beside_the_stages_changes_the_key_of_a_build(monkeypatch):
-    config = BuildConfig()
-    before = build_key("an input", config)
-    registry_keys._pipeline_key.cache_clear()
-    with monkeypatch.context() as patch:
-        patch.setattr(registry_keys, "code_digest", lambda name: f"edited {name}")
-        after = build_key("an input", config)
-    registry_keys._pipeline_key.cache_clear()
-    assert after != before
-    assert build_key("an input", config) == before
-
-
-@pytest.mark.parametrize("library", LIBRARIES)
-def test_another_version_of_a_library_changes_the_keys_of_what_it_makes(library, monkeypatch):
+@pytest.fixture
+def told(monkeypatch):
+    """Of which stages, and whether of a build, the keys are others while something is patched."""
     config = replace(BuildConfig(), simulators=("sapien", "mujoco", "pybullet"))
 
     def keys():
@@ -164,14 +139,30 @@ def test_another_version_of_a_library_changes_the_keys_of_what_it_makes(library,
         found = {stage.name: stage.key(config, "an input") for stage in STAGES}
         return {**found, "build": build_key("an input", config)}
 
+    def changed_by(name, value, *modules):
+        before = keys()
+        with monkeypatch.context() as patch:
+            for module in modules:
+                patch.setattr(module, name, value)
+            after = keys()
+        assert keys() == before
+        return {name for name in before if after[name] != before[name]}
+
+    return changed_by
+
+
+@pytest.mark.parametrize(
+    ("module", "changed"),
+    [(runtime_keys, {"build", *(stage.name for stage in STAGES)}), (registry_keys, {"build"})],
+    ids=["in what stages run", "beside the stages"],
+)
+def test_a_changed_line_changes_the_key_of_a_build_and_of_stages_that_run_it(told, module, changed):
+    assert told("code_digest", lambda *names: f"edited {names}", module) == changed
+
+
+@pytest.mark.parametrize("library", LIBRARIES)
+def test_another_version_of_a_library_changes_the_keys_of_what_it_makes(told, library):
     def another_of_it(name):
         return "another" if name == library else version(name)
 
-    before = keys()
-    with monkeypatch.context() as patch:
-        for module in (runtime_keys, catalog):
-            patch.setattr(module, "version", another_of_it)
-        after = keys()
-    assert keys() == before
-    told = {name for name in before if after[name] != before[name]}
-    assert told == {"build", *LIBRARIES[library]}
+    assert told("version", another_of_it, runtime_keys, catalog) == {"build", *LIBRARIES[library]}

@@ -1,14 +1,17 @@
-"""What is handed on: whole, reproducible, and with its terms."""
+"""What is handed on: whole, reproducible, and with its terms; and how two lists differ."""
 
 import json
 import subprocess
 import tarfile
+from dataclasses import replace
 
 import pytest
-from registry_samples import named, publish
+from registry_samples import PASSED, REJECTED, named, publish
 
 from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.registry.diff import Diff, diff
 from asset_factory.factory.registry.export import contents, write_export
+from asset_factory.factory.registry.sources import entries_of
 from asset_factory.factory.runtime.store import folder_digests
 
 
@@ -114,3 +117,44 @@ def test_urls(registry, tmp_path):
         export(registry, "memory://bucket/folder")
     with pytest.raises(RegistryError, match="nosuch"):
         export(registry, "nosuch://bucket/x.tar")
+
+
+FAILED = replace(REJECTED, id="b")
+
+
+def test_each_change_has_its_group():
+    before = (*(named(each) for each in ("a", "c", "d", "e", "gone")), FAILED)
+    altered = (replace(FAILED, id="c"), named("d", joints=5), named("e", key="new"))
+    after = (named("a"), named("b"), *altered, named("new"))
+    found = diff(before, reversed(after))
+    assert [entry.id for entry in found.new] == ["new"]
+    assert [entry.id for entry in found.gone] == ["gone"]
+    assert [change.after.id for change in found.newly_passed] == ["b"]
+    failed = [(change.after.id, change.after.reason) for change in found.newly_failed]
+    assert failed == [("c", "rest_penetration")]
+    assert [(change.after.id, change.columns) for change in found.changed] == [("d", ("joints",))]
+    assert found.same == 2
+    assert found.to_dict()["newly_failed"][0]["after"]["message"] == "5 mm deep"
+    assert diff((PASSED,), (PASSED,)) == Diff(same=1)
+
+
+def test_entries_are_found_wherever_they_are(registry, tmp_path):
+    for target in ("folder", "file.tar", "file.tar.gz"):
+        export(registry, tmp_path / target)
+        assert entries_of(tmp_path / target) == entries_of(registry.root) == registry.entries()
+    assert entries_of(tmp_path / "folder" / "entries.jsonl") == registry.entries()
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "told"),
+    [
+        ("file.tar", b"", r"file\.tar"),
+        ("file.tar", b"no archive", r"file\.tar"),
+        ("file.tar", b"\x1f\x8b\x08", r"file\.tar"),
+        ("entries.jsonl", b'{"id": "a"}\n', "entry 1 cannot be read"),
+    ],
+)
+def test_what_is_no_list_of_entries_is_refused(tmp_path, name, content, told):
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(RegistryError, match=told):
+        entries_of(tmp_path / name)

@@ -1,4 +1,4 @@
-"""What nobody needs is removed, and nothing else."""
+"""What nobody needs is removed, and nothing else; rights to work end with whoever had them."""
 
 import multiprocessing
 import os
@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.claims import claim
 from asset_factory.factory.registry.cleaning import collect_garbage
 from asset_factory.factory.runtime.store import Store, stage_key, write_whole
 
@@ -15,9 +16,10 @@ DAY = 86_400.0
 
 
 def work(root, ready):
+    held = claim(root / ".claims", "work")
     with Registry(root).staging_folder() as folder:
         (folder / "half.obj").write_text("x" * 1000)
-        ready.send(True)
+        ready.send(held is not None)
         time.sleep(60)
 
 
@@ -28,6 +30,7 @@ def worker(registry):
     process = context.Process(target=work, args=(registry.root, sender))
     process.start()
     assert ready.poll(30)
+    assert ready.recv()
     yield process
     process.kill()
     process.join(30)
@@ -35,15 +38,31 @@ def worker(registry):
     sender.close()
 
 
-def test_a_living_process_keeps_its_folder_a_dead_one_does_not(registry, worker):
+def test_a_living_process_keeps_its_folder_and_claim_a_dead_one_does_not(registry, worker):
+    claims = registry.root / ".claims"
+    (claims / "left").touch()
     assert collect_garbage(registry.root).staging.files == 0
     assert len(list((registry.root / ".staging").glob("*/half.obj"))) == 1
+    assert [path.name for path in claims.iterdir()] == ["work"]
+    assert claim(claims, "work") is None
     worker.kill()
     worker.join(30)
+    claim(claims, "work").release()
     freed = collect_garbage(registry.root)
     assert (freed.staging.files, freed.staging.bytes) == (1, 1000)
     assert list((registry.root / ".staging").iterdir()) == []
     assert registry.count() == 3
+
+
+def test_a_claim_is_had_by_one_until_it_is_released(tmp_path):
+    first = claim(tmp_path / "claims", "work")
+    assert claim(tmp_path / "claims", "work") is None
+    other = claim(tmp_path / "claims", "other")
+    first.release()
+    again = claim(tmp_path / "claims", "work")
+    again.release()
+    other.release()
+    assert list((tmp_path / "claims").iterdir()) == []
 
 
 def cached(registry, ages):
@@ -56,36 +75,32 @@ def cached(registry, ages):
     return store
 
 
-def left(store):
-    return [
-        number for number in range(4) if store.load(stage_key("decompose", 1, number)) is not None
-    ]
+def left(store, numbers=range(4)):
+    """Which are still there of some, which are used by asking."""
+    keys = {number: stage_key("decompose", 1, number) for number in numbers}
+    return [number for number, key in keys.items() if store.load(key) is not None]
 
 
 @pytest.mark.parametrize(
-    ("ages", "days", "kept"),
-    # Files from the future are not kept for ever.
-    [((0, 1, 10, 100), 5, [0, 1]), ((-400, 0.5), 30, [1])],
+    ("ages", "days", "share", "used", "kept"),
+    [
+        ((0, 1, 10, 100), 5, None, (), [0, 1]),
+        # Files from the future are not kept for ever.
+        ((-400, 0.5), 30, None, (), [1]),
+        # The longest unused first.
+        ((0, 1, 10, 100), None, 0.5, (), [0, 1]),
+        ((0, 1, 10, 100), 0, 0, (3,), [0, 3]),
+    ],
+    ids=["by age", "from the future", "by size", "just used"],
 )
-def test_the_cache_shrinks_by_age(registry, ages, days, kept):
+def test_the_cache_shrinks(registry, ages, days, share, used, kept):
     store = cached(registry, ages)
-    freed = collect_garbage(registry.root, older_than_s=days * DAY).cache
+    assert left(store, used) == list(used)
+    older_than_s = None if days is None else days * DAY
+    keep_bytes = None if share is None else int(share * store.size().bytes)
+    freed = collect_garbage(registry.root, older_than_s=older_than_s, keep_bytes=keep_bytes).cache
     assert freed.files == len(ages) - len(kept)
     assert left(store) == kept
-
-
-def test_the_cache_shrinks_by_size_longest_unused_first(registry):
-    store = cached(registry, (0, 1, 10, 100))
-    size = sum(path.stat().st_size for path in store.root.rglob("*.npz"))
-    collect_garbage(registry.root, keep_bytes=size // 2)
-    assert left(store) == [0, 1]
-
-
-def test_what_was_just_used_stays(registry):
-    store = cached(registry, (0, 1, 10, 100))
-    assert store.load(stage_key("decompose", 1, 3)) is not None
-    collect_garbage(registry.root, older_than_s=0.0, keep_bytes=0)
-    assert left(store) == [0, 3]
 
 
 @pytest.mark.parametrize("age", [-1, 0, 1])

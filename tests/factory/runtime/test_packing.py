@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -39,27 +39,17 @@ numbers = st.floats(allow_nan=False)
 data = st.dictionaries(
     texts, st.none() | numbers | texts | st.lists(st.integers(), max_size=3), max_size=3
 )
+
+
+def boxes_with(**more):
+    shares = st.dictionaries(texts, st.none() | numbers, max_size=3)
+    pair = st.tuples(texts, numbers)
+    return st.builds(Box, size=numbers, pair=pair, shares=shares, free=data, **more)
+
+
 boxes = st.recursive(
-    st.builds(
-        Box,
-        texts,
-        numbers,
-        st.integers(),
-        st.booleans(),
-        st.tuples(texts, numbers),
-        st.lists(st.integers(), max_size=3).map(tuple),
-        st.frozensets(texts, max_size=3),
-        st.dictionaries(texts, st.none() | numbers, max_size=3),
-        data,
-        st.none(),
-        st.just(()),
-    ),
-    lambda inner: st.builds(
-        lambda box, one, more: replace(box, inner=one, more=more),
-        inner,
-        inner,
-        st.lists(inner, max_size=2).map(tuple),
-    ),
+    boxes_with(),
+    lambda inner: boxes_with(inner=inner, more=st.lists(inner, max_size=2).map(tuple)),
     max_leaves=4,
 )
 

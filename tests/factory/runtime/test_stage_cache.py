@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from fault_corpus.things import Body, Move, Thing, at, box, write_urdf
 
 from asset_factory.factory.build import make_asset
 from asset_factory.factory.config import BuildConfig
@@ -15,22 +16,19 @@ from asset_factory.factory.runtime.store import Store, folder_digests
 from asset_factory.sim_checks.judge import Judge
 
 BASE = BuildConfig(simulators=())
-URDF = """<robot name="cabinet">
-<link name="base"><visual><origin xyz="0 0 0.4"/><geometry><box size="0.6 0.4 0.8"/></geometry>
-</visual></link>
-<link name="door"><visual><origin xyz="0.3 0.02 0.4"/><geometry><box size="0.6 0.02 0.8"/>
-</geometry></visual></link>
-<joint name="hinge" type="revolute"><parent link="base"/><child link="door"/>
-<origin xyz="-0.3 -0.24 0"/><axis xyz="0 0 -1"/>
-<limit lower="0" upper="1.5" effort="1" velocity="1"/></joint></robot>"""
+
+
+def write_cabinet(folder, name="cabinet", lower=0.0):
+    """A block and a door, with the door's hinge."""
+    block = Body("base", (box((0.0, 0.0, 0.4), (0.6, 0.4, 0.8)),), at(0.0, 0.0, 0.0), 1.0)
+    door = Body("door", (box((0.0, -0.22, 0.4), (0.6, 0.02, 0.8)),), at(-0.3, -0.24, 0.0), 1.0)
+    hinge = Move("hinge", "revolute", "base", "door", (0.0, 0.0, -1.0), lower, 1.5)
+    return write_urdf(Thing(name, (block, door), (hinge,)), folder)
 
 
 @pytest.fixture(scope="module")
 def cabinet(tmp_path_factory):
-    """A board and a door, with the door's hinge."""
-    path = tmp_path_factory.mktemp("cabinet") / "cabinet.urdf"
-    path.write_text(URDF)
-    return path
+    return write_cabinet(tmp_path_factory.mktemp("cabinet"))
 
 
 @pytest.fixture(scope="module")
@@ -86,10 +84,9 @@ def test_a_change_redoes_its_stage_and_what_follows(what, first, cabinet, tmp_pa
     assert set(product.result.reused) == stages - set(redone)
 
 
-def test_a_pose_outside_the_range_is_built_and_kept(cabinet, judge, tmp_path):
+def test_a_pose_outside_the_range_is_built_and_kept(judge, tmp_path):
     """The articulator moves the mesh to the nearest limit, so it differs from the loaded one."""
-    ajar = cabinet.with_name("ajar.urdf")
-    ajar.write_text(cabinet.read_text().replace('lower="0" upper="1.5"', 'lower="0.2" upper="1.5"'))
+    ajar = write_cabinet(tmp_path, "ajar", lower=0.2)
     first = make_asset(ajar, tmp_path / "first", BASE, tmp_path / "cache", judge)
     again = make_asset(ajar, tmp_path / "again", BASE, tmp_path / "cache", judge)
     assert first.entry.status == "passed", first.told.report.findings

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 from modelled_furniture import drawer_chest
+from test_repair import hard, planned, verdict
 
 from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.config import RepairConfig
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.manufacture.plan import (
     MANY_FACES,
@@ -18,17 +18,8 @@ from asset_factory.factory.manufacture.plan import (
 )
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.part import PartSource, Proposer
-from asset_factory.factory.verify.repair import next_plan
-from asset_factory.factory.verify.validate import Verdict
-from asset_factory.sim_checks import Finding, Severity
-from asset_factory.sim_checks.report import Report
 
 FRONTS = Spare(fronts=frozenset({"drawer"}))
-
-
-def rejected(code):
-    finding = Finding(code, Severity.ERROR, "it does", parts=("base", "drawer"))
-    return Verdict(Report("asset.urdf", findings=(finding,)))
 
 
 def drawer(proposer):
@@ -44,13 +35,14 @@ def drawer(proposer):
 
 
 def test_a_front_that_sticks_is_built_anew_once():
-    plan = next_plan(rejected("rest_penetration"), Plan(), RepairConfig(), FRONTS)
+    stuck = verdict(hard("rest_penetration", ("base", "drawer")))
+    plan = planned(stuck, spare=FRONTS)
     assert plan.build_fronts
     assert [each.sentence for each in plan.repairs] == ["built fronts and body anew: drawer"]
-    assert next_plan(rejected("rest_penetration"), plan, RepairConfig(), FRONTS) is None
+    assert planned(stuck, plan, FRONTS) is None
     # Nothing is built for other faults, or without fronts.
-    assert next_plan(rejected("no_mass"), Plan(), RepairConfig(), FRONTS) is None
-    assert next_plan(rejected("rest_penetration"), Plan(), RepairConfig(), Spare()) is None
+    assert planned(verdict(hard("no_mass", ("base", "drawer"))), spare=FRONTS) is None
+    assert planned(stuck) is None
 
 
 def test_only_guessed_fronts_are_built():

@@ -1,6 +1,10 @@
-"""Of several readings the likeliest that passes whole becomes the asset; the others are told."""
+"""Of several readings the likeliest that passes whole becomes the asset; the others are told.
+
+What only simulators refuse is repaired too: the guess that is worth least is given up.
+"""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -62,24 +66,7 @@ def test_one_that_passes_without_a_joint_is_better_than_none_and_worse_than_whol
     assert best_of(iter([first, draft(DEEP)]))[0] is first
 
 
-def _blocked(right):
-    """The same with its first door hinged on an axis through the middle of the carcass."""
-    joint = right.movable_joints[0]
-    middle = right.mesh.bounds.mean(axis=0)
-    wrong = replace(joint, origin=middle, axis=np.array([0.0, 0.0, 1.0]), upper=1.5)
-    return replace(right, joints=tuple(wrong if j is joint else j for j in right.joints))
-
-
-def _reading_as(monkeypatch, *changes):
-    likeliest = standing.hypotheses
-
-    def hypotheses(*asked):
-        right, *_ = likeliest(*asked)
-        return tuple(Hypothesis(change(right.articulation)) for change in changes)
-
-    monkeypatch.setattr(standing, "hypotheses", hypotheses)
-
-
+FRIDGE = Path(__file__).resolve().parents[3] / "examples" / "meshes" / "fridge.obj"
 CONFIG = BuildConfig(articulator="geometric", simulators=())
 
 
@@ -95,25 +82,51 @@ def one_door(tmp_path_factory):
     return file
 
 
-def test_a_reading_that_is_blocked_loses_to_one_that_opens(one_door, output, monkeypatch):
-    _reading_as(monkeypatch, _blocked, lambda right: right)
-    result = build_asset(one_door, output, CONFIG)
-    assert result.entry.status == "passed"
-    report = read_report(Registry(output).assets / result.entry.id).report
-    (told,) = [f.message for f in report.findings if f.code == "other_reading"]
-    assert told.startswith("read otherwise (")
-    assert "is rejected" in told
+@pytest.fixture
+def built(one_door, output):
+    """Builds the cupboard, or another file: the entry, and its report with the repairs."""
+
+    def build(config=CONFIG, file=one_door):
+        entry = build_asset(file, output, config).entry
+        return entry, read_report(Registry(output).folder(entry)).told
+
+    return build
 
 
-def _impossible(right):
+@pytest.fixture
+def read_as(monkeypatch):
+    """Lets the object be read as the likeliest reading of it changed so, or so."""
+    likeliest = standing.hypotheses
+
+    def read(*changes):
+        def hypotheses(*asked):
+            right, *_ = likeliest(*asked)
+            return tuple(Hypothesis(change(right.articulation)) for change in changes)
+
+        monkeypatch.setattr(standing, "hypotheses", hypotheses)
+
+    return read
+
+
+def right(articulation):
+    return articulation
+
+
+def blocked(right):
+    """The same with its doors hinged on one axis through the middle of the carcass."""
+    middle = right.mesh.bounds.mean(axis=0)
+    wrong = {"origin": middle, "axis": np.array([0.0, 0.0, 1.0]), "upper": 1.5}
+    return replace(right, joints=tuple(replace(joint, **wrong) for joint in right.joints))
+
+
+def impossible(right):
     """The same, of which nothing can be made, and joints of which nobody is sure."""
     joints = tuple(replace(joint, confidence=0.31) for joint in right.joints)
     return replace(right, joints=joints, notes=("impossible",))
 
 
-@pytest.fixture
-def impossible(monkeypatch):
-    """The impossible is refused."""
+@pytest.fixture(autouse=True)
+def _impossible_is_refused(monkeypatch):
     made = rounds.manufacture
 
     def manufacture(articulation, *asked):
@@ -122,34 +135,49 @@ def impossible(monkeypatch):
         return made(articulation, *asked)
 
     monkeypatch.setattr(rounds, "manufacture", manufacture)
-    return _impossible
 
 
-def test_a_reading_that_cannot_be_made_is_passed_over_and_told(
-    one_door, output, monkeypatch, impossible
+@pytest.mark.parametrize(
+    ("wrong", "why"),
+    [
+        (blocked, "it is rejected, "),
+        (
+            impossible,
+            "turns, probability 0.31), it cannot be made, too_many_hulls: part 'lid': needs",
+        ),
+    ],
+)
+def test_a_reading_that_is_blocked_or_cannot_be_made_loses_to_one_that_opens_and_is_told(
+    built, read_as, wrong, why
 ):
-    _reading_as(monkeypatch, impossible, lambda right: right)
-    result = build_asset(one_door, output, CONFIG)
-    assert result.entry.status == "passed"
-    report = read_report(Registry(output).assets / result.entry.id).report
-    (told,) = [f.message for f in report.findings if f.code == "other_reading"]
-    assert "turns, probability 0.31), it cannot be made, too_many_hulls: part 'lid': needs" in told
+    read_as(wrong, right)
+    entry, told = built()
+    assert entry.status == "passed"
+    (other,) = [f.message for f in told.report.findings if f.code == "other_reading"]
+    assert other.startswith("read otherwise (")
+    assert why in other
 
 
-def test_where_no_reading_can_be_made_the_reason_is_told(one_door, output, monkeypatch, impossible):
-    _reading_as(monkeypatch, impossible)
-    refused = build_asset(one_door, output, CONFIG).entry
-    assert (refused.status, refused.reason) == ("rejected", "too_many_hulls")
+@pytest.mark.parametrize(
+    ("readings", "readings_config", "reason"),
+    [
+        # Beyond the most work only the likeliest is made.
+        ((blocked, right), ReadingsConfig(most_work=0), "sweep_penetration"),
+        ((impossible,), ReadingsConfig(), "too_many_hulls"),
+    ],
+)
+def test_where_no_reading_is_left_the_reason_is_told(
+    built, read_as, readings, readings_config, reason
+):
+    read_as(*readings)
+    entry, _ = built(replace(CONFIG, readings=readings_config))
+    assert (entry.status, entry.reason) == ("rejected", reason)
 
 
-def test_beyond_the_most_work_only_the_likeliest_is_made(one_door, output, monkeypatch):
-    _reading_as(monkeypatch, _blocked, lambda right: right)
-    hurried = replace(CONFIG, readings=ReadingsConfig(most_work=0))
-    assert build_asset(one_door, output, hurried).entry.status == "rejected"
-
-
-def test_a_reading_whose_check_hung_gives_its_place_to_no_other(one_door, output, monkeypatch):
-    _reading_as(monkeypatch, lambda right: right, lambda right: right)
+def test_a_reading_whose_check_hung_gives_its_place_to_no_other(
+    built, read_as, output, monkeypatch
+):
+    read_as(right, right)
     honest = rounds.inspect
     late = Finding("check_timeout", Severity.ERROR, "no answer", cause=OUT_OF_TIME)
     asked = []
@@ -161,15 +189,14 @@ def test_a_reading_whose_check_hung_gives_its_place_to_no_other(one_door, output
         return Verdict(Report("asset.urdf", findings=(late,))) if first else verdict
 
     monkeypatch.setattr(rounds, "inspect", inspect)
-    result = build_asset(one_door, output, CONFIG)
-    assert (result.entry.status, result.entry.reason) == ("unjudged", "check_timeout")
-    assert result.entry.key == ""
+    entry, _ = built()
+    assert (entry.status, entry.reason, entry.key) == ("unjudged", "check_timeout", "")
     assert len(asked) == 1
     assert not Registry(output).known_keys([""])
-    assert build_asset(one_door, output, CONFIG).entry.status == "passed"
+    assert built()[0].status == "passed"
 
 
-def test_a_simulator_that_hung_neither_rejects_nor_repairs(one_door, output, monkeypatch):
+def test_a_simulator_that_hung_neither_rejects_nor_repairs(built, monkeypatch):
     honest = rounds.validate
     late = Finding("simulator_timeout", Severity.ERROR, "no answer", "bullet", cause=OUT_OF_TIME)
     jammed = Finding("jammed", Severity.ERROR, "sapien: stuck", "sapien")
@@ -179,5 +206,42 @@ def test_a_simulator_that_hung_neither_rejects_nor_repairs(one_door, output, mon
         return replace(verdict, report=replace(verdict.report, findings=(jammed, late)))
 
     monkeypatch.setattr(rounds, "validate", validate)
-    entry = build_asset(one_door, output, CONFIG).entry
+    entry, _ = built()
     assert (entry.status, entry.reason) == ("unjudged", "simulator_timeout")
+
+
+def guesses(right):
+    """The same with joints that are guesses, the surest first."""
+    joints = (replace(joint, confidence=0.9 - 0.6 * n) for n, joint in enumerate(right.joints))
+    return replace(right, joints=tuple(joints))
+
+
+@pytest.mark.parametrize(
+    ("stuck", "code", "wanted"),
+    [
+        (1, "jammed", ("passed", "", 1)),
+        # What no guess brings about costs none, and the best is never given up.
+        (1, "no_mass", ("rejected", "no_mass", 2)),
+        (0, "jammed", ("rejected", "jammed", 2)),
+    ],
+)
+def test_a_guess_that_jams_in_a_simulator_is_given_up_and_told(
+    built, read_as, monkeypatch, stuck, code, wanted
+):
+    read_as(guesses)
+    honest = rounds.validate
+    name = f"door_{stuck}_hinge"
+
+    def validate(bundle, *asked):
+        """As a simulator that says of one joint, while it is there, that it fails."""
+        verdict = honest(bundle, *asked)
+        if f'"{name}"' not in bundle.urdf.read_text(encoding="utf-8"):
+            return verdict
+        found = Finding(code, Severity.ERROR, f"bullet: {name} is stuck", "bullet", name)
+        return Verdict(replace(verdict.report, findings=(*verdict.report.findings, found)))
+
+    monkeypatch.setattr(rounds, "validate", validate)
+    entry, told = built(file=FRIDGE)
+    assert (entry.status, entry.reason, entry.joints) == wanted
+    given_up = f"gave up {name}: bullet: {name} is stuck"
+    assert (given_up in " ".join(each.sentence for each in told.repairs)) == (not wanted[1])

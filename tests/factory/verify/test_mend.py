@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plain_solids import parted
-from plain_solids import sized_box as box
+from plain_solids import parted, sized_box, sized_hull
 from test_repair import contact, hard, joint, verdict
 
 from asset_factory.factory.articulation import Joint, JointKind
@@ -21,6 +20,9 @@ from asset_factory.factory.verify.repair import next_plan
 CONFIG = RepairConfig()
 #: The hulls of both are cut apart already.
 STARTED = Plan(separate=frozenset({("base", "door")}))
+SURE = Spare()
+#: The door may be fixed where it cannot move.
+SMALL = Spare(joints=frozenset({"hinge"}))
 UP = (0.0, 0.0, 1.0)
 DOWN = (0.0, 0.0, -1.0)
 #: By 8 degrees.
@@ -29,36 +31,32 @@ TILTED = (np.sin(np.radians(8.0)), 0.0, -np.cos(np.radians(8.0)))
 EDGE = (-0.3, -0.225, 0.0)
 
 
-def cabinet(axis=UP, origin=EDGE, upper=1.5, lower=0.0, kind=JointKind.REVOLUTE):
-    """A block with a door before it, whose front is at -y; the door hangs at its left edge."""
-    body, faces = box((0.6, 0.4, 0.8), (0.0, 0.0, 0.0))
-    door, door_faces = box((0.6, 0.02, 0.8), (0.0, -0.215, 0.0))
-    both = {"base": [Mesh.from_triangles(body, faces)]}
-    both["door"] = [Mesh.from_triangles(door, door_faces)]
-    direction = np.array(axis, dtype=float)
-    direction /= np.linalg.norm(direction)
+def cabinet(
+    axis=UP, origin=EDGE, upper=1.5, lower=0.0, kind=JointKind.REVOLUTE, more=None, joints=()
+):
+    """A block with a door before it, whose front is at -y; the door hangs at its left edge.
+
+    There may be more boxes, of these parts or of others, which joints hold: sizes and middles.
+    """
+    boxes = {"base": [((0.6, 0.4, 0.8), (0.0, 0.0, 0.0))]}
+    boxes["door"] = [((0.6, 0.02, 0.8), (0.0, -0.215, 0.0))]
+    for name, added in (more or {}).items():
+        boxes[name] = boxes.get(name, []) + added
+    direction = np.array(axis) / np.linalg.norm(axis)
     hinge = Joint("hinge", kind, 0, 1, direction, np.asarray(origin), lower, upper)
     inertial = Inertial(1.0, np.zeros(3), np.eye(3))
-    hulls = (Hull(body, np.asarray(faces)), Hull(door, np.asarray(door_faces)))
-    bodies = tuple(PartBody((hull,), inertial, None, "exact", ()) for hull in hulls)
-    return Asset("cabinet", parted(both, hinge), bodies, (), ())
+    hulls = [tuple(sized_hull(*each) for each in own) for own in boxes.values()]
+    bodies = tuple(PartBody(own, inertial, None, "exact") for own in hulls)
+    meshes = {
+        name: [Mesh.from_triangles(*sized_box(*each)) for each in own]
+        for name, own in boxes.items()
+    }
+    return Asset("cabinet", parted(meshes, hinge, *joints), bodies)
 
 
-def with_more(asset, name, boxes, hinge=None):
-    """The same asset with more boxes, of one of its parts or of a new one that a joint holds."""
-    tree = asset.articulation
-    bodies = list(asset.bodies)
-    made = [box(*each) for each in boxes]
-    parts = {part.name: [tree.part_mesh(at)] for at, part in enumerate(tree.parts)}
-    parts.setdefault(name, []).extend(Mesh.from_triangles(*each) for each in made)
-    hulls = tuple(Hull(*each) for each in made)
-    if hinge is None:
-        at = list(parts).index(name)
-        bodies[at] = replace(bodies[at], hulls=(*bodies[at].hulls, *hulls))
-    else:
-        bodies.append(replace(bodies[-1], hulls=hulls))
-    joints = (*tree.joints, *([hinge] if hinge else []))
-    return replace(asset, articulation=parted(parts, *joints), bodies=tuple(bodies))
+def above(origin=EDGE, axis=UP):
+    """The hinge of another door above the first."""
+    return Joint("above", JointKind.REVOLUTE, 0, 2, np.array(axis), np.array(origin), 0.0, 1.5)
 
 
 def blocked(asset, clear_until):
@@ -67,8 +65,8 @@ def blocked(asset, clear_until):
     return verdict(hard("sweep_penetration", name="hinge"), joints=[measured])
 
 
-def mended(asset, clear_until=0.01, config=CONFIG):
-    return next_plan(blocked(asset, clear_until), STARTED, config, Spare(), asset)
+def mended(asset, clear_until=0.01, plan=STARTED, config=CONFIG, spare=SURE):
+    return next_plan(blocked(asset, clear_until), plan, config, spare, asset)
 
 
 def test_a_door_that_opens_inwards_is_turned_round_and_told():
@@ -110,11 +108,8 @@ def test_a_hinge_in_what_the_door_lies_before_goes_to_the_edge_between_them():
 @pytest.mark.parametrize(("deep", "left"), [(0.008, True), (0.03, False)])
 def test_what_the_edge_leaves_in_the_way_is_for_the_cut_that_follows(deep, left):
     # A side of the cabinet that reaches beyond the door's edge, before its front.
-    asset = cabinet(axis=DOWN, origin=(-0.27, -0.16, 0.0))
-    side, faces = box((0.02, 0.2, 0.8), (-0.311, -0.105 - deep, 0.0))
-    body = asset.bodies[0]
-    beside = replace(body, hulls=(*body.hulls, Hull(side, np.asarray(faces))))
-    plan = mended(replace(asset, bodies=(beside, asset.bodies[1])))
+    beside = {"base": [((0.02, 0.2, 0.8), (-0.311, -0.105 - deep, 0.0))]}
+    plan = mended(cabinet(axis=DOWN, origin=(-0.27, -0.16, 0.0), more=beside))
     assert (plan is not None and "back edge" in plan.repairs[-1].sentence) is left
 
 
@@ -135,27 +130,29 @@ def test_a_hinge_that_no_edge_frees_goes_to_the_line_of_its_neighbour():
     # A side reaches before the door, and its rim before its own front edge, so that neither edge
     # will do; the true line is that of the door above.
     line = (-0.3, -0.24, 0.0)
-    above = Joint("above", JointKind.REVOLUTE, 0, 2, -np.array(UP), np.array(line), 0.0, 1.5)
-    asset = cabinet(axis=DOWN, origin=(-0.27, -0.205, 0.0))
-    asset = with_more(asset, "base", [((0.02, 0.2, 0.8), (-0.311, -0.135, 0.0))])
-    asset = with_more(asset, "door", [((0.02, 0.1, 0.8), (-0.29, -0.275, 0.0))])
-    assert mended(asset) is None
-    plan = mended(with_more(asset, "upper", [((0.6, 0.02, 0.3), (0.0, -0.215, 0.6))], above))
+    wrong = {"axis": DOWN, "origin": (-0.27, -0.205, 0.0)}
+    more = {
+        "base": [((0.02, 0.2, 0.8), (-0.311, -0.135, 0.0))],
+        "door": [((0.02, 0.1, 0.8), (-0.29, -0.275, 0.0))],
+    }
+    assert mended(cabinet(**wrong, more=more)) is None
+    more["upper"] = [((0.6, 0.02, 0.3), (0.0, -0.215, 0.6))]
+    plan = mended(cabinet(**wrong, more=more, joints=[above(line, DOWN)]))
     assert "46.1 mm off that of its neighbour" in plan.repairs[-1].sentence
     assert plan.mended["hinge"].origin == pytest.approx(line)
 
 
 def test_doors_on_one_line_are_turned_round_together():
     # Something stands 3.5 mm in the lower door's way out, which a cut may plane off.
-    asset = with_more(cabinet(axis=UP), "base", [((0.1, 0.1, 0.8), (-0.3, -0.87, 0.0))])
-    assert mended(asset) is None
-    above = Joint("above", JointKind.REVOLUTE, 0, 2, UP, EDGE, 0.0, 1.5)
-    asset = with_more(asset, "base", [((0.6, 0.4, 0.4), (0.0, 0.0, 0.6))])
-    asset = with_more(asset, "upper", [((0.6, 0.02, 0.3), (0.0, -0.215, 0.6))], above)
+    more = {"base": [((0.1, 0.1, 0.8), (-0.3, -0.87, 0.0))]}
+    assert mended(cabinet(more=more)) is None
+    more["base"].append(((0.6, 0.4, 0.4), (0.0, 0.0, 0.6)))
+    more["upper"] = [((0.6, 0.02, 0.3), (0.0, -0.215, 0.6))]
+    asset = cabinet(more=more, joints=[above()])
     stuck = [joint(name, upper=1.5, clear_until=0.01) for name in ("hinge", "above")]
     given = verdict(hard("sweep_penetration", name="hinge"), joints=stuck)
     started = Plan(separate=frozenset({("base", "door"), ("base", "upper")}))
-    plan = next_plan(given, started, CONFIG, Spare(), asset)
+    plan = next_plan(given, started, CONFIG, SURE, asset)
     axes = {name: tuple(each.axis) for name, each in plan.mended.items()}
     assert axes == {"hinge": DOWN, "above": DOWN}
 
@@ -199,44 +196,37 @@ def test_a_hinge_without_limits_goes_as_far_as_it_is_free_and_closes_where_it_is
 
 def test_what_has_no_room_to_turn_without_limits_gets_none():
     # Between two blocks before the cabinet.
-    asset = cabinet(kind=JointKind.CONTINUOUS, lower=-np.pi, upper=np.pi)
     walls = [((0.1, 0.6, 0.8), (x, -0.53, 0.0)) for x in (-0.36, 0.36)]
-    plan = mended(with_more(asset, "base", [*walls, ((0.6, 0.1, 0.8), (0.0, -0.3, 0.0))]))
+    more = {"base": [*walls, ((0.6, 0.1, 0.8), (0.0, -0.3, 0.0))]}
+    endless = {"kind": JointKind.CONTINUOUS, "lower": -np.pi, "upper": np.pi}
+    plan = mended(cabinet(**endless, more=more))
     assert plan is None or not plan.mended
 
 
 def test_what_turns_without_end_is_as_drawn_while_another_part_moves():
     # Half a turn on, the arm would be in the door's way.
     knob = Joint("knob", JointKind.CONTINUOUS, 0, 2, UP, (0.5, -0.5, 0.0), -np.pi, np.pi)
-    arm = [((0.4, 0.02, 0.1), (0.75, -0.5, 0.0))]
-    asset = with_more(cabinet(axis=DOWN), "arm", arm, knob)
+    arm = {"arm": [((0.4, 0.02, 0.1), (0.75, -0.5, 0.0))]}
+    asset = cabinet(axis=DOWN, more=arm, joints=[knob])
     assert swept_m(asset, asset.articulation.joints[0]) < 1e-6
 
 
 @pytest.mark.parametrize("code", ["jammed", "rest_penetration"])
 def test_a_small_part_that_cannot_move_is_fixed_where_nothing_else_is_wrong(code):
-    asset = cabinet()
-    spare = Spare(joints=frozenset({"hinge"}))
-    named = "hinge" if code == "jammed" else None
-    wrong = hard(code, name=named)
-    plan = next_plan(verdict(wrong), STARTED, CONFIG, spare, asset)
+    wrong = hard(code, name="hinge" if code == "jammed" else None)
+    plan = next_plan(verdict(wrong), STARTED, CONFIG, SMALL, cabinet())
     assert plan.frozen == {"hinge"}
     other = verdict(wrong, hard("jammed", name="other"))
-    assert next_plan(other, STARTED, CONFIG, spare, asset) is None
+    assert next_plan(other, STARTED, CONFIG, SMALL, cabinet()) is None
 
 
 def test_a_small_part_that_is_pressed_into_another_is_not_turned_round():
-    inwards = cabinet()
-    spare = Spare(joints=frozenset({"hinge"}))
-    plan = next_plan(blocked(inwards, 0.01), STARTED, CONFIG, spare, inwards)
-    assert not plan.mended
+    assert not mended(cabinet(), spare=SMALL).mended
 
 
 def test_a_joint_is_mended_once_and_only_if_joints_may_be():
     inwards = cabinet()
-    plan = mended(inwards)
-    again = next_plan(blocked(inwards, 0.01), plan, CONFIG, Spare(), inwards)
-    assert again is None
+    assert mended(inwards, plan=mended(inwards)) is None
     for kinds in ("geometry", "none"):
         assert mended(inwards, config=replace(CONFIG, kinds=kinds)) is None
 
@@ -255,7 +245,7 @@ def test_a_closed_end_that_lies_in_something_is_pulled_in():
     # Down to -0.4 it turns into the block; as modelled it is free.
     asset = cabinet(axis=DOWN, lower=-0.4)
     given = verdict(hard("rest_penetration"), rest=[contact(20.0)], joints=[joint()])
-    plan = next_plan(given, STARTED, CONFIG, Spare(), asset)
+    plan = next_plan(given, STARTED, CONFIG, SURE, asset)
     assert "began hinge at" in plan.repairs[-1].sentence
     begins = as_planned(asset.articulation, plan).joints[0].lower
     assert -0.1 < begins <= 0.0
@@ -269,7 +259,7 @@ def test_no_joint_ends_before_the_pose_as_modelled(clear_until, measured_alone):
     measured = replace(joint(upper=0.4, clear_until=clear_until), lower=-1.5)
     assert (clear_until + 1.5) / 1.9 > CONFIG.least_range_share
     given = verdict(hard("sweep_penetration", name="hinge"), joints=[measured])
-    plan = next_plan(given, STARTED, CONFIG, Spare(), None if measured_alone else asset)
+    plan = next_plan(given, STARTED, CONFIG, SURE, None if measured_alone else asset)
     assert plan is None or "hinge" not in plan.upper
 
 

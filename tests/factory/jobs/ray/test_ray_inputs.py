@@ -38,6 +38,14 @@ def keys_of(source):
     return source.id, source.unloaded_ids, source.loaded_key, source.reads
 
 
+def loaded(source):
+    """What is known of an input once it is loaded, or why it cannot be."""
+    try:
+        return source.load().provenance
+    except Exception as error:  # noqa: BLE001 - whatever it is, it is the same here and there
+        return str(error)
+
+
 def read_there(source):
     """What a node says of an input, its keys there, and the rounds that it took."""
     more = frozenset()
@@ -45,10 +53,7 @@ def read_there(source):
         sent = packed(source, more)
         with sent.unpacked(sent.data) as path:
             there = Source(path, CONFIG, source)
-            try:
-                said = there.load().provenance
-            except Exception as error:  # noqa: BLE001 - as it is here
-                said = str(error)
+            said = loaded(there)
             keys = keys_of(there)
         lacking = sent.lacking(there.reads)
         if not lacking:
@@ -70,10 +75,7 @@ def read_there(source):
 )
 def test_a_node_reads_what_is_here(inputs, name, rounds):
     here = Source(inputs / name, CONFIG)
-    try:
-        said = here.load().provenance
-    except Exception as error:  # noqa: BLE001 - it is to be the same there
-        said = str(error)
+    said = loaded(here)
     assert read_there(inputs / name) == (said, keys_of(here), rounds)
 
 

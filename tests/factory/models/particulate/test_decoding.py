@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from plain_solids import surface_of
 from refusing import refusal
-from stored_arrays import arrays
+from stored_arrays import OUTPUTS, arrays
 
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.models.particulate.decoding import (
@@ -82,8 +83,9 @@ def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, r
     held = arrays(folder / "network_outputs.npz")
     want = arrays(folder / "pred.npz")
     mesh = trimesh.load(folder / "mesh.obj", process=False)
-    surface = Surface.of(np.array(mesh.vertices), np.array(mesh.faces))
-    found = decoded(surface, held["face_indices"], prediction_of(held), refinement=refinement)
+    found = decoded(
+        surface_of(mesh), held["face_indices"], prediction_of(held), refinement=refinement
+    )
     assert np.array_equal(found.face_part, want["face_part_ids"])
     assert sorted(found.edges) == sorted(map(tuple, want["motion_hierarchy"].tolist()))
     assert [p.query for p in found.parts] == sorted({int(p.query) for p in found.parts})
@@ -96,16 +98,8 @@ def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, r
 
 
 def forward_prediction(held):
-    return Prediction(
-        mask_logits=held["point_mask_logits"][0],
-        hierarchy_logits=held["part_adjacency_logits"][0],
-        motion_logits=held["part_motion_logits"][0],
-        revolute_direction=held["revolute_dir_raw"][0],
-        revolute_range=held["revolute_range"][0],
-        prismatic_direction=held["prismatic_dir_raw"][0],
-        prismatic_range=held["prismatic_range"][0],
-        closest_points=picked(held["closest_point_on_axis"][0]),
-    )
+    given = {name: held[original][0] for name, original in OUTPUTS.items()}
+    return Prediction(**given, closest_points=picked(held["closest_point_on_axis"][0]))
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
@@ -227,8 +221,7 @@ def test_broken_votes_are_a_reason_too():
 def strip(count):
     """``count`` boxes in a row, and a point on every face."""
     boxes = [trimesh.creation.box().apply_translation([2.0 * i, 0, 0]) for i in range(count)]
-    mesh = trimesh.util.concatenate(boxes)
-    surface = Surface.of(np.array(mesh.vertices), np.array(mesh.faces))
+    surface = surface_of(*boxes)
     return surface, np.arange(len(surface.faces))
 
 

@@ -5,6 +5,7 @@ import pytest
 import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
+from plain_solids import surface_of
 from stored_arrays import arrays
 
 from asset_factory.factory.geometry.edges import label_linked
@@ -19,11 +20,6 @@ from asset_factory.factory.models.particulate.labels import (
 )
 from asset_factory.factory.models.particulate.proxy import carried_back, proxy_of
 from asset_factory.factory.models.particulate.surface import Surface
-
-
-def surface_of(*meshes):
-    mesh = trimesh.util.concatenate(meshes)
-    return Surface.of(np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64))
 
 
 def box(*extents, times=2):

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import torch  # noqa: TID253
+from stored_arrays import OUTPUTS
 from tiny_model import field_of, model_of
 
 from asset_factory.factory.models.network.shape import NetworkShape, read_shape
@@ -20,15 +21,6 @@ TINY_FIELD = PartFieldShape(
 )
 GAINS = {"point_mask_decoder": 5.0, "part_motion_classifier": 3.0, "part_hierarchy_decoder": 2.0}
 CLOSE = {"rtol": 1e-4, "atol": 2e-4}
-OUTPUTS = {
-    "mask_logits": "point_mask_logits",
-    "hierarchy_logits": "part_adjacency_logits",
-    "motion_logits": "part_motion_logits",
-    "revolute_direction": "revolute_dir_raw",
-    "revolute_range": "revolute_range",
-    "prismatic_direction": "prismatic_dir_raw",
-    "prismatic_range": "prismatic_range",
-}
 
 
 def case(file, prefix=""):

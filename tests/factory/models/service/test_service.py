@@ -64,10 +64,11 @@ def serving(tmp_path):
     """A network served by threads of this process: ``serving(network)`` gives the address."""
     opened = []
 
-    def serve(network, identity="it", **settings):
+    def serve(network, identity="it", answering=None, **settings):
         listening = listening_socket(str(tmp_path / "socket"))
         opened.append(listening)
-        call = {"args": (listening, Answering(network, identity, 2)), "kwargs": settings}
+        answering = answering or Answering(network, identity, 2)
+        call = {"args": (listening, answering), "kwargs": settings}
         threading.Thread(target=answer_all, **call, daemon=True).start()
         return Address(str(tmp_path / "socket"), start_s=0.2, answer_s=20.0)
 
@@ -78,13 +79,12 @@ def serving(tmp_path):
 
 
 def test_a_served_network_gives_the_same_bits(serving):
-    network = random_network
     cloud = cloud_of(500)
     context = cloud_of(200, 1)
-    with asking(serving(network)):
+    with asking(serving(random_network)):
         served = network_for("it", not_at_home)
     answer = served(cloud, context)
-    own = network(cloud, context)
+    own = random_network(cloud, context)
     assert equal(answer, own)
     ids = np.argmax(own.mask_logits, axis=1)
     rows = np.arange(0, 500, 7)
@@ -93,13 +93,14 @@ def test_a_served_network_gives_the_same_bits(serving):
 
 
 def test_many_askers_at_once_each_get_their_own_answer(serving):
-    network = random_network
     clouds = [(cloud_of(100 + number, number), cloud_of(50, number)) for number in range(16)]
-    with asking(serving(network)):
+    with asking(serving(random_network)):
         served = [network_for("it", not_at_home) for _ in clouds]
     with ThreadPoolExecutor(len(clouds)) as pool:
         answers = pool.map(lambda ask, both: ask(*both), served, clouds)
-    assert all(equal(answer, network(*both)) for answer, both in zip(answers, clouds, strict=True))
+    assert all(
+        equal(answer, random_network(*both)) for answer, both in zip(answers, clouds, strict=True)
+    )
 
 
 def test_without_a_service_the_network_is_ones_own():
@@ -110,7 +111,6 @@ def test_without_a_service_the_network_is_ones_own():
     "wrong", ["nobody listens", "another network", "it breaks", "it says nonsense", "full"]
 )
 def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_path, wrong):
-    own = random_network
     cloud = cloud_of(50)
 
     def broken(cloud, context):
@@ -118,44 +118,39 @@ def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_p
 
     address = Address(str(tmp_path / "gone" / "socket"), start_s=30.0)
     if wrong == "another network":
-        address = serving(own, identity="other")
+        address = serving(random_network, identity="other")
     elif wrong == "it breaks":
         address = serving(broken)
     elif wrong == "full":
-        address = serving(own, most_askers=0)
+        address = serving(random_network, most_askers=0)
     elif wrong == "it says nonsense":
-        listening = listening_socket(str(tmp_path / "nonsense"))
-        call = (listening, lambda _: b"\xff" * 100)
-        threading.Thread(target=answer_all, args=call, daemon=True).start()
-        address = Address(str(tmp_path / "nonsense"))
+        address = serving(random_network, answering=lambda _: b"\xff" * 100)
     asked_at_home = []
 
     def home():
         asked_at_home.append(True)
-        return own
+        return random_network
 
     with asking(address):
         served = network_for("it", home)
     began = time.monotonic()
-    assert equal(served(cloud, cloud), own(cloud, cloud))
+    assert equal(served(cloud, cloud), random_network(cloud, cloud))
     served(cloud, cloud)
     assert len(asked_at_home) == 1, "loaded once, asked twice"
     assert time.monotonic() - began < 10.0, "a service that is gone for good is not waited for"
-    if wrong == "it says nonsense":
-        listening.shutdown(socket.SHUT_RDWR)
-        listening.close()
 
 
 def test_closest_points_that_are_held_no_more_come_from_home(serving):
-    network = random_network
     cloud = cloud_of(50)
-    with asking(serving(network)):
-        served = network_for("it", lambda: network)
+    with asking(serving(random_network)):
+        served = network_for("it", lambda: random_network)
     first = served(cloud, cloud)
     for _ in range(HELD):
         served(cloud, cloud)
     ids = np.zeros(50, dtype=np.int64)
-    assert np.array_equal(first.closest_points(ids), network(cloud, cloud).closest_points(ids))
+    assert np.array_equal(
+        first.closest_points(ids), random_network(cloud, cloud).closest_points(ids)
+    )
 
 
 def test_messages_come_back_as_they_were():
@@ -163,6 +158,8 @@ def test_messages_come_back_as_they_were():
     message = unpack(pack(Message("kind", {"x": "y"}, arrays)))
     assert (message.kind, dict(message.texts)) == ("kind", {"x": "y"})
     assert all(np.array_equal(message.arrays[name], array) for name, array in arrays.items())
+    # So does what is written here as those below are.
+    assert unpack(array("F32", [1], b"1234")).arrays["a"].shape == (1,)
 
 
 def header(text, body=b""):
@@ -173,10 +170,6 @@ def array(dtype, shape, body):
     described = {"dtype": dtype, "shape": shape, "data_offsets": [0, len(body)]}
     told = {"__metadata__": {"kind": "x"}, "a": described}
     return header(json.dumps(told).encode(), body)
-
-
-def test_a_message_is_plain_arrays_with_a_kind():
-    assert unpack(array("F32", [1], b"1234")).arrays["a"].shape == (1,)
 
 
 @pytest.mark.parametrize(
@@ -212,28 +205,23 @@ def test_a_header_that_is_too_long_is_not_even_parsed():
         unpack(header(told.encode()))
 
 
-def test_what_is_too_long_is_received_no_further(monkeypatch):
+@pytest.mark.parametrize(
+    ("said", "leaves", "error"),
+    [
+        (bytes(1001), False, WireError),
+        (b"", True, ConnectionResetError),
+        (b"1", False, TimeoutError),
+    ],
+    ids=["says too much", "leaves without a word", "dawdles"],
+)
+def test_who_does_not_ask_is_not_answered(monkeypatch, said, leaves, error):
     monkeypatch.setattr(wire, "MOST_BYTES", 1000)
     here, there = socket.socketpair()
     with here, there:
-        there.sendall(bytes(1001))
-        with pytest.raises(WireError, match="at most"):
-            wire.receive(here, time.monotonic() + 5.0)
-
-
-def test_who_leaves_without_a_word_is_not_answered():
-    here, there = socket.socketpair()
-    with here:
-        there.close()
-        with pytest.raises(ConnectionResetError):
-            wire.receive(here, time.monotonic() + 5.0)
-
-
-def test_who_dawdles_is_not_waited_for():
-    here, there = socket.socketpair()
-    with here, there:
-        there.sendall(b"1")
-        with pytest.raises(TimeoutError):
+        there.sendall(said)
+        if leaves:
+            there.close()
+        with pytest.raises(error, match="at most" if error is WireError else None):
             wire.receive(here, time.monotonic() + 0.1)
 
 

@@ -99,21 +99,22 @@ def test_doubled_names_are_refused(tmp_path):
         open_checkpoint(file)
 
 
-@pytest.mark.parametrize("wrapped", [False, True])
-def test_what_torch_saves_is_read(tmp_path, wrapped):
-    file = tmp_path / "model.pt"
-    state = OrderedDict(TENSORS)
-    whole = {"state_dict": state, "epoch": 3, "callbacks": {"best": 0.5}, ("epoch", 1): 3}
-    torch.save(whole if wrapped else state, file)
-    assert_same(loaded(file))
+BASE = torch.arange(12.0).reshape(3, 4)
+VIEWS = {"turned": BASE.T, "tail": BASE[1:, 2], "own": torch.nn.Parameter(BASE)}
 
 
-def test_a_modules_parameters_and_views_are_read(tmp_path):
-    file = tmp_path / "model.pt"
-    base = torch.arange(12.0).reshape(3, 4)
-    state = {"turned": base.T, "tail": base[1:, 2], "own": torch.nn.Parameter(base)}
-    torch.save(state, file)
-    assert_same(loaded(file), {name: tensor.detach() for name, tensor in state.items()})
+@pytest.mark.parametrize(
+    ("saved", "wanted"),
+    [
+        (OrderedDict(TENSORS), TENSORS),
+        ({"state_dict": TENSORS, "callbacks": {"best": 0.5}, ("epoch", 1): 3}, TENSORS),
+        (VIEWS, {name: tensor.detach() for name, tensor in VIEWS.items()}),
+    ],
+    ids=["tensors", "a state", "views and parameters"],
+)
+def test_what_torch_saves_is_read(tmp_path, saved, wanted):
+    torch.save(saved, tmp_path / "model.pt")
+    assert_same(loaded(tmp_path / "model.pt"), wanted)
 
 
 def test_settings_of_unknown_classes_are_passed_over(tmp_path, monkeypatch):
@@ -204,24 +205,29 @@ def test_an_archive_that_is_cut_off_is_refused(tmp_path, share):
         open_checkpoint(tmp_path / "cut.pt")
 
 
-def test_a_tensor_larger_than_its_storage_is_refused(tmp_path):
-    # A million rows that share one number take no room in a file, and gigabytes once they are
-    # loaded.
-    torch.save({"wide": torch.zeros(1).expand(1_000_000, 1000)}, tmp_path / "bomb.pt")
-    with pytest.raises(ConfigError, match=r"wide: shape .* does not fit the 1 numbers stored"):
-        open_checkpoint(tmp_path / "bomb.pt")
+@pytest.mark.parametrize(
+    ("saved", "says"),
+    [
+        # A million rows that share one number take no room in a file, and gigabytes once they are
+        # loaded.
+        (
+            {"wide": torch.zeros(1).expand(1_000_000, 1000)},
+            r"wide: shape .* does not fit the 1 numbers stored",
+        ),
+        ([1, 2], "no mapping"),
+        ({"epoch": 3}, "holds no tensors"),
+    ],
+)
+def test_what_holds_no_tensors_as_they_are_stored_is_refused(tmp_path, saved, says):
+    torch.save(saved, tmp_path / "model.pt")
+    with pytest.raises(ConfigError, match=says):
+        open_checkpoint(tmp_path / "model.pt")
 
 
-def test_the_old_format_and_empty_files_say_what_to_do(tmp_path):
+def test_the_old_format_says_what_to_do(tmp_path):
     torch.save(TENSORS, tmp_path / "old.pt", _use_new_zipfile_serialization=False)
     with pytest.raises(ConfigError, match="save it again"):
         open_checkpoint(tmp_path / "old.pt")
-    torch.save([1, 2], tmp_path / "list.pt")
-    with pytest.raises(ConfigError, match="no mapping"):
-        open_checkpoint(tmp_path / "list.pt")
-    torch.save({"epoch": 3}, tmp_path / "none.pt")
-    with pytest.raises(ConfigError, match="holds no tensors"):
-        open_checkpoint(tmp_path / "none.pt")
 
 
 def test_floats_become_float32_and_the_unwanted_stay_in_the_file(stored):

@@ -1,6 +1,7 @@
 """Counts, shares, changes and exit codes, in closed form."""
 
 from dataclasses import replace
+from pathlib import PurePath
 
 import pytest
 from hypothesis import given
@@ -9,25 +10,25 @@ from nights_made import attempt, night
 
 from asset_factory.factory.report.nightly.figures import (
     Changes,
+    SourceRules,
     compare,
     licenses,
     reasons,
     slowest,
+    source_yields,
     stage_times,
 )
 from asset_factory.factory.report.nightly.formats import clock_span, percent, points
 from asset_factory.factory.report.nightly.night import latest, night_from, night_to, tally
-from asset_factory.factory.report.nightly.outcome import FailureRules, concerns
-from asset_factory.factory.report.nightly.outcome import exit_code as first_exit_code
+from asset_factory.factory.report.nightly.outcome import FailureRules, concerns, exit_code
 from asset_factory.factory.report.nightly.report import NightlyReport, message, summary
 
 
-def sentences(*asked):
-    return [concern.sentence for concern in concerns(*asked)]
-
-
-def exit_code(*asked):
-    return first_exit_code(concerns(*asked))
+def codes(now, before, rules, **more):
+    """The exit code of a night after another one, and that of each of its concerns."""
+    figures = night("2", now, **more)
+    found = list(concerns(figures, night("1", before), compare(before, now), rules))
+    return exit_code(found), [concern.exit_code for concern in found]
 
 
 OF_TEN = [attempt(f"a{i}") for i in range(8)] + [attempt("b", "rejected"), attempt("c", "unjudged")]
@@ -104,56 +105,58 @@ def test_the_first_night_has_nothing_to_compare_with():
     changes = compare([], OF_TEN)
     assert len(changes.fresh) == 10
     assert not changes.failing
-    assert exit_code(night("1", OF_TEN[:9]), None, changes, FailureRules()) == 0
+    assert list(concerns(night("1", OF_TEN[:9]), None, changes, FailureRules())) == []
 
 
 WELL = [*OF_TEN[:8], attempt("d"), attempt("e")]
 WORSE = [*OF_TEN[:9], attempt("d", "rejected")]
+NEW = [*WELL, *(attempt(f"new{i}", "rejected") for i in range(10))]
+KNOWN_TO_CRASH = attempt("f", "unjudged", reason="crashed", attempts=0)
+ANY_YIELD = FailureRules(yield_drop=1.0)
 
 
 @pytest.mark.parametrize(
-    ("now", "more", "failure", "code"),
+    ("now", "more", "failure", "code", "each"),
     [
-        (WELL, {}, FailureRules(), 0),
-        (OF_TEN, {}, FailureRules(yield_drop=1.0), 3),
-        (OF_TEN, {}, FailureRules(yield_drop=1.0, unjudged=False), 0),
-        (WELL, {"damaged": 1}, FailureRules(), 4),
-        (WELL, {"damaged": 1}, FailureRules(damage=False), 0),
-        (WORSE, {}, FailureRules(), 5),
-        (WORSE, {}, FailureRules(yield_drop=0.2), 0),
-        (OF_TEN, {"damaged": 1}, FailureRules(), 4),
-        (OF_TEN, {}, FailureRules(), 5),
-        (OF_TEN, {"damaged": 1, "state": "interrupted"}, FailureRules(), 130),
-        (WELL, {"state": "out_of_time", "waiting": 3}, FailureRules(), 0),
+        (WELL, {}, FailureRules(), 0, []),
+        (OF_TEN, {}, ANY_YIELD, 3, [3]),
+        (OF_TEN, {}, replace(ANY_YIELD, unjudged=False), 0, [0]),
+        (WELL, {"damaged": 1}, FailureRules(), 4, [4]),
+        (WELL, {"damaged": 1}, FailureRules(damage=False), 0, [0]),
+        (WELL, {"damaged": 2, "mended": 2}, FailureRules(), 0, [0]),
+        (WELL, {"damaged": 2, "mended": 1, "withdrawn": 1}, FailureRules(), 4, [4]),
+        (WORSE, {}, FailureRules(), 5, [5, 0]),
+        (WORSE, {}, FailureRules(yield_drop=0.2), 0, [0]),
+        # Inputs that are new are no fall of what both nights had.
+        (NEW, {}, FailureRules(over="all"), 5, [5]),
+        (NEW, {}, FailureRules(over="shared"), 0, []),
+        ([*WELL, KNOWN_TO_CRASH], {}, ANY_YIELD, 0, [0]),
+        ([*WELL, replace(KNOWN_TO_CRASH, attempts=1)], {}, ANY_YIELD, 3, [3]),
+        (OF_TEN, {"damaged": 1}, FailureRules(), 4, [4, 5, 3]),
+        (OF_TEN, {}, FailureRules(), 5, [5, 3]),
+        (OF_TEN, {"damaged": 1, "state": "interrupted"}, FailureRules(), 130, [130, 4, 5, 3]),
+        (WELL, {"state": "out_of_time", "waiting": 3}, FailureRules(), 0, [0]),
     ],
 )
-def test_exit_codes(now, more, failure, code):
-    before = night("1", WELL)
-    figures = night("2", now, **more)
-    assert exit_code(figures, before, compare(WELL, now), failure) == code
-    assert bool(sentences(figures, before, compare(WELL, now), failure)) == (
-        code != 0 or now is not WELL or bool(more)
-    )
+def test_the_worst_concern_is_the_exit_code_and_the_first(now, more, failure, code, each):
+    assert codes(now, WELL, failure, **more) == (code, each)
 
 
-def test_new_inputs_that_fail_are_no_fall_of_what_both_nights_had():
-    now = WELL + [attempt(f"new{i}", "rejected") for i in range(10)]
-    before = night("1", WELL)
-    changes = compare(WELL, now)
-    assert exit_code(night("2", now), before, changes, FailureRules(over="all")) == 5
-    assert exit_code(night("2", now), before, changes, FailureRules(over="shared")) == 0
+def test_what_does_not_ring_is_said_too():
+    figures = night("1", [*WELL, KNOWN_TO_CRASH], damaged=2, mended=2, withdrawn=0)
+    assert [item.sentence for item in concerns(figures, None, Changes(), FailureRules())] == [
+        "Damaged: 2 registered assets; the files were not what was registered: 2 made whole again.",
+        "Known to crash: 1 input; another version of anything tries them again.",
+    ]
 
 
 @pytest.mark.parametrize("drop", [0.05, 0.1, 0.3, 0.7])
 def test_a_fall_of_exactly_what_is_allowed_is_allowed(drop):
     before = [attempt(f"a{i}") for i in range(100)]
-    fallen = round(100 * drop)
-    now = [attempt(f"a{i}", "rejected" if i < fallen else "passed") for i in range(100)]
-    changes = compare(before, now)
-    rules = FailureRules(yield_drop=drop)
-    assert exit_code(night("2", now), night("1", before), changes, rules) == 0
-    one_more = [attempt(f"a{i}", "rejected" if i <= fallen else "passed") for i in range(100)]
-    assert exit_code(night("2", one_more), night("1", before), changes, rules) == 5
+    for more, code in ((0, 0), (1, 5)):
+        fallen = round(100 * drop) + more
+        now = [attempt(f"a{i}", "rejected" if i < fallen else "passed") for i in range(100)]
+        assert codes(now, before, FailureRules(yield_drop=drop))[0] == code
 
 
 def test_reasons_are_counted_with_an_example_that_has_a_sentence():
@@ -233,21 +236,47 @@ def test_spans_of_time_never_lose_an_hour(seconds):
     assert abs(sum(n * sizes[u] for n, u in zip(numbers, units, strict=True)) - seconds) <= 30.5
 
 
-def test_what_was_mended_does_not_ring_and_what_is_known_to_crash_does_not_either():
-    figures = night("1", WELL, damaged=2, mended=2)
-    asked = (figures, None, Changes(), FailureRules())
-    assert exit_code(*asked) == 0
-    assert sentences(*asked) == [
-        "Damaged: 2 registered assets; the files were not what was registered: 2 made whole again."
-    ]
-    lost = (replace(figures, mended=1, withdrawn=1), None, Changes(), FailureRules())
-    assert exit_code(*lost) == 4
+ROOTS = (PurePath("meshes"), PurePath("meshes/inner"), PurePath("/single.glb"))
 
-    waiting = [*WELL, attempt("e", "unjudged", reason="crashed", attempts=0)]
-    asked = (night("1", waiting), None, Changes(), FailureRules())
-    assert exit_code(*asked) == 0
-    assert sentences(*asked) == [
-        "Known to crash: 1 input; another version of anything tries them again."
-    ]
-    anew = [*WELL, attempt("e", "unjudged", reason="crashed")]
-    assert exit_code(night("1", anew), None, Changes(), FailureRules()) == 3
+
+def attempts(passed, rejected, folder=""):
+    names = [f"{folder}{number}" for number in range(passed + rejected)]
+    return [attempt(n, "passed" if i < passed else "rejected") for i, n in enumerate(names)]
+
+
+def yields(now, earlier, rules=None):
+    return source_yields(now, ROOTS, [{"meshes": each} for each in earlier], rules or SourceRules())
+
+
+def test_an_input_belongs_to_the_innermost_root_above_it():
+    given = [attempt("a"), attempt("inner/b"), attempt("inner/c", "rejected")]
+    given += [replace(attempt("d"), input="/single.glb")]
+    found = source_yields(given, ROOTS, (), SourceRules())
+    counted = [(each.source, each.passed, each.tried) for each in found]
+    assert counted == [("/", 1, 1), ("meshes", 1, 1), ("meshes/inner", 1, 2)]
+
+
+@pytest.mark.parametrize(
+    ("now", "earlier", "fell"),
+    [
+        ((80, 20), [(90, 100)] * 3, False),
+        ((79, 21), [(90, 100)] * 3, True),
+        ((79, 21), [(90, 100)] * 2, False),
+        ((79, 21), [(90, 100), (5, 10), (90, 100)], False),
+        ((3, 16), [(90, 100)] * 3, False),
+        # One bad night is not what is usual, fourteen are.
+        ((79, 21), [(90, 100)] * 10 + [(10, 100)], True),
+        ((79, 21), [(90, 100)] * 10 + [(80, 100)] * 14, False),
+        # A point a night, of which none is a fall against the night before.
+        ((70, 30), [(100 - number, 100) for number in range(30)], False),
+        ((64, 36), [(100 - 2 * number, 100) for number in range(18)], True),
+    ],
+)
+def test_a_fall_below_the_median_of_the_last_nights_counts(now, earlier, fell):
+    (source,) = yields(attempts(*now), earlier)
+    assert source.fell is fell
+
+
+def test_nothing_is_compared_where_that_is_not_wanted():
+    (source,) = yields(attempts(10, 90), [(90, 100)] * 9, SourceRules(nights=0))
+    assert (source.usual, source.fell) == (None, False)

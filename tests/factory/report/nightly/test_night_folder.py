@@ -9,6 +9,7 @@ from asset_factory.factory.report.nightly.files import (
     SUMMARY,
     chosen_name,
     next_name,
+    read_sources,
     stored_nights,
     unfinished,
 )
@@ -89,3 +90,9 @@ def test_summaries_are_read_in_the_order_of_the_nights(tmp_path):
     assert [stored.name for stored in stored_nights(tmp_path)] == ["sooner", "later"]
     (tmp_path / "later").rename(tmp_path / "renamed")
     assert [stored.name for stored in stored_nights(tmp_path)] == ["sooner", "renamed"]
+
+
+@pytest.mark.parametrize("data", [{}, {"sources": 3}, {"sources": [{"source": "a"}]}])
+def test_summaries_of_other_versions_tell_nothing_of_sources(tmp_path, data):
+    write_json(tmp_path / SUMMARY, data)
+    assert read_sources(tmp_path) == {}

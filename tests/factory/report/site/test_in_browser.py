@@ -11,10 +11,9 @@ from dataclasses import replace
 import pytest
 from browser import CONTRAST, LAPTOP, PHONE, until
 from registry_samples import PASSED
-from shown_registry import make_registry
+from shown_registry import draw, make_registry
 
 from asset_factory.factory.report.site.render import STATIC, STATIC_FILES, grid_html
-from asset_factory.factory.report.site.site import stale, write_asset, write_index
 from asset_factory.factory.report.site.told import AssetPage
 
 pytestmark = pytest.mark.browser
@@ -25,10 +24,7 @@ MOST_MEMORY = 500_000_000
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    registry = make_registry(tmp_path_factory.mktemp("browser"))
-    for entry in stale(registry):
-        write_asset(registry.root, entry)
-    return write_index(registry).parent
+    return draw(make_registry(tmp_path_factory.mktemp("browser"))).parent
 
 
 def link_positions(page):

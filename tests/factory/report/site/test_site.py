@@ -11,7 +11,7 @@ from export_samples import PROVENANCE, cabinet
 from html_page import Page
 from refusing import refusal
 from registry_samples import PASSED
-from shown_registry import HIT, HOSTILE, POINT, bundle_in, make_registry
+from shown_registry import HIT, HOSTILE, POINT, bundle_in, draw, make_registry
 
 from asset_factory.factory.display.made import scene_of
 from asset_factory.factory.errors import InputRejected
@@ -31,9 +31,7 @@ EXAMPLES = Path(__file__).parents[4] / "examples"
 @pytest.fixture(scope="module")
 def registry(tmp_path_factory):
     made = make_registry(tmp_path_factory.mktemp("shown"))
-    for entry in stale(made):
-        write_asset(made.root, entry)
-    write_index(made)
+    draw(made)
     return made
 
 
@@ -146,8 +144,7 @@ def test_only_what_changed_is_drawn_again(registry):
 
 def test_pages_of_what_is_gone_go(tmp_path):
     registry = make_registry(tmp_path)
-    for entry in stale(registry):
-        write_asset(registry.root, entry)
+    draw(registry)
     registry.forget("still-3")
     assert list(stale(registry)) == []
     assert not (tmp_path / "report/a/still-3").exists()
@@ -161,9 +158,7 @@ def test_a_damaged_or_half_written_entry_has_a_page_or_none_and_stops_nobody(tmp
     (registry.assets / "cabinet-1/asset.json").write_text("{")
     (registry.rejected / "hitting-2/report.json").write_text("no json")
     (registry.assets / "foreign").mkdir()
-    for entry in stale(registry):
-        write_asset(registry.root, entry)
-    write_index(registry)
+    draw(registry)
     assert index_of(registry.root).is_file()
     # The URDF still shows what it was.
     assert asset_page(tmp_path, registry.entry("cabinet-1")).scene is not None

@@ -1,14 +1,18 @@
-"""The kinematic tree refuses what is not one, and moves its links as rotations and slides do."""
+"""The nouns refuse what no simulator should be given, and move as rotations and slides do."""
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
-from asset_factory.factory.errors import InvalidArticulation
+from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
+from asset_factory.factory.errors import InvalidArticulation, InvalidAsset
 from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.part import OpensBy, Panel, PartKind, PartSource, Proposer
+from asset_factory.factory.runtime.packing import pack, unpack
 
 
 def triangles(count):
@@ -125,3 +129,85 @@ def test_children_move_with_their_parents(tree, data):
             there = poses[joint.parent] @ on_axis
             np.testing.assert_allclose(poses[joint.child] @ on_axis, there, atol=1e-9)
     np.testing.assert_allclose(tree.poses(), np.tile(np.eye(4), (len(tree.parts), 1, 1)))
+
+
+FRAME = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
+DOOR = Part(
+    "door_0",
+    np.arange(3),
+    0.7,
+    kind=PartKind.DOOR,
+    panel=Panel(FRAME, [0.1, 0.2], [0.5, 0.8], -0.3, 0.02, OpensBy.LEFT),
+    source=PartSource("0123456789ab", Proposer.SIDES, 0.7, {"shown": 1.5}),
+)
+
+
+def test_a_panel_knows_where_it_is_and_turns_with_its_part_and_handle():
+    panel = DOOR.panel
+    np.testing.assert_allclose(panel.center, [0.3, -0.3, 0.5])
+    np.testing.assert_allclose(panel.outward, [0.0, -1.0, 0.0])
+    np.testing.assert_allclose(panel.size, [0.4, 0.6])
+    turn = rotation_about([0.0, 0.0, 1.0], 0.3)
+    turned = DOOR.turned(turn)
+    np.testing.assert_allclose(turned.panel.center, turn @ panel.center)
+    np.testing.assert_allclose(turned.panel.outward, turn @ panel.outward)
+    back = turned.turned(turn.T)
+    np.testing.assert_allclose(back.panel.frame, panel.frame, atol=1e-15)
+
+
+def test_a_part_is_remembered_with_all_that_it_is():
+    kept = unpack(Part, pack(DOOR))
+    assert kept.kind is PartKind.DOOR
+    assert kept.panel.opens is OpensBy.LEFT
+    assert kept.source == DOOR.source
+    np.testing.assert_array_equal(kept.panel.frame, DOOR.panel.frame)
+    plain = unpack(Part, pack(Part("base", np.arange(2))))
+    assert plain.kind is PartKind.PART
+    assert plain.panel is None
+    assert plain.source is None
+
+
+BOX = trimesh.creation.box((1, 2, 3))
+
+
+def test_a_box_has_its_volume_wherever_it_lies():
+    assert Hull(BOX.vertices + 100.0, BOX.faces).volume == pytest.approx(6.0)
+
+
+@pytest.mark.parametrize(
+    ("vertices", "faces"),
+    [
+        (BOX.vertices[:3], [[0, 1, 2]]),
+        (BOX.vertices * [1, 1, 0], BOX.faces),
+        (BOX.vertices, BOX.faces[:, ::-1]),
+        (BOX.vertices * np.nan, BOX.faces),
+    ],
+)
+def test_flat_inverted_or_broken_hulls_are_refused(vertices, faces):
+    with pytest.raises(InvalidAsset, match="hull"):
+        Hull(vertices, faces)
+
+
+@pytest.mark.parametrize(
+    ("mass", "moments", "sentence"),
+    [
+        (0.0, (1, 1, 1), "mass must be more than 0, not 0.0 kg"),
+        (np.nan, (1, 1, 1), "mass must be more than 0, not nan kg"),
+        (1.0, (1, 1, -1), "smallest principal moment is -1"),
+        (1.0, (1, 1, 3), "triangle inequality"),
+        (1.0, (1, 1, np.inf), "not finite"),
+    ],
+)
+def test_impossible_inertias_are_refused(mass, moments, sentence):
+    with pytest.raises(InvalidAsset, match=sentence):
+        Inertial(mass, np.zeros(3), np.diag(np.array(moments, dtype=float)))
+
+
+def test_a_part_with_faces_needs_a_hull():
+    mesh = Mesh.from_triangles(BOX.vertices, BOX.faces)
+    articulation = Articulation(mesh, (Part("base", np.arange(12)),), (), "test")
+    inertial = Inertial(1.0, np.zeros(3), np.eye(3))
+    with pytest.raises(InvalidAsset, match="no hull to collide with"):
+        Asset("box", articulation, (PartBody((), inertial),))
+    asset = Asset("box", articulation, (PartBody((Hull(BOX.vertices, BOX.faces),), inertial),))
+    assert (asset.hull_count, asset.mass) == (1, 1.0)
