@@ -17,6 +17,7 @@ from asset_factory.sim_checks.description import (
     LinkInertia,
 )
 from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
+from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.read.primitives import box
 
 #: Centre and size [m].
@@ -163,6 +164,16 @@ def keyboard(keys: int) -> Description:
     places = [((0.02 * i, 0.0, 0.0), (0.018, 0.018, 0.01)) for i in range(keys)]
     down = (0.0, 0.0, -1.0)
     return built(*(sliding(f"k{i}", [place], down, 0.004) for i, place in enumerate(places)))
+
+
+def random_pose(seed: int) -> np.ndarray:
+    """A rigid motion, shape [4, 4]."""
+    generator = np.random.default_rng(seed)
+    axis = generator.normal(size=3)
+    pose = np.eye(4)
+    pose[:3, :3] = rotation_about(axis / np.linalg.norm(axis), generator.uniform(0.0, 6.0))
+    pose[:3, 3] = generator.normal(size=3)
+    return pose
 
 
 def with_joint(description: Description, name: str, **changes: object) -> Description:

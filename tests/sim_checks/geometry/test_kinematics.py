@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from box_world import body, cabinet, described, joint
+from box_world import body, described, joint
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,7 +15,6 @@ from asset_factory.sim_checks.geometry.kinematics import (
     rotation_about,
     sweep_range,
 )
-from asset_factory.sim_checks.geometry.path import JointAxis
 
 CUBE = [((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))]
 
@@ -52,24 +51,9 @@ def test_posing_again_gives_the_digits_of_posing_for_the_first_time(samples):
         assert all(np.array_equal(again[name], first[name]) for name in first)
 
 
-def test_links_that_no_changed_joint_moves_keep_their_pose():
-    poser = Poser(arm())
-    before = poser.link_poses({"shoulder": 0.3})
-    after = poser.link_poses({"shoulder": 0.3, "elbow": 0.5})
-    assert after["upper"] is before["upper"]
-    assert after["fore"] is not before["fore"]
-
-
 def test_what_hangs_below_a_joint_moves_with_it():
     tree = arm()
     assert tree.below(next(item for item in tree.order if item.name == "elbow")) == {"fore", "tip"}
-
-
-def test_a_path_moves_points_as_the_kinematics_do():
-    tree = build_tree(cabinet())
-    rest, turned = (tree.link_poses({"hinge": value})["door"] for value in (0.0, 0.7))
-    path = JointAxis(True, rest[:3, 3], np.array([0.0, 0.0, -1.0])).path(1.57)
-    assert path.pose(0.7) @ rest == pytest.approx(turned, abs=1e-12)
 
 
 @pytest.mark.parametrize(
