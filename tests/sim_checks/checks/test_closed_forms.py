@@ -81,7 +81,7 @@ def rod(up, shares, as_mesh):
 
 
 @pytest.mark.parametrize("solid", [block, ball, rod])
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(depths, rotations, rotations, st.tuples(shares, shares, shares), st.booleans())
 def test_a_solid_in_any_pose_on_a_slab(folder, solid, depth, whole, turn, shares, as_mesh):
     shape, reach, sag = solid(turn.as_matrix()[2], np.array(shares), as_mesh)
