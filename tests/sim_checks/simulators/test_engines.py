@@ -25,12 +25,15 @@ def there(request):
 
 @pytest.fixture(scope="module")
 def judge():
-    """Judge a file in an engine, in one child for each engine."""
+    """Judge a file in an engine, in one child for each; a mesh may get lost before that."""
     with ExitStack() as stack:
         children = defaultdict(lambda: stack.enter_context(WarmChild()))
 
-        def judge(path, engine):
-            return judge_in_simulator(read_here(path), engine, CheckConfig(), children[engine])
+        def judge(path, engine, lost=""):
+            description = read_here(path)
+            if lost:
+                (path.parent / lost).unlink()
+            return judge_in_simulator(description, engine, CheckConfig(), children[engine])
 
         yield judge
 
@@ -84,10 +87,8 @@ def test_two_roots_are_refused_in_the_loader_s_own_words(tmp_path, judge, engine
 
 
 @of_engines("sapien", "pybullet")
-def test_a_mesh_that_vanishes_is_a_dropped_shape_or_does_not_load(tmp_path, engine):
-    description = read_here(write_urdf(tmp_path))
-    (tmp_path / "drawer_hull_0.obj").unlink()
-    result = judge_in_simulator(description, engine, CheckConfig())
+def test_a_mesh_that_vanishes_is_a_dropped_shape_or_does_not_load(tmp_path, judge, engine):
+    result = judge(write_urdf(tmp_path), engine, lost="drawer_hull_0.obj")
     found = [item for item in result.findings if item.code in ("shape_dropped", "load_failed")]
     assert found
     if engine == "sapien":
