@@ -23,9 +23,9 @@ def arm():
     """Two links of 1 m in a plane, and a slide at the tip."""
     links = [body(name, CUBE) for name in ("base", "upper", "fore", "tip")]
     joints = [
-        joint("wrist", "prismatic", "fore", "tip", (1, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.5)),
-        joint("shoulder", "revolute", "base", "upper", (0, 0, 0), (0.0, 0.0, 1.0), (-3.0, 3.0)),
-        joint("elbow", "revolute", "upper", "fore", (1, 0, 0), (0.0, 0.0, 2.0), (-3.0, 3.0)),
+        joint("wrist", "prismatic", "fore", "tip", (1, 0, 0), (1, 0, 0), (0.0, 0.5)),
+        joint("shoulder", "revolute", "base", "upper", (0, 0, 0), (0, 0, 1), (-3.0, 3.0)),
+        joint("elbow", "revolute", "upper", "fore", (1, 0, 0), (0, 0, 2), (-3.0, 3.0)),
     ]
     return build_tree(described(links, joints))
 
@@ -72,11 +72,17 @@ def test_what_is_no_tree_is_refused(links, pairs, message):
         build_tree(described([body(name, CUBE) for name in links], joints))
 
 
-def test_ranges_that_cannot_be_swept_are_none_and_a_turn_is_one_turn():
-    good = joint("j", "revolute", "a", "b", (0, 0, 0), (0, 0, 1), (0.0, 1.0))
-    assert sweep_range(good) == (0.0, 1.0)
-    assert sweep_range(replace(good, lower=1.0, upper=0.0)) is None
-    assert sweep_range(replace(good, upper=float("inf"))) is None
-    assert sweep_range(replace(good, kind="continuous", lower=None, upper=None)) == (0.0, 2 * np.pi)
-    assert sweep_range(replace(good, kind="prismatic", lower=None, upper=None)) is None
-    assert sweep_range(replace(good, lower=-10.0, upper=10.0)) == (-10.0, -10.0 + 2 * np.pi)
+@pytest.mark.parametrize(
+    ("changes", "swept"),
+    [
+        ({}, (0.0, 1.0)),
+        ({"lower": 1.0, "upper": 0.0}, None),
+        ({"upper": float("inf")}, None),
+        ({"kind": "continuous", "lower": None, "upper": None}, (0.0, 2 * np.pi)),
+        ({"kind": "prismatic", "lower": None, "upper": None}, None),
+        ({"lower": -10.0, "upper": 10.0}, (-10.0, -10.0 + 2 * np.pi)),
+    ],
+)
+def test_ranges_that_cannot_be_swept_are_none_and_a_turn_is_one_turn(changes, swept):
+    line = joint("j", "revolute", "a", "b", (0, 0, 0), (0, 0, 1), (0.0, 1.0))
+    assert sweep_range(replace(line, **changes)) == swept
