@@ -51,11 +51,6 @@ def test_posing_again_gives_the_digits_of_posing_for_the_first_time(samples):
         assert all(np.array_equal(again[name], first[name]) for name in first)
 
 
-def test_what_hangs_below_a_joint_moves_with_it():
-    tree = arm()
-    assert tree.below(next(item for item in tree.order if item.name == "elbow")) == {"fore", "tip"}
-
-
 @pytest.mark.parametrize(
     ("links", "pairs", "message"),
     [
