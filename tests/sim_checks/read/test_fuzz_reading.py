@@ -7,7 +7,7 @@ from refusing import judges_refusal
 
 from asset_factory.sim_checks.read import document, mjcf, references, urdf
 from asset_factory.sim_checks.read.multiplied import MOST
-from asset_factory.sim_checks.read.read import read_here
+from asset_factory.sim_checks.read.read import read_description, read_here
 
 #: Far more than the work takes, far less than what it took.
 QUICK_S = 5.0
@@ -49,7 +49,7 @@ def test_whoever_declares_a_document_type_is_refused(encoding, tmp_path):
     (tmp_path / "m.dae").write_bytes(f"{declared}<COLLADA>&a;</COLLADA>".encode(encoding))
     assert refusal(tmp_path, BOX.format('<mesh filename="m.dae"/>')).code == "forbidden_doctype"
     (tmp_path / "a.urdf").write_bytes(f'{declared}<robot name="&a;"/>'.encode(encoding))
-    assert judges_refusal(read_here, tmp_path / "a.urdf").code == "forbidden_doctype"
+    assert judges_refusal(read_description, tmp_path / "a.urdf").code == "forbidden_doctype"
 
 
 def test_more_elements_than_any_object_has_are_too_large(monkeypatch, tmp_path):
