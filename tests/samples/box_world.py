@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from fault_corpus.things import renewed, words
@@ -16,6 +17,7 @@ from asset_factory.sim_checks.description import (
     LinkInertia,
 )
 from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
+from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.read.primitives import box
 
 #: Centre and size [m].
@@ -53,16 +55,55 @@ def joint(
     at: Sequence[float],
     axis: Sequence[float],
     limits: tuple[float, float] | None,
+    **more: Any,
 ) -> JointLine:
     """``at`` is the child's frame in the parent's."""
     origin = np.eye(4)
     origin[:3, 3] = at
+    along = np.asarray(axis, dtype=float)
     lower, upper = limits or (None, None)
-    return JointLine(name, kind, parent, child, origin, np.asarray(axis, dtype=float), lower, upper)
+    return JointLine(name, kind, parent, child, origin, along, lower, upper, **more)
 
 
 def described(links: Sequence[Link], joints: Sequence[JointLine]) -> Description:
     return Description(Path("boxes.urdf"), "urdf", tuple(links), tuple(joints))
+
+
+#: Far below what moves.
+BASE = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
+
+
+def sliding(
+    name: str,
+    boxes: Sequence[Box],
+    axis: Sequence[float],
+    upper: float,
+    parent: str = "base",
+    **more: Any,
+) -> tuple[Link, JointLine]:
+    """A link of boxes, and the slide of the same name that holds it, from 0 to ``upper`` [m]."""
+    limits = (0.0, upper)
+    line = joint(name, "prismatic", parent, name, (0.0, 0.0, 0.0), axis, limits, **more)
+    return body(name, boxes), line
+
+
+def turning(
+    name: str,
+    boxes: Sequence[Box],
+    at: Sequence[float],
+    axis: Sequence[float],
+    upper: float,
+    parent: str = "base",
+    **more: Any,
+) -> tuple[Link, JointLine]:
+    """A link of boxes, and the hinge of the same name at a place, from 0 to ``upper`` [rad]."""
+    line = joint(name, "revolute", parent, name, at, axis, (0.0, upper), **more)
+    return body(name, boxes, at), line
+
+
+def built(*moving: tuple[Link, JointLine], base: Link = BASE) -> Description:
+    """What moves, and what carries it."""
+    return described([base, *(link for link, _ in moving)], [line for _, line in moving])
 
 
 def cabinet(defect: str = "none") -> Description:
@@ -97,10 +138,10 @@ def cabinet(defect: str = "none") -> Description:
     hinge = (hinge_x, front, 0.6)
     door = [((0.0, front - t / 2, (low + 0.8) / 2), (0.6, t, 0.8 - low))]
     outwards = (0.0, 0.0, 1.0 if defect == "axis_flip" else -1.0)
+    out = (0.0, -1.0, 0.0)
     links = [body("carcass", carcass), body("drawer", drawer), body("door", door, hinge)]
-    out = ((0.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.3))
     joints = [
-        joint("slide", "prismatic", "carcass", "drawer", *out),
+        joint("slide", "prismatic", "carcass", "drawer", (0.0, 0.0, 0.0), out, (0.0, 0.3)),
         joint("hinge", "revolute", "carcass", "door", hinge, outwards, (0.0, 1.57)),
     ]
     return described(links, joints)
@@ -120,14 +161,19 @@ def chain(links: int) -> Description:
 
 def keyboard(keys: int) -> Description:
     """Keys in a row, 2 mm apart, that go down into nothing."""
-    bodies = [body("base", [((0.0, 0.0, -1.0), (1.0, 1.0, 0.1))])]
-    slides = []
-    for i in range(keys):
-        at = (0.02 * i, 0.0, 0.0)
-        bodies.append(body(f"k{i}", [(at, (0.018, 0.018, 0.01))], at))
-        way = (at, (0.0, 0.0, -1.0), (0.0, 0.004))
-        slides.append(joint(f"j{i}", "prismatic", "base", f"k{i}", *way))
-    return described(bodies, slides)
+    places = [((0.02 * i, 0.0, 0.0), (0.018, 0.018, 0.01)) for i in range(keys)]
+    down = (0.0, 0.0, -1.0)
+    return built(*(sliding(f"k{i}", [place], down, 0.004) for i, place in enumerate(places)))
+
+
+def random_pose(seed: int) -> np.ndarray:
+    """A rigid motion, shape [4, 4]."""
+    generator = np.random.default_rng(seed)
+    axis = generator.normal(size=3)
+    pose = np.eye(4)
+    pose[:3, :3] = rotation_about(axis / np.linalg.norm(axis), generator.uniform(0.0, 6.0))
+    pose[:3, 3] = generator.normal(size=3)
+    return pose
 
 
 def with_joint(description: Description, name: str, **changes: object) -> Description:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from fault_corpus.exhibits import edited, mjcf, urdf
 from fault_corpus.things import Body, Move, Thing, at, box
@@ -81,6 +82,11 @@ def write_lid(folder: Path) -> Path:
 
 def codes(result: CheckResult | Report, severity: Severity = Severity.ERROR) -> list[str]:
     return [finding.code for finding in result.findings if finding.severity is severity]
+
+
+def rows(result: CheckResult) -> dict[str, Any]:
+    """What was measured of each joint, by its name."""
+    return {row["joint"]: row for row in result.measurements["joints"]}
 
 
 def motion_of(result: CheckResult, joint: str) -> dict[str, float]:

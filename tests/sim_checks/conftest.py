@@ -5,8 +5,8 @@ import pytest
 from asset_factory.sim_checks.judge import Judge
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def judge():
-    """One judge for all files of a module: its children are started once."""
+    """One judge for all files: its children are started once."""
     with Judge() as judge:
         yield judge

@@ -1,6 +1,10 @@
-"""One judge, many files: what was judged before, and in what order, is nothing to the next."""
+"""One call judges a file from anyone, and one judge many: a bad file is a finding, and no other's.
+
+What was judged before, and in what order, is nothing to the next.
+"""
 
 import os
+import signal
 
 import pytest
 import trimesh
@@ -8,8 +12,9 @@ from box_world import write_drawer
 from small_cabinet import write_mjcf, write_urdf
 
 from asset_factory.sim_checks import Status, run_checks
+from asset_factory.sim_checks.checks import catalog
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig
-from asset_factory.sim_checks.judge import Judge
+from asset_factory.sim_checks.judge import Judge, examine_here
 from asset_factory.sim_checks.processes.isolation import Failure, Outcome, WarmChild
 from asset_factory.sim_checks.simulators.catalog import installed
 
@@ -21,34 +26,22 @@ def good(tmp_path_factory):
     return write_urdf(tmp_path_factory.mktemp("good"))
 
 
-@pytest.fixture(scope="module")
-def killer(tmp_path_factory):
-    """Two roots: Bullet's loader dies of a segmentation fault, MuJoCo's does not."""
-    return write_urdf(tmp_path_factory.mktemp("killer"), joints=False)
-
-
-@pytest.mark.skipif("pybullet" not in ENGINES, reason="needs pybullet")
-def test_a_file_that_kills_an_engine_costs_itself_its_verdict_and_the_next_one_nothing(
-    good, killer
-):
-    alone = {path: run_checks(path, ENGINES).to_json() for path in (good, killer)}
-    with Judge() as judge:
-        reports = [judge.check(path, ENGINES) for path in (good, killer, good)]
-    assert [report.to_json() for report in reports] == [alone[good], alone[killer], alone[good]]
-    assert "simulator_crashed" in {finding.code for finding in reports[1].findings}
-    assert reports[2].passed
-
-
-def test_no_order_and_no_number_of_workers_changes_a_byte(tmp_path):
+def test_neither_order_nor_workers_nor_a_crash_before_changes_a_byte(good, tmp_path):
     bad = write_drawer(tmp_path / "overlapping.urdf", -0.004)
     unreadable = tmp_path / "bad.urdf"
     unreadable.write_text("<robot")
-    files = (bad, write_mjcf(tmp_path), unreadable)
-    alone = {path: run_checks(path, ENGINES).to_json() for path in files}
-    for workers, order in ((1, files[::-1]), (3, (*files[1:], *files[:1]))):
+    # Two roots: Bullet's loader dies of a segmentation fault, MuJoCo's does not.
+    killer = write_urdf(tmp_path, joints=False)
+    (tmp_path / "mjcf").mkdir()
+    files = (good, killer, bad, write_mjcf(tmp_path / "mjcf"), unreadable)
+    alone = {path: run_checks(path, ENGINES) for path in files}
+    assert alone[good].passed
+    crashed = "simulator_crashed" in [finding.code for finding in alone[killer].findings]
+    assert crashed is ("pybullet" in ENGINES)
+    for workers, order in ((1, (good, killer, good, *files[2:])), (3, files[:1:-1])):
         with Judge(workers=workers) as judge:
             for path in order:
-                assert judge.check(path, ENGINES).to_json() == alone[path]
+                assert judge.check(path, ENGINES).to_json() == alone[path].to_json()
 
 
 def test_a_file_that_was_changed_is_judged_as_it_is_now(tmp_path):
@@ -75,11 +68,18 @@ def test_what_was_examined_is_not_examined_again(good, monkeypatch):
         assert judge.check(good, ENGINES[:1], examined).to_json() == whole.to_json()
 
 
-def test_an_engine_that_asks_for_too_much_memory_is_stopped(good):
-    # Enough for Python to start, and for nothing else.
-    config = CheckConfig(child=ChildConfig(memory_bytes=200 * 2**20))
-    report = run_checks(good, ENGINES[:1], config)
-    assert report.errors[0].code == "check_crashed"
+@pytest.mark.parametrize(
+    ("child", "code"),
+    [
+        # Enough for Python to start, and for nothing else.
+        (ChildConfig(memory_bytes=200 * 2**20), "check_crashed"),
+        (ChildConfig(wall_s=0.01), "check_timeout"),
+    ],
+    ids=["memory", "time"],
+)
+def test_a_child_that_asks_for_too_much_is_stopped(good, child, code):
+    report = run_checks(good, ENGINES[:1], CheckConfig(child=child))
+    assert report.errors[0].code == code
     assert report.status is Status.UNJUDGED
 
 
@@ -100,3 +100,68 @@ def test_what_stopped_a_reader_of_the_static_checks_is_told(
         report = judge.check(write_urdf(tmp_path), ())
     (finding,) = report.findings
     assert (finding.code, finding.stopped, report.status) == (code, stopped, Status.UNJUDGED)
+
+
+def test_a_sound_file_passes_with_its_clearance_measured(tmp_path):
+    report = run_checks(write_drawer(tmp_path / "drawer.urdf", 0.003), ())
+    assert report.passed
+    (sweep,) = report.measurements["penetration"]["joints"]
+    assert sweep["clearance_mm"] == pytest.approx(3.0, abs=0.1)
+    assert report.measurements["lint"]["format"] == "urdf"
+
+
+def test_an_unreadable_file_is_one_finding_and_no_simulator_is_asked(tmp_path):
+    path = tmp_path / "bad.urdf"
+    path.write_text("<robot")
+    report = run_checks(path, ("sapien",))
+    assert [finding.code for finding in report.findings] == ["invalid_xml"]
+    assert not report.passed
+    assert report.status is not Status.UNJUDGED
+
+
+def test_an_unknown_simulator_is_wrong_usage(tmp_path):
+    told = r"there are sapien, mujoco, pybullet, newton; did you mean 'mujoco'\?"
+    with pytest.raises(ValueError, match=told):
+        run_checks(write_drawer(tmp_path / "drawer.urdf", 0.003), ("mujcoo",))
+
+
+def die(*_):
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def dying_examine(path, config, *, native=True):
+    if native:
+        catalog.check_penetration = die
+    return examine_here(path, config, native=native)
+
+
+def test_a_crash_of_the_check_is_a_finding_and_the_lint_still_speaks(tmp_path, monkeypatch):
+    monkeypatch.setattr("asset_factory.sim_checks.judge.examine_here", dying_examine)
+    report = run_checks(write_drawer(tmp_path / "drawer.urdf", 0.003), ())
+    assert [finding.code for finding in report.errors] == ["check_crashed"]
+    assert "SIGSEGV" in report.errors[0].message
+    assert "lint" in report.measurements
+    assert report.status is Status.UNJUDGED
+
+
+BOX_MJCF = """<mujoco><worldbody><body name="shell"><geom type="box" size=".1 .1 .1"/>
+<body name="drawer" pos="0 .21 0"><joint name="slide" type="slide" axis="0 1 0" range="0 .2"/>
+<geom type="box" size=".1 .1 .1"/></body></body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("simulators", "took_part", "status"),
+    [
+        ((), (), "passed"),
+        (("sapien", "mujoco"), ("mujoco",), "passed"),
+        (("sapien",), (), "unjudged"),
+    ],
+)
+def test_who_took_part_is_named_and_a_file_that_nobody_drove_has_not_passed(
+    tmp_path, simulators, took_part, status
+):
+    (tmp_path / "box.xml").write_text(BOX_MJCF)
+    report = run_checks(tmp_path / "box.xml", simulators)
+    assert (report.simulators, report.status) == (took_part, status)
+    codes = [finding.code for finding in report.errors]
+    assert ("not_simulated" in codes) is (status == "unjudged")

@@ -3,66 +3,65 @@
 from dataclasses import replace
 
 import pytest
-from box_world import body, box_shape, described, joint, with_joint, with_link
+from box_world import body, box_shape, built, joint, sliding, turning, with_joint, with_link
 
 from asset_factory.sim_checks.checks.attachment import check_attachment
 from asset_factory.sim_checks.config import LintConfig
 
 T = 0.02
 #: An open cabinet, a metre wide and deep, of boards.
-CARCASS = [
+CARCASS = body("base", [
     ((-0.49, 0, 0.5), (T, 1, 1)),
     ((0.49, 0, 0.5), (T, 1, 1)),
     ((0, 0.49, 0.5), (1, T, 1)),
     ((0, 0, 0.01), (1, 1, T)),
     ((0, 0, 0.99), (1, 1, T)),
-]
+])  # fmt: skip
 
 
-def sliding(y, reach=0.1):
-    """A board before, or within, the cabinet; it slides along -y."""
-    board = body("door", [((0.0, y, 0.5), (0.6, T, 0.6))])
-    slide = joint("slide", "prismatic", "carcass", "door", (0, 0, 0), (0, -1, 0), (0.0, reach))
-    return described([body("carcass", CARCASS), board], [slide])
+def board(y, width=0.6):
+    """A board before, or within, the cabinet; it slides along -y by 0.1 m."""
+    return built(sliding("door", [((0.0, y, 0.5), (width, T, 0.6))], (0, -1, 0), 0.1), base=CARCASS)
 
 
-def gaps(description):
-    found = check_attachment(description, LintConfig()).findings
-    assert all((each.code, str(each.severity)) == ("part_detached", "error") for each in found)
-    return [each.value for each in found if each.value is not None]
+def with_handle():
+    hung = board(0.0)
+    handle = box_shape((0.4, 0.0, 0.5), (0.2, T, T))
+    return with_link(hung, "door", visuals=(*hung.links[1].visuals, handle))
 
 
-def test_a_door_in_the_middle_of_its_hollow_cabinet_hangs_on_nothing():
-    assert gaps(sliding(0.0)) == [pytest.approx(180.0)]
+def with_frame_between():
+    """What carries the board has no shapes and turns itself."""
+    far = with_joint(board(0.0), "door", parent="between")
+    bare = replace(CARCASS, name="between", collisions=(), visuals=())
+    turn = joint("turn", "revolute", "base", "between", (0, 0, 0), (0, 0, 1), (0.0, 0.1))
+    return replace(far, links=(*far.links, bare), joints=(turn, *far.joints))
 
 
-def test_a_finger_s_width_in_one_pose_is_enough():
-    wide = sliding(0.0)
-    within = body("door", [((0.0, 0.0, 0.5), (0.93, T, 0.6))])
-    assert gaps(with_link(wide, "door", collisions=within.collisions)) == []
-    assert gaps(sliding(0.2)) == [pytest.approx(180.0, abs=1.0)]
-    near = with_joint(sliding(0.35), "slide", lower=-0.11, upper=0.0)
-    assert gaps(near) == []
-
-
-def test_a_handle_that_is_only_seen_holds_it_too():
-    hung = sliding(0.0)
-    shapes = (*hung.links[1].visuals, box_shape((0.4, 0.0, 0.5), (0.2, T, T)))
-    assert gaps(with_link(hung, "door", visuals=shapes)) == []
-
-
-def test_links_without_shapes_between_do_not_count():
-    far = sliding(0.0)
-    bare = replace(body("between", CARCASS), collisions=(), visuals=())
-    turn = joint("turn", "revolute", "carcass", "between", (0, 0, 0), (0, 0, 1), (0.0, 0.1))
-    chained = with_joint(far, "slide", parent="between")
-    chained = replace(chained, links=(*far.links, bare), joints=(turn, *chained.joints))
-    assert len(gaps(chained)) == 2
-
-
-@pytest.mark.parametrize(("behind", "alarms"), [(0.0, 0), (0.02, 0), (0.4, 1)])
-def test_a_hinge_holds_its_door_in_every_pose(behind, alarms):
+def hinged(behind):
     hinge = (-0.5, -0.5 + behind, 0.5)
-    door = body("door", [((0.0, -0.52, 0.5), (1.0, T, 1.0))], hinge)
-    turn = joint("hinge", "revolute", "carcass", "door", hinge, (0, 0, -1), (0.0, 1.57))
-    assert len(gaps(described([body("carcass", CARCASS), door], [turn]))) == alarms
+    door = turning("door", [((0.0, -0.52, 0.5), (1.0, T, 1.0))], hinge, (0, 0, -1), 1.57)
+    return built(door, base=CARCASS)
+
+
+@pytest.mark.parametrize(
+    ("description", "gaps"),
+    [
+        (board(0.0), [180.0]),
+        (board(0.0, width=0.93), []),
+        (board(0.2), [180.0]),
+        (with_joint(board(0.35), "door", lower=-0.11, upper=0.0), []),
+        (with_handle(), []),
+        (with_frame_between(), [180.0, 180.0]),
+        (hinged(0.0), []),
+        (hinged(0.02), []),
+        (hinged(0.4), [409.7]),
+    ],
+    ids=["in the middle of its cabinet", "a finger's width from the walls", "near the back",
+         "near the back on its way", "held by a handle that is only seen",
+         "on a frame without shapes", "on its hinge", "near its hinge", "far from its hinge"],
+)  # fmt: skip
+def test_what_moves_hangs_on_what_it_comes_near_to_somewhere(description, gaps):
+    found = check_attachment(description, LintConfig()).findings
+    assert all((item.code, item.severity) == ("part_detached", "error") for item in found)
+    assert [item.value for item in found] == pytest.approx(gaps, rel=1e-3)

@@ -24,6 +24,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 from small_cabinet import codes as hard
+from small_cabinet import rows
 
 from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
@@ -38,10 +39,6 @@ SURE = 0.02
 def judged(thing, config=CONFIG, write=write_urdf):
     with tempfile.TemporaryDirectory() as folder:
         return check_penetration(read_here(write(thing, Path(folder))), config)
-
-
-def joint(result, name):
-    return next(item for item in result.measurements["joints"] if item["joint"] == name)
 
 
 def codes(result):
@@ -75,24 +72,26 @@ def tray(side, top, back, travel=0.3):
 
 
 @pytest.mark.parametrize(
-    ("side", "top", "back"), [(2e-3, 4e-3, 6e-3), (9e-3, 1e-4, 1e-3), (0.02, 0.015, 3e-4)]
+    "gaps",
+    [
+        (2e-3, 4e-3, 6e-3),
+        (9e-3, 1e-4, 1e-3),
+        (0.02, 0.015, 3e-4),
+        (-5e-3, 4e-3, 6e-3),
+        (9e-3, -3e-3, 1e-3),
+        (0.02, 0.015, -0.013),
+    ],
 )
-def test_a_drawer_s_clearance_is_its_narrowest_gap(side, top, back):
-    result = judged(tray(side, top, back), WIDE)
-    assert result.findings == ()
-    assert joint(result, "slide")["clearance_mm"] == pytest.approx(
-        1000 * min(side, top, back), abs=SURE, rel=0.02
-    )
-
-
-@pytest.mark.parametrize(
-    ("side", "top", "back"), [(-5e-3, 4e-3, 6e-3), (9e-3, -3e-3, 1e-3), (0.02, 0.015, -0.013)]
-)
-def test_a_drawer_s_overlap_is_its_depth_and_never_counts_as_excess(side, top, back):
-    result = judged(tray(side, top, back))
-    assert hard(result) == ["rest_penetration"]
-    assert result.findings[0].value == pytest.approx(-1000 * min(side, top, back), rel=1e-3)
-    assert joint(result, "slide")["excess_mm"] <= SURE
+def test_a_drawer_s_narrowest_gap_is_its_clearance_or_its_depth_and_never_counts_as_excess(gaps):
+    result = judged(tray(*gaps), WIDE)
+    slide = rows(result)["slide"]
+    if min(gaps) > 0.0:
+        assert result.findings == ()
+        assert slide["clearance_mm"] == pytest.approx(1000 * min(gaps), abs=SURE, rel=0.02)
+    else:
+        assert hard(result) == ["rest_penetration"]
+        assert result.findings[0].value == pytest.approx(-1000 * min(gaps), rel=1e-3)
+        assert slide["excess_mm"] <= SURE
 
 
 @pytest.mark.parametrize("beyond", [1.1e-3, 5e-3, 0.05])
@@ -102,7 +101,7 @@ def test_a_drawer_driven_into_a_post_goes_as_deep_as_its_travel_is_too_long(beyo
     result = judged(with_body(thing, "bay", pieces=(*thing.bodies[0].pieces, post)))
     assert hard(result) == ["sweep_penetration"]
     assert result.findings[0].value == pytest.approx(1000 * beyond, rel=0.02)
-    found = joint(result, "slide")
+    found = rows(result)["slide"]
     assert found["pairs"][0]["at"] == pytest.approx(0.2 + beyond, abs=2e-5 + 0.02 * beyond)
     # It may go until it is one millimetre in, found by seven halvings, and is never let go too far.
     most = 0.2 + CONFIG.excess_m
@@ -121,7 +120,7 @@ def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap, sign):
     door = box((width / 2, sign * thick / 2, 0.0), (width, thick, 0.9))
     result = judged(doorway(jamb, door, (0.0, 0.0, -sign)))
     worst = radius - width - gap
-    found = joint(result, "hinge")
+    found = rows(result)["hinge"]
     assert worst > CONFIG.excess_m
     assert hard(result) == ["sweep_penetration"]
     assert result.findings[0].value == pytest.approx(1000 * worst, rel=0.02)
@@ -135,7 +134,7 @@ def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap, sign):
     assert first - start / 2**6 <= found["clear_until"] <= last
 
 
-@pytest.mark.parametrize("step", [3.5, 11.4, 31.5, 42.6, 60.5])
+@pytest.mark.parametrize("step", [3.5, 31.5, 60.5])
 @pytest.mark.parametrize("size", [0.002, 0.0015])
 def test_a_pin_that_meets_a_fin_between_two_samples_of_a_slide(step, size):
     """Of 64 poses 4.8 mm apart none sees it: the pin is 2 mm, the fin 1 mm."""
@@ -146,7 +145,7 @@ def test_a_pin_that_meets_a_fin_between_two_samples_of_a_slide(step, size):
     # Pin and fin share half of both along the way; across it they share 2 mm.
     deepest = min((size + 0.001) / 2, 0.002)
     assert result.findings[0].value == pytest.approx(1000 * deepest, rel=0.02)
-    assert joint(result, "slide")["pairs"][0]["at"] == pytest.approx(place, abs=1e-4)
+    assert rows(result)["slide"]["pairs"][0]["at"] == pytest.approx(place, abs=1e-4)
 
 
 @pytest.mark.parametrize("step", [2.5, 17.4, 33.5, 55.6])
@@ -162,16 +161,13 @@ def test_a_pin_on_a_door_that_meets_a_thread_between_two_samples_of_a_turn(step)
     assert hard(result) == ["sweep_penetration"]
     # Square in square, turned against one another: between face on face and corner on corner.
     assert 1.5 * 0.98 <= (result.findings[0].value or 0.0) <= 1.5 * np.sqrt(2.0)
-    assert joint(result, "hinge")["pairs"][0]["at"] == pytest.approx(angle, abs=1e-3)
+    assert rows(result)["hinge"]["pairs"][0]["at"] == pytest.approx(angle, abs=1e-3)
 
 
-@pytest.mark.parametrize("write", [write_urdf, write_mjcf])
-def test_a_knuckle_is_as_deep_as_its_leaves_are_thick(write):
-    result = judged(knuckle(0.05), write=write)
-    (found,) = [finding for finding in result.findings if finding.code == "hinge_overlap"]
-    assert found.value == pytest.approx(12.0, rel=1e-3)
-    assert hard(result) == []
-    assert hard(judged(knuckle(0.35), write=write)) != []
+def test_a_knuckle_is_as_deep_as_its_leaves_are_thick():
+    (found,) = judged(knuckle(0.05)).findings
+    assert (found.code, found.value) == ("hinge_overlap", pytest.approx(12.0, rel=1e-3))
+    assert hard(judged(knuckle(0.35))) != []
 
 
 @pytest.mark.parametrize("beyond", [2e-3, 0.02])

@@ -1,10 +1,8 @@
 """Joints that friction should hold, in worlds whose motion is known, and in MuJoCo and PyBullet."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-from box_world import body, described, joint
+from box_world import built, sliding
 from fault_corpus.exhibits import edited, mjcf, restated, urdf
 from fault_corpus.good_things import button
 from sliders import CONFIG, Sliders
@@ -43,14 +41,9 @@ def creeping(speed, **world):
     return hold(blocks, motions, CONFIG)
 
 
-def slide(friction, mass_axis=(0.0, 0.0, 1.0)):
+def slide(friction, axis=(0.0, 0.0, 1.0)):
     """A block of 2 kg that slides by 0.3 m along an axis."""
-    links = [
-        body("post", [((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))]),
-        body("block0", [((0.0, 0.0, 0.5), (0.1, 0.1, 0.1))]),
-    ]
-    line = joint("j0", "prismatic", "post", "block0", (0.0, 0.0, 0.0), mass_axis, (0.0, 0.3))
-    return described(links, [replace(line, friction=friction)])
+    return built(sliding("j0", [((0.0, 0.0, 0.5), (0.1, 0.1, 0.1))], axis, 0.3, friction=friction))
 
 
 def told(description, *holds, soft=False):
@@ -59,15 +52,15 @@ def told(description, *holds, soft=False):
     return list(check_creep(description, "engine", observation, CheckConfig(), soft=soft).findings)
 
 
-def test_a_held_block_is_left_alone_at_three_values_and_stays():
-    holds = creeping(0.0, weight=19.62, friction=25.0)
+def held(moved, at=0.15, **changes):
+    return HoldMotion("j0", {"j0": at}, moved, **changes)
+
+
+@pytest.mark.parametrize(("speed", "moved"), [(0.0, 0.0), (0.01, 0.02)], ids=["held", "creeping"])
+def test_a_block_is_left_alone_at_three_values_and_watched_to_the_end(speed, moved):
+    holds = creeping(speed, weight=19.62, friction=25.0)
     assert [item.values["j0"] for item in holds] == pytest.approx([0.075, 0.15, 0.225])
-    assert [item.moved for item in holds] == [0.0, 0.0, 0.0]
-
-
-def test_a_creeping_block_is_watched_to_the_end():
-    holds = creeping(0.01, weight=19.62, friction=25.0)
-    assert [item.moved for item in holds] == pytest.approx([0.02] * 3)
+    assert [item.moved for item in holds] == pytest.approx([moved] * 3)
 
 
 @pytest.mark.parametrize(
@@ -103,35 +96,37 @@ def test_blocks_that_cannot_meet_are_left_alone_at_the_same_time():
 
 
 @pytest.mark.parametrize(
-    ("moved", "codes"), [(0.0009, []), (0.0011, ["creeps"]), (0.1, ["creeps"])]
+    ("description", "holds", "values"),
+    [
+        (slide(25.0), [held(0.0009)], []),
+        (slide(25.0), [held(0.0011)], [0.0011]),
+        (slide(25.0), [held(0.1)], [0.1]),
+        (slide(25.0), [held(0.085, 0.075), held(0.235, 0.225), held(0.16, 0.15)], [0.235]),
+        # 2 kg along z weigh 19.62 N; along x nothing.
+        (slide(21.0), [held(0.1)], []),
+        (slide(22.0), [held(0.1)], [0.1]),
+        (slide(0.1, (1.0, 0.0, 0.0)), [held(0.1)], [0.1]),
+    ],
+    ids=["less than a millimetre", "more than a millimetre", "all the way", "the worst of three",
+         "what its own weight should move", "what friction outweighs", "what weighs nothing"],
+)  # fmt: skip
+def test_a_millimetre_is_what_a_long_slide_may_creep(description, holds, values):
+    found = [(x.code, x.value, x.unit, x.limit) for x in told(description, *holds)]
+    assert found == [("creeps", value, "m", 0.001) for value in values]
+
+
+@pytest.mark.parametrize(
+    ("hold", "soft", "code", "severity"),
+    [
+        (held(0.1), False, "creeps", "error"),
+        # No file can tell this engine to hold it.
+        (held(0.1), True, "creeps", "warning"),
+        (held(0.0, finite=False), False, "not_finite", "error"),
+    ],
 )
-def test_a_millimetre_is_what_a_long_slide_may_creep(moved, codes):
-    found = told(slide(25.0), HoldMotion("j0", {"j0": 0.15}, moved))
-    assert [item.code for item in found] == codes
-    assert all((item.value, item.unit, item.limit) == (moved, "m", 0.001) for item in found)
-
-
-def test_of_three_values_the_worst_is_told_once():
-    holds = (HoldMotion("j0", {"j0": at}, 0.01 + at) for at in (0.075, 0.225, 0.15))
-    assert [item.value for item in told(slide(25.0), *holds)] == [0.235]
-
-
-def test_where_no_file_can_tell_the_engine_creep_is_a_warning():
-    found = told(slide(25.0), HoldMotion("j0", {"j0": 0.15}, 0.1), soft=True)
-    assert [str(item.severity) for item in found] == ["warning"]
-
-
-def test_what_its_own_weight_should_move_does_not_creep():
-    """2 kg along z weigh 19.62 N; along x nothing."""
-    held = HoldMotion("j0", {"j0": 0.15}, 0.1)
-    assert told(slide(21.0), held) == []
-    assert len(told(slide(22.0), held)) == 1
-    assert len(told(slide(0.1, (1.0, 0.0, 0.0)), held)) == 1
-
-
-def test_infinity_while_held_rejects():
-    (found,) = told(slide(25.0), HoldMotion("j0", {"j0": 0.15}, 0.0, finite=False))
-    assert (found.code, str(found.severity)) == ("not_finite", "error")
+def test_creep_and_infinity_reject(hold, soft, code, severity):
+    (found,) = told(slide(25.0), hold, soft=soft)
+    assert (found.code, found.severity) == (code, severity)
 
 
 def in_mujoco(folder, **press):

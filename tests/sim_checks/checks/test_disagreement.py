@@ -6,7 +6,7 @@ It says why only where the judge's own numbers bear it out.
 import pytest
 from fault_corpus.things import Body, Move, Thing, at, box, write_urdf
 
-from asset_factory.sim_checks import Finding, Report, Severity, run_checks
+from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.checks.disagreement import disagreements
 from asset_factory.sim_checks.checks.disagreement_reasons import UNKNOWN
 from asset_factory.sim_checks.simulators.catalog import installed
@@ -223,9 +223,9 @@ every_engine = pytest.mark.skipif(
 
 
 @every_engine
-def test_a_drawer_stuck_in_its_own_carcass(tmp_path):
+def test_a_drawer_stuck_in_its_own_carcass(tmp_path, judge):
     path = slider(tmp_path, ((0, 0.3, 0), (0.4, 0.1, 0.4)), ((0, 0.16, 0), (0.4, 0.2, 0.4)), 0.3)
-    report = run_checks(path, ALL)
+    report = judge.check(path, ALL)
     (found,) = report.disagreements
     assert found.verdicts == {"sapien": "pass", "mujoco": "jammed", "pybullet": "pass"}
     assert PARENT_CHILD in found.reason
@@ -237,9 +237,9 @@ def test_a_drawer_stuck_in_its_own_carcass(tmp_path):
 
 
 @every_engine
-def test_a_button_a_millimetre_before_its_panel(tmp_path):
+def test_a_button_a_millimetre_before_its_panel(tmp_path, judge):
     path = slider(tmp_path, ((0.1, 0, 0), (0.1, 0.2, 0.2)), ((0.171, 0, 0), (0.04, 0.2, 0.2)), 0.02)
-    (found,) = run_checks(path, ALL).disagreements
+    (found,) = judge.check(path, ALL).disagreements
     assert (found.question, found.verdicts["pybullet"]) == ("rests", "pushed_at_rest")
     assert found.verdicts["mujoco"] == found.verdicts["sapien"] == "pass"
     assert MARGIN in found.reason

@@ -1,4 +1,7 @@
-"""A file beyond the bounds of work is not judged, says what was not looked at, and never passes."""
+"""What the static checks do grows with the pairs that can meet, not with all pairs, and has bounds.
+
+A file beyond them is not judged, says what was not looked at, and never passes.
+"""
 
 from dataclasses import replace
 
@@ -9,7 +12,16 @@ from asset_factory.sim_checks import run_checks
 from asset_factory.sim_checks.checks.extent import oversized, undriven
 from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
 from asset_factory.sim_checks.checks.penetration import check_penetration
-from asset_factory.sim_checks.config import CheckConfig, PenetrationConfig, WorkConfig
+from asset_factory.sim_checks.checks.standing import check_standing
+from asset_factory.sim_checks.config import (
+    CheckConfig,
+    PenetrationConfig,
+    StandingConfig,
+    WorkConfig,
+)
+from asset_factory.sim_checks.geometry import kinematics
+from asset_factory.sim_checks.geometry.collision import Collider
+from asset_factory.sim_checks.geometry.path import Orbit
 from asset_factory.sim_checks.judge import examine_here
 from asset_factory.sim_checks.report import Report, Status
 
@@ -60,3 +72,39 @@ def test_what_is_too_large_never_passes(tmp_path):
     report = run_checks(path, ("mujoco",), small)
     assert [finding.code for finding in report.findings] == ["too_large_to_judge"]
     assert report.status is Status.UNJUDGED
+
+
+POSING = (kinematics, "joint_motion")
+
+
+def counted(monkeypatch, owner, name, check, description, config):
+    calls = 0
+    original = getattr(owner, name)
+
+    def call(*args, **named):
+        nonlocal calls
+        calls += 1
+        return original(*args, **named)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(owner, name, call)
+        check(description, config)
+    return calls
+
+
+@pytest.mark.parametrize(
+    ("owner", "name", "check", "config", "make"),
+    [
+        *(
+            (*counting, check_penetration, PenetrationConfig(combinations=0), make)
+            for make in (chain, keyboard)
+            for counting in ((Collider, "stand"), (Orbit, "swept_bounds"), POSING)
+        ),
+        (*POSING, check_standing, StandingConfig(), keyboard),
+    ],
+)
+def test_twice_the_links_take_twice_the_work(owner, name, check, config, make, monkeypatch):
+    small, large = (
+        counted(monkeypatch, owner, name, check, make(count), config) for count in (12, 24)
+    )
+    assert 0 < large <= 2.5 * small

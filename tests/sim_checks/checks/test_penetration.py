@@ -4,30 +4,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from box_world import body, cabinet, described, joint, with_joint
+from box_world import body, built, cabinet, described, joint, sliding, with_joint
+from small_cabinet import codes, rows
 
 from asset_factory.sim_checks.checks.penetration import check_penetration, combination_values
 from asset_factory.sim_checks.config import PenetrationConfig
-from asset_factory.sim_checks.report import Severity
 
-CONFIG = PenetrationConfig()
-BASE = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
+UNIT = (1.0, 1.0, 1.0)
 
 
 def check(description):
-    return check_penetration(description, CONFIG)
-
-
-def hard(result):
-    return [finding for finding in result.findings if finding.severity is Severity.ERROR]
-
-
-def codes(result):
-    return [finding.code for finding in result.findings]
-
-
-def sweep_of(result, name):
-    return next(item for item in result.measurements["joints"] if item["joint"] == name)
+    return check_penetration(description, PenetrationConfig())
 
 
 @pytest.mark.parametrize(
@@ -40,9 +27,9 @@ def sweep_of(result, name):
     ],
 )
 def test_each_defect_is_caught_by_its_own_code(defect, code, name, parts, depth):
-    found = next(finding for finding in hard(check(cabinet(defect))) if finding.code == code)
-    assert (found.joint, set(found.parts), found.unit) == (name, parts, "mm")
-    assert found.value == pytest.approx(depth, rel=0.02)
+    found = next(item for item in check(cabinet(defect)).findings if item.code == code)
+    assert (found.severity, found.joint, found.unit) == ("error", name, "mm")
+    assert (set(found.parts), found.value) == (parts, pytest.approx(depth, rel=0.02))
 
 
 def test_two_joints_are_looked_at_with_both_open():
@@ -52,33 +39,27 @@ def test_two_joints_are_looked_at_with_both_open():
 
 def test_three_joints_that_run_parts_into_each_other_only_together_are_told():
     """A block that goes up and then aside meets one that comes down to beside it."""
-    far = ((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
-    links = [BASE, body("lift", [((0.0, 1.0, 0.0), (0.1, 0.1, 0.1))]), body("arm", [far])]
-    links.append(body("lid", [((0.5, 0.0, 1.0), (0.1, 0.1, 0.1))]))
-    joints = [
-        joint("up", "prismatic", "base", "lift", (0, 0, 0), (0, 0, 1), (0.0, 0.5)),
-        joint("aside", "prismatic", "lift", "arm", (0, 0, 0), (1, 0, 0), (0.0, 0.5)),
-        joint("down", "prismatic", "base", "lid", (0, 0, 0), (0, 0, -1), (0.0, 0.44)),
-    ]
-    result = check(described(links, joints))
+    size = (0.1, 0.1, 0.1)
+    lift = sliding("lift", [((0.0, 1.0, 0.0), size)], (0, 0, 1), 0.5)
+    arm = sliding("arm", [((0.0, 0.0, 0.0), size)], (1, 0, 0), 0.5, "lift")
+    lid = sliding("lid", [((0.5, 0.0, 1.0), size)], (0, 0, -1), 0.44)
+    result = check(built(lift, arm, lid))
     (found,) = result.findings
-    assert (found.code, found.severity) == ("combination_penetration", Severity.WARNING)
-    assert set(found.parts) == {"arm", "lid"}
-    assert found.value == pytest.approx(40.0)
-    assert "when up=0.5, aside=0.5, down=0.44" in found.message
+    assert (found.code, found.severity) == ("combination_penetration", "warning")
+    assert (set(found.parts), found.value) == ({"arm", "lid"}, pytest.approx(40.0))
+    assert "when lift=0.5, arm=0.5, lid=0.44" in found.message
     (measured,) = result.measurements["combinations"]
-    assert measured["values"] == {"up": 0.5, "aside": 0.5, "down": 0.44}
+    assert measured["values"] == {"lift": 0.5, "arm": 0.5, "lid": 0.44}
 
 
 def test_an_excluded_pair_excuses_no_other_pair_of_its_links():
     excluded = frozenset({frozenset({"carcass", "door"}), frozenset({"drawer", "door"})})
-    description = replace(cabinet("wide"), excluded=excluded)
-    assert "rest_penetration" in [finding.code for finding in hard(check(description))]
+    assert "rest_penetration" in codes(check(replace(cabinet("wide"), excluded=excluded)))
 
 
 def test_links_joined_rigidly_are_one_body():
-    base = body("base", [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])
-    plinth = body("plinth", [((0.0, 0.0, -0.4), (1.0, 1.0, 1.0))])
+    base = body("base", [((0.0, 0.0, 0.0), UNIT)])
+    plinth = body("plinth", [((0.0, 0.0, -0.4), UNIT)])
     weld = joint("weld", "fixed", "base", "plinth", (0, 0, 0), (1.0, 0.0, 0.0), None)
     result = check(described([base, plinth], [weld]))
     assert result.findings == ()
@@ -87,15 +68,12 @@ def test_links_joined_rigidly_are_one_body():
 
 def test_the_pose_a_file_was_drawn_in_counts_too():
     """Rest is where the joint is at lower; a simulator starts at 0."""
-    base = body("base", [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])
-    slider = body("slider", [((0.99, 0.0, 0.0), (1.0, 1.0, 1.0))])
-    slide = joint("slide", "prismatic", "base", "slider", (0, 0, 0), (-1.0, 0.0, 0.0), (-0.2, 0.0))
-    result = check(described([base, slider], [slide]))
-    found = hard(result)
-    assert [each.value for each in found if each.code == "rest_penetration"] == pytest.approx(
-        [10.0]
-    )
-    assert "at 0" in found[0].message
+    slider = sliding("slider", [((0.99, 0.0, 0.0), UNIT)], (-1.0, 0.0, 0.0), 0.0)
+    slid = built(slider, base=body("base", [((0.0, 0.0, 0.0), UNIT)]))
+    findings = check(with_joint(slid, "slider", lower=-0.2)).findings
+    (found,) = (item for item in findings if item.code == "rest_penetration")
+    assert (found.value, found.severity) == (pytest.approx(10.0), "error")
+    assert "at 0" in found.message
 
 
 def test_a_continuous_joint_is_swept_over_a_whole_turn():
@@ -103,8 +81,8 @@ def test_a_continuous_joint_is_swept_over_a_whole_turn():
     arm = body("arm", [((0.3, 0.0, 0.0), (0.4, 0.01, 0.01))])
     spin = joint("spin", "continuous", "base", "arm", (0, 0, 0), (0.0, 0.0, 1.0), None)
     result = check(described([base, arm], [spin]))
-    assert sweep_of(result, "spin")["pairs"][0]["at"] == pytest.approx(np.pi, abs=0.05)
-    assert codes(result) == ["sweep_penetration"]
+    assert rows(result)["spin"]["pairs"][0]["at"] == pytest.approx(np.pi, abs=0.05)
+    assert [finding.code for finding in result.findings] == ["sweep_penetration"]
 
 
 def test_turning_the_joint_around_finds_the_same_overlap():
@@ -112,7 +90,7 @@ def test_turning_the_joint_around_finds_the_same_overlap():
     forward = cabinet("hinge_inside")
     backward = with_joint(forward, "hinge", axis=np.array([0.0, 0.0, 1.0]), lower=-1.57, upper=0.0)
     depths = [
-        max(pair["depth_mm"] for pair in sweep_of(check(item), "hinge")["pairs"])
+        max(pair["depth_mm"] for pair in rows(check(item))["hinge"]["pairs"])
         for item in (forward, backward)
     ]
     assert depths[0] == pytest.approx(depths[1], rel=0.03)

@@ -1,45 +1,40 @@
 """Joints driven at the same time: only where nothing that they move can meet."""
 
 import pytest
+from box_world import built, sliding, turning
 
+from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.apart import joints_apart
-from asset_factory.sim_checks.read.read import read_description
 
-BOX = '<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>'
-
-
-def joint(name, at, kind="prismatic", parent="base", more=""):
-    return f"""<link name="{name}_box">{BOX}</link>
-    <joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{name}_box"/>
-    <origin xyz="{at} 0 0"/><axis xyz="0 0 1"/>
-    <limit lower="0" upper="0.3" effort="1" velocity="1"/>{more}</joint>"""
+SIZE = (0.1, 0.1, 0.1)
+UP = (0.0, 0.0, 1.0)
 
 
-def groups(folder, *joints):
-    path = folder / "row.urdf"
-    path.write_text(f'<robot name="row"><link name="base"/>{"".join(joints)}</robot>')
-    return joints_apart(read_description(path))
+def slide(name, x, parent="base", **more):
+    return sliding(name, [((x, 0.0, 0.0), SIZE)], UP, 0.3, parent, **more)
 
 
-@pytest.mark.parametrize(("gap", "found"), [(0.004, ()), (0.006, (("a", "b"),))])
-def test_slides_side_by_side_are_apart_by_more_than_a_margin(tmp_path, gap, found):
-    assert groups(tmp_path, joint("a", 0.0), joint("b", 0.1 + gap)) == found
+SPUN = turning("a", [((0.0, 0.0, 0.0), SIZE)], (0.0, 0.0, 0.0), UP, 0.3)
 
 
-def test_neighbours_go_into_different_groups(tmp_path):
-    row = [joint(name, 0.102 * i) for i, name in enumerate("abcde")]
-    assert groups(tmp_path, *row) == (("a", "c", "e"), ("b", "d"))
-
-
-def test_a_hinge_needs_room_for_its_whole_turn(tmp_path):
-    # The corner of a box that turns about its centre comes nearer than its side.
-    assert groups(tmp_path, joint("a", 0.0, "revolute"), joint("b", 0.107)) == ()
-    assert groups(tmp_path, joint("a", 0.0, "revolute"), joint("b", 0.13)) == (("a", "b"),)
-
-
-def test_what_carries_or_follows_another_joint_is_driven_alone(tmp_path):
-    carrying = joint("rider", 0.2, parent="a_box")
-    found = groups(tmp_path, joint("a", 0.0), carrying, joint("b", 0.5), joint("c", 0.8))
-    assert found == (("rider", "b", "c"),)
-    following = joint("led", 0.2, more='<mimic joint="a"/>')
-    assert groups(tmp_path, joint("a", 0.0), following, joint("b", 0.5)) == ()
+@pytest.mark.parametrize(
+    ("parts", "found"),
+    [
+        ([slide("a", 0.0), slide("b", 0.104)], ()),
+        ([slide("a", 0.0), slide("b", 0.106)], (("a", "b"),)),
+        ([slide(name, 0.102 * i) for i, name in enumerate("abcde")], (("a", "c", "e"), ("b", "d"))),
+        # The corner of a box that turns about its centre comes nearer than its side.
+        ([SPUN, slide("b", 0.107)], ()),
+        ([SPUN, slide("b", 0.13)], (("a", "b"),)),
+        (
+            [slide("a", 0.0), slide("rider", 0.2, "a"), slide("b", 0.5), slide("c", 0.8)],
+            (("rider", "b", "c"),),
+        ),
+        ([slide("a", 0.0), slide("led", 0.2, mimic=Mimic("a")), slide("b", 0.5)], ()),
+    ],
+    ids=["nearer than the margin", "further than the margin", "neighbours in different groups",
+         "a hinge without room for its turn", "a hinge with room", "what carries another joint",
+         "what follows another joint"],
+)  # fmt: skip
+def test_joints_are_grouped_by_what_can_meet(parts, found):
+    assert joints_apart(built(*parts)) == found

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from box_world import body, box_hull, described, joint
+from box_world import body, box_hull, built, described, joint, sliding, turning
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -24,22 +24,20 @@ Z = (0.0, 0.0, 1.0)
 SPAN = (-10.0, 10.0)
 
 
-BASE = body("base", [((0.0, 0.0, -1.0), (4.0, 4.0, 0.1))])
-
-
-def following(mimic, *line):
-    return replace(joint(*line), mimic=mimic)
-
-
 def doors(width, *, mimic):
     """Two doors hinged 1 m apart, open to the sides at first; they turn together and past."""
-    left = body("left", [((-0.5 - width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (-0.5, 0.0, 0.0))
-    right = body("right", [((0.5 + width / 2, 0.0, 0.0), (width, 0.02, 0.4))], (0.5, 0.0, 0.0))
-    lines = [
-        joint("lead", "revolute", "base", "left", (-0.5, 0.0, 0.0), (0, 0, -1), (0.0, 3.14)),
-        following(mimic, "led", "revolute", "base", "right", (0.5, 0.0, 0.0), Z, (0.0, 3.14)),
-    ]
-    return described([BASE, left, right], lines)
+    lead, led = (
+        turning(
+            name,
+            [((side * (0.5 + width / 2), 0.0, 0.0), (width, 0.02, 0.4))],
+            (side * 0.5, 0.0, 0.0),
+            (0.0, 0.0, side),
+            3.14,
+            mimic=follows,
+        )
+        for name, side, follows in (("lead", -1.0, None), ("led", 1.0, mimic))
+    )
+    return built(lead, led)
 
 
 def checked(description):
@@ -87,34 +85,15 @@ def test_a_follower_that_runs_ahead_at_rest_stands_where_its_leader_puts_it():
     assert ("rest_penetration", "error", None) in findings
 
 
-def test_two_slides_that_follow_one_another_are_measured_exactly():
-    """Blocks run towards one another, one twice as fast: they overlap by 10 mm at the end."""
-    left = body("left", [((-0.4, 0.0, 0.0), (0.2, 0.2, 0.2))])
-    right = body("right", [((0.5, 0.0, 0.0), (0.2, 0.2, 0.2))])
-    faster = Mimic("a", 2.0)
-    lines = [
-        joint("a", "prismatic", "base", "left", (0, 0, 0), (1, 0, 0), (0.0, 0.71 / 3)),
-        following(faster, "b", "prismatic", "base", "right", (0, 0, 0), (-1, 0, 0), (0.0, 1.0)),
-    ]
-    findings, measured = checked(described([BASE, left, right], lines))
-    assert findings == [("sweep_penetration", "error", "a")]
-    assert measured["joints"][0]["pairs"][0]["depth_mm"] == pytest.approx(10.0, rel=0.02)
-
-
 def test_a_coupled_drawer_needs_a_door_that_opens_alone():
-    door = body("door", [((0.0, -0.05, 0.0), (0.6, 0.04, 0.4))])
-    tray = body("tray", [((-2.0, 0.25, 0.0), (0.2, 0.5, 0.2))])
-    twin = body("twin", [((0.0, 0.25, 0.0), (0.2, 0.5, 0.2))])
-    out = ((0, 0, 0), (0, -1, 0), (0.0, 0.4))
-    lines = [
-        joint("door_slide", "prismatic", "base", "door", (0, 0, 0), (1, 0, 0), (0.0, 1.0)),
-        joint("lead", "prismatic", "base", "tray", *out),
-        following(Mimic("lead"), "led", "prismatic", "base", "twin", *out),
-    ]
-    findings, measured = checked(described([BASE, door, tray, twin], lines))
+    out = ((0.0, -1.0, 0.0), 0.4)
+    door = sliding("door", [((0.0, -0.05, 0.0), (0.6, 0.04, 0.4))], (1.0, 0.0, 0.0), 1.0)
+    lead = sliding("lead", [((-2.0, 0.25, 0.0), (0.2, 0.5, 0.2))], *out)
+    led = sliding("led", [((0.0, 0.25, 0.0), (0.2, 0.5, 0.2))], *out, mimic=Mimic("lead"))
+    findings, measured = checked(built(door, lead, led))
     assert findings == [("joint_dependency", "warning", "lead")]
     needed = {item["joint"]: item["needs_open"] for item in measured["joints"]}
-    assert needed == {"door_slide": [], "lead": ["door_slide"]}
+    assert needed == {"door": [], "lead": ["door"]}
 
 
 def arm(multipliers):
@@ -127,11 +106,11 @@ def arm(multipliers):
     ways = [("revolute", Z), ("prismatic", (1.0, 0.0, 0.0)), ("revolute", (0.0, 1.0, 0.0))]
     mimics = [None, *(Mimic("j0", rate, 0.1 * i) for i, rate in enumerate(multipliers, 1))]
     lines = [
-        following(mimics[i], f"j{i}", kind, *names[i : i + 2], (0.1 * i, 0.2, 0.0), axis, SPAN)
+        joint(f"j{i}", kind, *names[i : i + 2], (0.1 * i, 0.2, 0), axis, SPAN, mimic=mimics[i])
         for i, (kind, axis) in enumerate(ways)
     ]
     beside = ("k", "revolute", "base", "beside", (0.5, 0.0, 0.0), (1, 0, 0), SPAN)
-    return described(links, [*lines, following(Mimic("j0", -0.7), *beside)])
+    return described(links, [*lines, joint(*beside, mimic=Mimic("j0", -0.7))])
 
 
 @settings(max_examples=15, deadline=None)

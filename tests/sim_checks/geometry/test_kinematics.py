@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from box_world import body, cabinet, described, joint
+from box_world import body, described, joint
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,7 +15,6 @@ from asset_factory.sim_checks.geometry.kinematics import (
     rotation_about,
     sweep_range,
 )
-from asset_factory.sim_checks.geometry.path import JointAxis
 
 CUBE = [((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))]
 
@@ -24,9 +23,9 @@ def arm():
     """Two links of 1 m in a plane, and a slide at the tip."""
     links = [body(name, CUBE) for name in ("base", "upper", "fore", "tip")]
     joints = [
-        joint("wrist", "prismatic", "fore", "tip", (1, 0, 0), (1.0, 0.0, 0.0), (0.0, 0.5)),
-        joint("shoulder", "revolute", "base", "upper", (0, 0, 0), (0.0, 0.0, 1.0), (-3.0, 3.0)),
-        joint("elbow", "revolute", "upper", "fore", (1, 0, 0), (0.0, 0.0, 2.0), (-3.0, 3.0)),
+        joint("wrist", "prismatic", "fore", "tip", (1, 0, 0), (1, 0, 0), (0.0, 0.5)),
+        joint("shoulder", "revolute", "base", "upper", (0, 0, 0), (0, 0, 1), (-3.0, 3.0)),
+        joint("elbow", "revolute", "upper", "fore", (1, 0, 0), (0, 0, 2), (-3.0, 3.0)),
     ]
     return build_tree(described(links, joints))
 
@@ -52,26 +51,6 @@ def test_posing_again_gives_the_digits_of_posing_for_the_first_time(samples):
         assert all(np.array_equal(again[name], first[name]) for name in first)
 
 
-def test_links_that_no_changed_joint_moves_keep_their_pose():
-    poser = Poser(arm())
-    before = poser.link_poses({"shoulder": 0.3})
-    after = poser.link_poses({"shoulder": 0.3, "elbow": 0.5})
-    assert after["upper"] is before["upper"]
-    assert after["fore"] is not before["fore"]
-
-
-def test_what_hangs_below_a_joint_moves_with_it():
-    tree = arm()
-    assert tree.below(next(item for item in tree.order if item.name == "elbow")) == {"fore", "tip"}
-
-
-def test_a_path_moves_points_as_the_kinematics_do():
-    tree = build_tree(cabinet())
-    rest, turned = (tree.link_poses({"hinge": value})["door"] for value in (0.0, 0.7))
-    path = JointAxis(True, rest[:3, 3], np.array([0.0, 0.0, -1.0])).path(1.57)
-    assert path.pose(0.7) @ rest == pytest.approx(turned, abs=1e-12)
-
-
 @pytest.mark.parametrize(
     ("links", "pairs", "message"),
     [
@@ -88,11 +67,17 @@ def test_what_is_no_tree_is_refused(links, pairs, message):
         build_tree(described([body(name, CUBE) for name in links], joints))
 
 
-def test_ranges_that_cannot_be_swept_are_none_and_a_turn_is_one_turn():
-    good = joint("j", "revolute", "a", "b", (0, 0, 0), (0, 0, 1), (0.0, 1.0))
-    assert sweep_range(good) == (0.0, 1.0)
-    assert sweep_range(replace(good, lower=1.0, upper=0.0)) is None
-    assert sweep_range(replace(good, upper=float("inf"))) is None
-    assert sweep_range(replace(good, kind="continuous", lower=None, upper=None)) == (0.0, 2 * np.pi)
-    assert sweep_range(replace(good, kind="prismatic", lower=None, upper=None)) is None
-    assert sweep_range(replace(good, lower=-10.0, upper=10.0)) == (-10.0, -10.0 + 2 * np.pi)
+@pytest.mark.parametrize(
+    ("changes", "swept"),
+    [
+        ({}, (0.0, 1.0)),
+        ({"lower": 1.0, "upper": 0.0}, None),
+        ({"upper": float("inf")}, None),
+        ({"kind": "continuous", "lower": None, "upper": None}, (0.0, 2 * np.pi)),
+        ({"kind": "prismatic", "lower": None, "upper": None}, None),
+        ({"lower": -10.0, "upper": 10.0}, (-10.0, -10.0 + 2 * np.pi)),
+    ],
+)
+def test_ranges_that_cannot_be_swept_are_none_and_a_turn_is_one_turn(changes, swept):
+    line = joint("j", "revolute", "a", "b", (0, 0, 0), (0, 0, 1), (0.0, 1.0))
+    assert sweep_range(replace(line, **changes)) == swept

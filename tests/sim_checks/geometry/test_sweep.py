@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from asset_factory.sim_checks.geometry.collision import Collider
 from asset_factory.sim_checks.geometry.depth import overlap
 from asset_factory.sim_checks.geometry.hull import convex_hull
-from asset_factory.sim_checks.geometry.path import JointAxis, Orbit
+from asset_factory.sim_checks.geometry.path import JointAxis
 from asset_factory.sim_checks.geometry.sweep import Candidate, Sweep, Tolerance
 
 Z = np.array([0.0, 0.0, 1.0])
@@ -109,17 +109,3 @@ def test_no_hull_that_comes_near_is_left_out(turning, length, where, floor):
             for column, other in enumerate(standing):
                 apart = np.maximum(low - other.bounds[1], other.bounds[0] - high).max()
                 assert near[row, column] or apart >= floor
-
-
-def test_a_hull_far_from_everything_is_told_without_a_fine_look(monkeypatch):
-    far = Collider(box_hull((5.0, 0.0, 0.0), (0.1, 0.1, 0.1)))
-    close = Collider(box_hull((0.5, 0.0, 0.0), (0.1, 0.1, 0.1)))
-    sweep = Sweep(SLIDE, [far, close], [Collider(box_hull((1.0, 0.0, 0.0), (0.1, 0.1, 0.1)))], 16)
-    looked = []
-    swept = Orbit.swept_bounds
-    monkeypatch.setattr(
-        Orbit, "swept_bounds", lambda self, at: looked.append(self) or swept(self, at)
-    )
-    assert sweep.near(0.005).tolist() == [[False], [True]]
-    (orbit,) = looked
-    assert np.array_equal(orbit.start, close.hull.vertices)

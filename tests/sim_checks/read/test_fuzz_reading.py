@@ -7,7 +7,7 @@ from refusing import judges_refusal
 
 from asset_factory.sim_checks.read import document, mjcf, references, urdf
 from asset_factory.sim_checks.read.multiplied import MOST
-from asset_factory.sim_checks.read.read import read_here
+from asset_factory.sim_checks.read.read import read_description, read_here
 
 #: Far more than the work takes, far less than what it took.
 QUICK_S = 5.0
@@ -26,12 +26,8 @@ def test_names_that_no_file_has_are_missing(reference, tmp_path):
     error = refusal(tmp_path, BOX.format(f'<mesh filename="{reference}"/>'))
     assert error.code == "missing_file"
     assert len(error.message) < 300
-
-
-def test_names_that_no_file_has_are_missing_in_mjcf_too(tmp_path):
-    name = "n" * 300 + ".stl"
     path = tmp_path / "a.xml"
-    path.write_text(f'<mujoco><asset><mesh name="m" file="{name}"/></asset></mujoco>')
+    path.write_text(f'<mujoco><asset><mesh name="m" file="{reference}"/></asset></mujoco>')
     references.named_files(path, document.parse_document(path))
 
 
@@ -48,10 +44,12 @@ def test_includes_that_double_are_counted(tmp_path):
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
-def test_a_mesh_that_declares_a_document_type_is_refused(encoding, tmp_path):
+def test_whoever_declares_a_document_type_is_refused(encoding, tmp_path):
     declared = f'<?xml version="1.0" encoding="{encoding}"?><!DOCTYPE x [<!ENTITY a "b">]>'
     (tmp_path / "m.dae").write_bytes(f"{declared}<COLLADA>&a;</COLLADA>".encode(encoding))
     assert refusal(tmp_path, BOX.format('<mesh filename="m.dae"/>')).code == "forbidden_doctype"
+    (tmp_path / "a.urdf").write_bytes(f'{declared}<robot name="&a;"/>'.encode(encoding))
+    assert judges_refusal(read_description, tmp_path / "a.urdf").code == "forbidden_doctype"
 
 
 def test_more_elements_than_any_object_has_are_too_large(monkeypatch, tmp_path):

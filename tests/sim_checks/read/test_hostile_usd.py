@@ -14,7 +14,6 @@ from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.intake.load import load
 from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.description import DescriptionError
-from asset_factory.sim_checks.judge import Judge
 from asset_factory.sim_checks.processes.isolation import Limits, WarmChild
 from asset_factory.sim_checks.read.native import ask_of, memory_bounded
 from asset_factory.sim_checks.read.usd.refusing import refusing
@@ -23,12 +22,11 @@ SHORT = Limits(wall_s=60.0)
 
 
 @pytest.mark.parametrize("kind", ["usda", "usdc", "usdz"])
-def test_a_damaged_file_is_rejected_with_a_code_and_its_librarys_words(tmp_path, kind):
+def test_a_damaged_file_is_rejected_with_a_code_and_its_librarys_words(tmp_path, judge, kind):
     whole = usd_files()[kind]
     path = tmp_path / f"thing.{kind}"
     path.write_bytes(whole[: len(whole) // 2] + b"\0" * 64)
-    with Judge() as judge:
-        report = judge.check(path, ())
+    report = judge.check(path, ())
     assert (report.status, report.findings[0].code) == (Status.REJECTED, "unreadable")
     assert "in file" not in report.findings[0].message
     rejected = refusal(load, path, IntakeConfig())

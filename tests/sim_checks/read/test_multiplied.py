@@ -15,7 +15,7 @@ from asset_factory.sim_checks.read import multiplied, native
 from asset_factory.sim_checks.read.document import parse_document
 from asset_factory.sim_checks.read.multiplied import refuse_multiplied
 from asset_factory.sim_checks.read.native import COMPILE_LIMITS, COMPILER_BYTES, memory_bounded
-from asset_factory.sim_checks.read.read import read_description
+from asset_factory.sim_checks.read.read import read_description, read_here
 
 GEOM = '<geom size="0.1"/>'
 BODY = f"<body>{GEOM}</body>"
@@ -109,7 +109,7 @@ def test_as_many_are_counted_as_mujoco_makes(tmp_path, world, bodies, monkeypatc
 def test_models_attached_a_few_times_are_read(tmp_path):
     path = attaching(tmp_path, 2, 3)
     refuse_multiplied(path, parse_document(path))
-    assert len(read_description(path).links) == 14
+    assert len(read_here(path).links) == 14
 
 
 #: What no counting sees: the compiler asks for gigabytes.

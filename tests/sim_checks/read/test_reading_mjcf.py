@@ -93,4 +93,4 @@ def test_bodies_whose_contact_bits_never_meet_are_excluded(tmp_path):
 def test_unreadable_models_say_why(tmp_path, text, code):
     path = tmp_path / "model.xml"
     path.write_text(f"<mujoco>{text}</mujoco>")
-    assert judges_refusal(read_description, path).code == code
+    assert judges_refusal(read_here, path).code == code

@@ -36,10 +36,9 @@ def folder(tmp_path):
 
 
 def code_of(folder, text, name="asset.xml"):
-    path = folder / name
-    path.write_text(text)
+    (folder / name).write_text(text)
     try:
-        read_here(path)
+        read_here(folder / name)
     except DescriptionError as error:
         return error.code
     return None
