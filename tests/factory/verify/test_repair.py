@@ -1,5 +1,7 @@
 """A plan follows from a verdict alone, never comes twice, and gives up where nothing can help."""
 
+from dataclasses import asdict, replace
+
 import pytest
 
 from asset_factory.factory.config import RepairConfig
@@ -11,6 +13,7 @@ from asset_factory.sim_checks.measurements import (
     PENETRATION,
     MeasuredContact,
     MeasuredJoint,
+    MeasuredNeighbour,
     MeasuredPair,
     MeasuredPenetration,
 )
@@ -50,8 +53,8 @@ def hard(code, parts=("base", "door"), name=None):
     return Finding(code, Severity.ERROR, f"{code} happened", joint=name, parts=parts)
 
 
-def verdict(*findings, rest=(), joints=()):
-    measured = MeasuredPenetration(1.0, 2, (), tuple(rest), None, tuple(joints), (), ())
+def verdict(*findings, rest=(), joints=(), near=()):
+    measured = MeasuredPenetration(1.0, 2, (), tuple(rest), None, tuple(joints), tuple(near), ())
     measurements = {"asset.urdf": {PENETRATION: measured.to_dict()}}
     return Verdict(Report("asset.urdf", findings=findings, measurements=measurements))
 
@@ -95,6 +98,25 @@ def test_a_joint_that_runs_into_something_late_ends_before_and_early_is_not_shor
     assert plan.upper == {"hinge": 1.5}
     assert "ended hinge at 1.5 instead of 2 rad" in plan.repairs[-1].sentence
     assert planned(blocked(clear_until=0.2)) is None
+
+
+def test_a_joint_that_another_stops_once_a_little_open_ends_there():
+    met = asdict(contact(9.0, at=1.9))
+    near = [
+        MeasuredNeighbour(**met, joint="hinge", open=name, unit="rad", free_until=end)
+        for name, end in (("slide", 1.8), ("flap", 1.6), ("lid", 1.2))
+    ]
+    # What only meets it somewhere is told and left.
+    found = [
+        replace(hard("joint_obstructed", name="hinge"), joints=("hinge", each.open))
+        for each in near[:2]
+    ]
+    given = verdict(*found, joints=[joint()], near=near)
+    plan = planned(given)
+    assert plan.upper == {"hinge": 1.6}
+    assert planned(given, plan) is None
+    early = [replace(each, free_until=0.5) for each in near]
+    assert planned(verdict(*found, joints=[joint()], near=early)) is None
 
 
 def test_a_small_blocked_part_is_frozen_and_says_after_how_much():

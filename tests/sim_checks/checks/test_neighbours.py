@@ -93,13 +93,16 @@ def test_a_flap_that_drops_a_little_below_its_hinge_ends_the_way_of_the_drawer()
 
 
 def test_a_flap_that_a_drawer_stops_once_a_tenth_out_is_an_error():
-    (found,) = check(over_drawer(2.2)).findings
+    result = check(over_drawer(2.2))
+    (found,) = result.findings
     assert (found.code, found.severity) == ("joint_obstructed", "error")
     assert found.joints == ("flap", "drawer")
     assert "with drawer at 0.04 m" in found.message
     touch = np.pi / 2 + np.arctan2(0.004, 0.04)
     deep = touch + np.arcsin(0.001 / np.hypot(0.004, 0.04))
     assert touch - 2.2 / 100 < free_until(found) <= deep
+    ends = [each["free_until"] for each in result.measurements["neighbours"]]
+    assert ends == [pytest.approx(free_until(found), abs=1e-3)]
 
 
 def test_doors_that_pass_the_plane_between_their_hinges_are_found_where_they_are_deepest():

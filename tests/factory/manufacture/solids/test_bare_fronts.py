@@ -73,11 +73,14 @@ def test_a_drawer_of_a_hollow_case_gets_a_box_too():
     assert not any(each.kind == "hollow" for each in made.surfaces)
 
 
-@pytest.mark.parametrize("thickness", [0.03, 0.06])
-def test_a_modelled_door_becomes_a_slab_as_thick_as_it_is(thickness):
+@pytest.mark.parametrize(("thickness", "known"), [(0.03, None), (0.06, None), (0.13, 0.13)])
+def test_a_modelled_door_becomes_a_slab_as_thick_as_it_is(thickness, known):
     case = board((0.0, 0.0, 0.0), (0.6, 0.5, 1.2))
     door = board((0.0, -thickness - 0.001, 0.0), (0.6, -0.001, 1.2))
-    made = solids(with_door(concatenate([case, door]), 1), SolidsConfig())
+    given = with_door(concatenate([case, door]), 1)
+    base, leaf = given.parts
+    told = replace(leaf, panel=replace(leaf.panel, thickness=known))
+    made = solids(replace(given, parts=(base, told)), SolidsConfig())
     (back,) = (record for record in made.surfaces if record.kind == "slab back")
     assert back.thickness_m == pytest.approx(thickness, abs=1e-3)
 
