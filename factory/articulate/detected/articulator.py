@@ -41,10 +41,10 @@ if TYPE_CHECKING:
 LEAST_SCORE = 0.5
 #: What is thinner than this share of its longest extent holds nothing.
 THINNEST = 0.005
-#: Panels that are less probable are not told of.
+#: Panels that are less probable are not told of, and nothing opens if that is less probable.
 LEAST_CHANCE = 0.05
-#: What sides and network are so sure of moves, seen or not, as does what rules of shape find:
-#: of the held-out parts none of these is wrong for want of being seen.
+#: What sides and network are so sure of moves, seen or not, if anything opens, as does what rules
+#: of shape find: of the held-out parts none of these is wrong for want of being seen.
 BELIEVED = 0.85
 #: Kinds of object of which the detector learned too little to fix anything.
 STRANGE = frozenset({"gadget", "window", "box"})
@@ -132,10 +132,8 @@ class DetectedArticulator(HypothesisMaker):
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if len(sure) > len(guess.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
-        moving = [with_whole_drawers(each) for each in made if each.movable_joints]
-        told = [with_closed_hinges(each) for each in moving] or [
-            self._still(mesh, guess, detection)
-        ]
+        moving = [with_closed_hinges(with_whole_drawers(e)) for e in made if e.movable_joints]
+        told = moving or [self._still(mesh, guess, detection)]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])
         if drawn is not None:
             told = [reopened(each, drawn) for each in told]
@@ -212,6 +210,7 @@ class DetectedArticulator(HypothesisMaker):
             chance = self.agreement.of_proposed(support)
             if ruled or (
                 confidence >= BELIEVED
+                and detection.opens >= LEAST_CHANCE
                 and not any(cells.hides(joint.child, f) for each in sure for f in each.found)
             ):
                 chance = max(chance, confidence, least)
