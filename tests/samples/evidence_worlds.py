@@ -7,7 +7,8 @@ from asset_factory.factory.articulate.evidence import Partition
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.posing import face_parts, turned
 from asset_factory.factory.mesh import Material
-from asset_factory.learn.objects.kit.assembly import FRONT, Assembly, facing_front
+from asset_factory.learn.objects.kit.assembly import Assembly
+from asset_factory.learn.objects.kit.axes import FRONT, facing_front
 from asset_factory.learn.objects.kit.boards import carcass, tray
 from asset_factory.learn.objects.kit.casework import swung
 from asset_factory.learn.objects.kit.controls import knob
@@ -48,7 +49,8 @@ def cupboard(hinge: str = "left") -> Articulation:
     a = _cabinet(Z)
     door = swung(a, "door", hinge, FRONT_X, (0.002, 0.698), FACE, 1.8)
     door.add(box(FRONT_X, FRONT_Y, (0.002, 0.698)))
-    add_pull(door, _bar(0.15), 0.24 if hinge == "left" else -0.24, 0.35, FACE, True, 1.0)
+    at = (0.24 if hinge == "left" else -0.24, 0.35)
+    add_pull(door, _bar(0.15), at, facing_front(FACE), 1.0, True)
     return _placed(a.articulation())
 
 
@@ -57,7 +59,7 @@ def chest() -> Articulation:
     a = _cabinet((0.0, 0.25))
     drawer = a.slider("drawer", FRONT, (0.0, -0.003, 0.115), 0.362)
     drawer.add(box(FRONT_X, FRONT_Y, (0.002, 0.248)))
-    add_pull(drawer, _bar(0.2), 0.0, 0.13, FACE, False, 1.0)
+    add_pull(drawer, _bar(0.2), (0.0, 0.13), facing_front(FACE), 1.0)
     drawer.add(*tray(within(X, WALL + 0.004), (-0.003, 0.44), (0.03, 0.2), 0.012, front=False))
     return _placed(a.articulation())
 
@@ -67,7 +69,7 @@ def oven() -> Articulation:
     a = _cabinet(Z)
     door = swung(a, "door", "bottom", FRONT_X, (0.01, 0.55), FACE, float(np.radians(88)))
     door.add(box(FRONT_X, FRONT_Y, (0.01, 0.55)))
-    add_pull(door, _bar(0.4), 0.0, 0.5, FACE, False, 1.0)
+    add_pull(door, _bar(0.4), (0.0, 0.5), facing_front(FACE), 1.0)
     a.root.add(box(FRONT_X, FRONT_Y, (0.56, 0.698)))
     knob(a, "knob", (0.1, 0.63), 0.025, STEEL, facing_front(FACE), mark=WOOD)
     return _placed(a.articulation())
