@@ -130,7 +130,7 @@ class DetectedArticulator(HypothesisMaker):
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
         guess = _without(guess, _pulls(cells, beside))
         made = [*self._with(guess, beside), *([guess] if moves else [])]
-        if len(sure) > len(guess.movable_joints):
+        if not made or len(sure) > len(guess.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
         moving = [with_closed_hinges(with_whole_drawers(e)) for e in made if e.movable_joints]
         told = moving or [self._still(mesh, guess, detection)]

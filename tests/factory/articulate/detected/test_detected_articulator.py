@@ -128,9 +128,12 @@ def test_a_knob_on_a_door_that_is_seen_is_its_pull():
 
 def test_a_doors_lever_that_is_all_a_network_sees_gives_way_to_the_door():
     truth = make_object("door", 0)
-    said = with_part(rigid_articulation(truth.mesh, "auto", ()), truth.parts[2].faces)
-    made = detected(said)[0].articulation
-    assert [part.kind for part in made.parts[1:]] == [PartKind.DOOR]
+    lever = truth.parts[2].faces
+    # Of the second no side shows enough to ask about it.
+    for faces in (lever, lever[:2]):
+        said = with_part(rigid_articulation(truth.mesh, "auto", ()), faces)
+        made = detected(said)[0].articulation
+        assert [part.kind for part in made.parts[1:]] == [PartKind.DOOR]
 
 
 def test_a_table_stays_shut_and_says_why():
