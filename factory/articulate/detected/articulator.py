@@ -197,6 +197,7 @@ class DetectedArticulator(HypothesisMaker):
         kept = []
         chances = {}
         alone = False
+        shut = detection.opens < LEAST_CHANCE and detection.kinds.max() >= SURE_KIND
         for joint in guess.joints:
             part = guess.parts[joint.child]
             support = cells.support(joint.child, detection.dense) if part.kind in ASKED else None
@@ -210,7 +211,7 @@ class DetectedArticulator(HypothesisMaker):
             chance = self.agreement.of_proposed(support)
             if ruled or (
                 confidence >= BELIEVED
-                and detection.opens >= LEAST_CHANCE
+                and not shut
                 and not any(cells.hides(joint.child, f) for each in sure for f in each.found)
             ):
                 chance = max(chance, confidence, least)
