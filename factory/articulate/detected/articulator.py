@@ -41,10 +41,10 @@ if TYPE_CHECKING:
 LEAST_SCORE = 0.5
 #: What is thinner than this share of its longest extent holds nothing.
 THINNEST = 0.005
-#: Panels that are less probable are not told of, and nothing opens if that is less probable.
+#: Panels that are less probable are not told of.
 LEAST_CHANCE = 0.05
-#: What sides and network are so sure of moves, seen or not, if anything opens, as does what rules
-#: of shape find: of the held-out parts none of these is wrong for want of being seen.
+#: What sides and network are so sure of moves, seen or not, as does what rules of shape find:
+#: of the held-out parts none of these is wrong for want of being seen.
 BELIEVED = 0.85
 #: Kinds of object of which the detector learned too little to fix anything.
 STRANGE = frozenset({"gadget", "window", "box"})
@@ -197,7 +197,6 @@ class DetectedArticulator(HypothesisMaker):
         kept = []
         chances = {}
         alone = False
-        shut = detection.opens < LEAST_CHANCE and detection.kinds.max() >= SURE_KIND
         for joint in guess.joints:
             part = guess.parts[joint.child]
             support = cells.support(joint.child, detection.dense) if part.kind in ASKED else None
@@ -211,7 +210,6 @@ class DetectedArticulator(HypothesisMaker):
             chance = self.agreement.of_proposed(support)
             if ruled or (
                 confidence >= BELIEVED
-                and not shut
                 and not any(cells.hides(joint.child, f) for each in sure for f in each.found)
             ):
                 chance = max(chance, confidence, least)

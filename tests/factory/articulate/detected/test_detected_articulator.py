@@ -88,13 +88,6 @@ def test_a_part_that_a_network_believes_gives_way_to_drawers_that_are_seen_there
     assert [part.kind for part in made.parts[1:]] == [PartKind.DRAWER] * drawers
 
 
-def test_what_a_network_believes_stays_where_nothing_opens():
-    table = make_still("still_table", np.random.default_rng(4)).mesh
-    said = rigid_articulation(table, "auto", ())
-    made = detected(with_part(said, front_of(table, 0.5), confidence=0.95))[0].articulation
-    assert not made.movable_joints
-
-
 def test_of_one_piece_what_rules_take_for_a_door_gives_way_to_drawers_that_are_seen_there():
     mesh = one_piece.proud_drawers()
     source = PartSource("0", Proposer.RULES, 0.9, {})
