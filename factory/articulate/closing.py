@@ -13,8 +13,8 @@ from ..mesh import FloatArray
 from ..part import PartKind
 from .evidence.body import Body, Partition, body_of
 from .evidence.candidates import Candidates, LineSource
-from .evidence.frames import level_frame
 from .evidence.setting import free_way
+from .geometric.scene import level_frame
 from .ranges import OPEN_DIFFERENCE, box_volumes
 
 #: Kinds of part that close something.

@@ -12,7 +12,8 @@ from ...geometry.components import connected_components
 from ...geometry.cutting import divide
 from ...geometry.triangles import ends_of
 from ...mesh import BoolArray, FloatArray, IntArray, Mesh, read_only
-from .frames import distinct, level_frame, own_frame
+from ..geometric.scene import level_frame
+from .frames import distinct, own_frame
 from .grid import Grid, grid_around
 from .surfels import WHOLE, Surfels, spread, spread_owned
 
@@ -83,7 +84,7 @@ class Partition:
 
     @cached_property
     def level(self) -> FloatArray:
-        """Return the object's level frame, see :func:`.frames.level_frame`."""
+        """Return the object's level frame, see :func:`~..geometric.scene.level_frame`."""
         return level_frame(self.triangles)
 
     @cached_property

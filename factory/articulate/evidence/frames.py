@@ -5,21 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from ...mesh import FloatArray
-from ..geometric.scene import level_yaw
 from .surfels import Surfels
 
 #: Frames whose axes agree to this are one.
 SAME = np.cos(np.radians(2.0))
 #: Share of the surface that must look one way before that way means anything.
 DOMINANT = 0.4
-
-
-def level_frame(triangles: FloatArray) -> FloatArray:
-    """Return as rows the level axes along the object's upright faces, and z, shape [3, 3]."""
-    yaw = level_yaw(triangles)
-    c = np.cos(yaw)
-    s = np.sin(yaw)
-    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def own_frame(surfels: Surfels) -> FloatArray | None:

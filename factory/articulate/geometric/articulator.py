@@ -6,10 +6,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ...articulation import Articulation, rotation_about
+from ...articulation import Articulation
 from ...config import BuildConfig
 from ...geometry.components import connected_components
-from ...geometry.posing import UP as UPWARD
 from ...intake.intake import Intake
 from ...mesh import IntArray, Mesh
 from ...part import PartKind
@@ -21,7 +20,7 @@ from .house_doors import find_house_doors
 from .knobs import find_top_knobs
 from .movers import Mover
 from .rounds import FROM_ABOVE, find_cap, find_turntables, find_wheels
-from .scene import FRONT, SIDEWAYS, UP, Scene, level_yaw, quarter_turn
+from .scene import FRONT, SIDEWAYS, UP, Scene, level_frame, quarter_turn
 
 MOST_PIECES = 5000
 
@@ -66,7 +65,8 @@ def _found(mesh: Mesh) -> tuple[tuple[Proposal, ...], str]:
         return (), (
             f"the mesh falls into {pieces} separate pieces, more than {MOST_PIECES}: kept rigid"
         )
-    scene = _level_scene(mesh, labels)
+    triangles = mesh.vertices[mesh.faces]
+    scene = Scene(triangles, labels, np.eye(3)).turned(level_frame(triangles))
     if float(scene.size.min()) <= 1e-6 * float(scene.size.max()):
         return (), "the mesh is flat: kept rigid"
     movers = _best_view(scene) or tuple(m.seen_from(scene.rotation) for m in find_cap(scene))
@@ -74,13 +74,6 @@ def _found(mesh: Mesh) -> tuple[tuple[Proposal, ...], str]:
     if not movers or len(_pieces_of(movers)) == pieces:
         return (), (f"none of the {pieces} separate pieces looks like a door or drawer: kept rigid")
     return _proposals(labels, movers), ""
-
-
-def _level_scene(mesh: Mesh, labels: IntArray) -> Scene:
-    triangles = mesh.vertices[mesh.faces]
-    yaw = level_yaw(triangles)
-    scene = Scene(triangles, labels, np.eye(3))
-    return scene if yaw == 0.0 else scene.turned(rotation_about(UPWARD, -yaw))
 
 
 def _best_view(scene: Scene) -> tuple[Mover, ...]:

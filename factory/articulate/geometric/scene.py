@@ -223,3 +223,11 @@ def level_yaw(triangles: FloatArray) -> float:
         return 0.0
     yaw = float(np.angle(mean)) / 4.0
     return yaw if abs(yaw) > np.radians(0.5) else 0.0
+
+
+def level_frame(triangles: FloatArray) -> FloatArray:
+    """Return as rows the level axes along the object's upright faces, and z, shape [3, 3]."""
+    yaw = level_yaw(triangles)
+    c = np.cos(yaw)
+    s = np.sin(yaw)
+    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])

@@ -6,9 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from plain_solids import box, cylinder
 
-from asset_factory.factory.articulate.evidence.frames import distinct, level_frame, own_frame
+from asset_factory.factory.articulate.evidence.frames import distinct, own_frame
 from asset_factory.factory.articulate.evidence.grid import grid_around
 from asset_factory.factory.articulate.evidence.surfels import spread
+from asset_factory.factory.articulate.geometric.scene import level_frame
 from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.mesh import Material
 
