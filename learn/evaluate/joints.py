@@ -45,6 +45,9 @@ def joint_figures(pairing: Pairing) -> dict[str, tuple[float, ...]]:
     predicted = pairing.predicted
     partners: dict[int, int] = dict(pairing.pairs[pairing.iou > FOUND_IOU].tolist())
     figures: dict[str, list[float]] = {name: [] for name in NAMES}
+    mesh = true.articulation.mesh
+    centres = face_centres(mesh)
+    areas = face_areas(mesh)
     for real in np.flatnonzero(true.moving).tolist():
         guess = partners.get(real)
         mover = guess if guess is not None and predicted.moving[guess] else None
@@ -52,7 +55,8 @@ def joint_figures(pairing: Pairing) -> dict[str, tuple[float, ...]]:
         turns = (true.turn(real), None if mover is None else predicted.turn(mover))
         slides = (true.slide(real), None if mover is None else predicted.slide(mover))
         angle = max(_angles(turns, slides), default=None)
-        place = _offset(pairing, real, turns)
+        own = true.labels == real
+        place = _offset(turns, np.average(centres[own], axis=0, weights=areas[own]), pairing.size)
         parallel = angle is not None and angle < RIGHT_ANGLE_DEG
         near = place is not None and place < RIGHT_OFFSET
         figures["type_of_all"].append(alike)
@@ -72,7 +76,10 @@ def joint_figures(pairing: Pairing) -> dict[str, tuple[float, ...]]:
                 figures[f"range_error_{name}"].append(abs(ours.range - theirs.range) / unit)
         endless = turns[0] is not None and turns[0].kind is JointKind.CONTINUOUS
         if mover is not None and (slides[0] is not None or not endless):
-            figures["opens_right_way"].append(_opens_alike(pairing, real, mover))
+            bodies = ((true, real), (predicted, mover))
+            ways = (_opening(*each, centres[own]) for each in bodies)
+            along = float((areas[own] * np.einsum("ij,ij->i", *ways)).sum())
+            figures["opens_right_way"].append(along > 0.0)
     return {name: tuple(map(float, values)) for name, values in figures.items()}
 
 
@@ -82,28 +89,16 @@ def _angles(*pairs: JointPair) -> list[float]:
     return [float(np.degrees(np.arccos(np.clip(each, 0.0, 1.0)))) for each in cosines]
 
 
-def _offset(pairing: Pairing, real: int, turns: JointPair) -> float | None:
-    """Return how far two axes are apart, at the true one's point next to the part, over the size.
+def _offset(turns: JointPair, middle: FloatArray, size: float) -> float | None:
+    """Return how far two axes are apart, at the true one's point next to a part, over the size.
 
-    ``None`` unless both turn.
+    ``None`` unless both turn; ``middle`` is the part's [m], shape [3].
     """
     ours, theirs = turns
     if ours is None or theirs is None:
         return None
-    mesh = pairing.true.articulation.mesh
-    own = pairing.true.labels == real
-    middle: FloatArray = np.average(face_centres(mesh)[own], axis=0, weights=face_areas(mesh)[own])
     at = ours.origin + ours.axis * float(ours.axis @ (middle - ours.origin)) - theirs.origin
-    return float(np.linalg.norm(at - theirs.axis * float(theirs.axis @ at))) / pairing.size
-
-
-def _opens_alike(pairing: Pairing, real: int, guess: int) -> bool:
-    """Tell whether the surface of a part begins to move the way that it truly does."""
-    mesh = pairing.true.articulation.mesh
-    own = pairing.true.labels == real
-    centres = face_centres(mesh)[own]
-    ways = _opening(pairing.true, real, centres), _opening(pairing.predicted, guess, centres)
-    return float((face_areas(mesh)[own] * np.einsum("ij,ij->i", *ways)).sum()) > 0.0
+    return float(np.linalg.norm(at - theirs.axis * float(theirs.axis @ at))) / size
 
 
 def _opening(bodies: Bodies, body: int, points: FloatArray) -> FloatArray:
