@@ -64,9 +64,7 @@ def read_published(item: SourceItem, settings: SourceSettings) -> Articulation |
         return _sampled_from_points(item, settings)
     folder = item.folder
     visual = load_visual(folder / MESH, folder, settings.intake)
-    bones, axes, ranges = (
-        load_fields(folder / name, settings.max_bytes) for name in (META, AXES, RANGES)
-    )
+    bones, axes, ranges = (_numbers_in(folder / name, settings) for name in (META, AXES, RANGES))
     structure = bones["bone_structure"]
     labels = _face_labels(folder / MESH, bones["vert_to_bone"], visual.source_face_count)
     count = int(max(labels.max(), structure.max(initial=0))) + 1
@@ -85,8 +83,10 @@ def _sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledO
     Raises:
         InputRejected: ``bad_annotation``, ``not_a_tree``, ``no_movable_joint``, ``too_many_parts``.
     """
-    stored: dict[str, Any] = dict(load_fields(item.main, settings.max_bytes))
+    stored: dict[str, Any] = dict(_numbers_in(item.main, settings))
     points = stored["points"]
+    if stored["point_to_bone"].shape != (len(points),):
+        raise _bad_annotation(f"{item.main.name}: point_to_bone does not fit its points")
     lines = (stored["link_axes_plucker"], stored["link_range"])
     annotation = _annotation(stored["point_to_bone"], stored["bone_structure"], *lines)
     corners = points[:, None] + TINY * np.eye(3)
@@ -105,6 +105,8 @@ def _annotation(labels: Array, structure: Array, lines: Array, ranges: Array) ->
     [bone_count, 12]; ``ranges`` of the turn [rad] and of the slide, from the pose that the object
     is in, shape [bone_count, 4].
     """
+    if labels.min(initial=0) < 0:
+        raise _bad_annotation(f"a label is {labels.min()}, want 0 and more")
     turns = ranges[:, :2]
     endless = np.ptp(turns, axis=1) >= FULL_TURN
     fields: Fields = {
@@ -147,7 +149,7 @@ def _face_labels(path: Path, bones: Array, face_count: int) -> IntArray:
     fitting = len(vertices) == face_count and len(labels)
     if not fitting or not 0 <= vertices.min() <= vertices.max() < len(labels):
         said = f"{path.name}: its faces do not fit the {len(labels)} labelled vertices"
-        raise InputRejected("bad_annotation", said)
+        raise _bad_annotation(said)
     return labels[vertices]
 
 
@@ -155,5 +157,22 @@ def _of_bones(stored: Fields, count: int, width: int) -> Array:
     """Return the row stored of each bone, by its number, else zeros, shape [count, width]."""
     found = np.zeros((count, width))
     for bone in range(count):
-        found[bone] = stored.get(str(bone), 0.0)
+        row = stored.get(str(bone), found[bone])
+        if row.shape != (width,):
+            raise _bad_annotation(f"bone {bone}: a row of shape {list(row.shape)}; want {width}")
+        found[bone] = row
     return found
+
+
+def _numbers_in(path: Path, settings: SourceSettings) -> Fields:
+    """Return the arrays of an ``.npz``. Raises InputRejected ``bad_annotation``: no numbers."""
+    fields = load_fields(path, settings.max_bytes)
+    for name, values in fields.items():
+        if values.dtype.kind not in "biuf" or not np.isfinite(values).all():
+            raise _bad_annotation(f"{path.name}: {name} holds what is no finite number")
+    return fields
+
+
+def _bad_annotation(message: str) -> InputRejected:
+    """Return the refusal of labels that contradict themselves or their mesh."""
+    return InputRejected("bad_annotation", message)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from refusing import refusal
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.posing import closed
@@ -100,3 +101,23 @@ def test_point_cache_is_sampled_from_the_same_tree(fixtures, name):
     assert cached.parents[0] == -1
     assert (cached.parents[1:] < np.arange(1, len(cached.parents))).all()
     assert cached.motion[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("field", "broken"),
+    [
+        ("point_to_bone", lambda bones: bones[:-1]),
+        ("point_to_bone", lambda bones: np.append(bones, 0)),
+        ("point_to_bone", lambda bones: np.full_like(bones, -1)),
+        ("link_range", lambda ranges: ranges.astype("U9")),
+        ("points", lambda points: np.where(points > 0.0, np.nan, points)),
+    ],
+    ids=["too few labels", "too many labels", "a label below 0", "text", "no number"],
+)
+def test_a_point_cache_that_contradicts_itself_is_refused(fixtures, tmp_path, field, broken):
+    with np.load(fixtures / "data_formats" / DESCRIPTIONS[0] / "train_cache.npz") as archive:
+        stored = {name: archive[name] for name in archive.files}
+    file = tmp_path / "broken.npz"
+    np.savez(file, **stored | {field: broken(stored[field])})
+    item = SourceItem("broken", file, (file,))
+    assert refusal(read_published, item, SETTINGS).code == "bad_annotation"
