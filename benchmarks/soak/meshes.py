@@ -71,7 +71,7 @@ def write_meshes(folder: Path, count: int, first: int = 0) -> None:
     for seed in range(first, first + count):
         made = small_cabinet(seed)
         name = f"cabinet_{seed:05d}"
-        write_glb(made.mesh, Y_UP, folder / f"{name}.glb")
+        write_glb(made.mesh, folder / f"{name}.glb")
         write_annotation(made, Y_UP, folder / f"{name}.pred.npz")
         values = {
             "scale": 1.0,

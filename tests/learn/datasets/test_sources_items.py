@@ -13,7 +13,8 @@ from asset_factory.learn.datasets.description import find_descriptions, find_par
 from asset_factory.learn.datasets.predictions import find_predictions, read_prediction_item
 from asset_factory.learn.datasets.settings import SourceSettings
 from asset_factory.learn.datasets.split import is_held_out
-from asset_factory.learn.objects.export import write_annotation, write_obj, write_sidecar
+from asset_factory.learn.evaluate.files import write_obj
+from asset_factory.learn.objects.export import write_annotation, write_sidecar
 from asset_factory.sim_checks.read.primitives import box
 
 
@@ -84,7 +85,7 @@ def test_labels_beside_a_mesh(tmp_path, named):
     folder = tmp_path / "chest_1"
     folder.mkdir()
     frame = np.eye(4)
-    write_obj(chest().mesh, frame, folder / "chest.obj")
+    write_obj(folder / "chest.obj", chest().mesh)
     labels = {"sidecar": "truth.npz", "stem": "chest.pred.npz", "alone": "pred.npz"}[named]
     write_annotation(chest(), frame, folder / labels)
     if named == "sidecar":
@@ -101,7 +102,8 @@ def test_labels_beside_a_mesh(tmp_path, named):
 
 def test_generated_meshes_in_one_folder_do_not_share_files(tmp_path):
     for name in ("chest_a", "chest_b"):
-        write_obj(chest().mesh, np.eye(4), tmp_path / f"{name}.obj")
+        write_obj(tmp_path / f"{name}.obj", chest().mesh)
+        touch(tmp_path / f"{name}.mtl", "")
         write_annotation(chest(), np.eye(4), tmp_path / f"{name}.pred.npz")
     items = find_predictions(tmp_path)
     assert [item.name for item in items] == ["chest_a", "chest_b"]

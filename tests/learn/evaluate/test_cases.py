@@ -178,8 +178,6 @@ def test_skins_are_the_annotated_meshes_of_a_folder(tmp_path, fused):
     with pytest.raises(ConfigError, match="holds no mesh with an annotation"):
         folder_requests(tmp_path, skins=True)
     write_sample(fused[1], tmp_path / "fridge_3")
-    # What lies with a description belongs to it.
-    (tmp_path / "fridge_3" / "object.urdf").unlink()
     (request,) = folder_requests(tmp_path, skins=True)
     assert (request.source, request.category) == ("skins", "fridge")
     assert len(make_case(request).movable_joints) == len(fused[1].movable_joints)
