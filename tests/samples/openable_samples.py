@@ -54,50 +54,30 @@ def valve() -> Asset:
 
 def train() -> Asset:
     """Two blocks on one track, one behind the other: siblings that can only meet."""
-    meshes = [
-        box([0.0, 0.0, 0.1], [0.2, 0.2, 0.2]),
-        box([0.0, -0.2, 0.3], [0.1, 0.1, 0.1]),
-        box([0.0, -0.35, 0.3], [0.1, 0.1, 0.1]),
-    ]
-    joints = tuple(
-        Joint(name, JointKind.PRISMATIC, 0, part, FRONT, [0.0, y, 0.3], 0.0, 0.4)
-        for name, part, y in (("rear", 1, -0.2), ("front", 2, -0.35))
-    )
-    return assemble(
-        "train",
-        meshes,
-        joints,
-        {i: Handle([0.0, y, 0.3], FRONT, FRONT) for i, y in ((1, -0.25), (2, -0.4))},
-    )
+    meshes = [box([0.0, 0.0, 0.1], [0.2, 0.2, 0.2])]
+    joints = []
+    handles = {}
+    for part, (name, y) in enumerate({"rear": -0.2, "front": -0.35}.items(), start=1):
+        at = [0.0, y, 0.3]
+        meshes.append(box(at, [0.1, 0.1, 0.1]))
+        joints.append(Joint(name, JointKind.PRISMATIC, 0, part, FRONT, at, 0.0, 0.4))
+        handles[part] = Handle([0.0, y - 0.05, 0.3], FRONT, FRONT)
+    return assemble("train", meshes, tuple(joints), handles)
 
 
-def fin(name: str, height: float = 0.6, friction: float = 20.0) -> Asset:
-    """A block out of whose front a narrow fin is pulled; ``friction`` [N]."""
-    meshes = [
-        box([0.0, 0.0, 0.5 * height], [0.4, 0.4, height]),
-        box([0.0, -0.26, height - 0.1], [0.02, 0.1, 0.12]),
-    ]
-    slide = Joint(
-        "slide",
-        JointKind.PRISMATIC,
-        0,
-        1,
-        FRONT,
-        [0.0, -0.26, height - 0.1],
-        0.0,
-        0.15,
-        friction=friction,
-    )
+def fin(name: str, height: float = 0.6) -> Asset:
+    """A block out of whose front a narrow fin is pulled."""
+    at = [0.0, -0.26, height - 0.1]
+    meshes = [box([0.0, 0.0, 0.5 * height], [0.4, 0.4, height]), box(at, [0.02, 0.1, 0.12])]
+    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, FRONT, at, 0.0, 0.15, friction=20.0)
     asset = assemble(name, meshes, (slide,), {1: Handle([0.0, -0.31, height - 0.1], FRONT, FRONT)})
-    return replace(
-        asset, targets=find_targets(asset.articulation, [body.hulls for body in asset.bodies])
-    )
+    targets = find_targets(asset.articulation, [body.hulls for body in asset.bodies])
+    return replace(asset, targets=targets)
 
 
 def write_registry(root: Path, *assets: Asset) -> Path:
     """``root/assets/<name>`` for each asset."""
     for asset in assets:
-        export_bundle(
-            asset, Provenance(f"{asset.name}.glb", "0" * 64), root / "assets" / asset.name
-        )
+        told = Provenance(f"{asset.name}.glb", "0" * 64)
+        export_bundle(asset, told, root / "assets" / asset.name)
     return root
