@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asset_factory.factory.articulation import rotation_about
-from asset_factory.factory.mesh import FloatArray, IntArray
+from asset_factory.factory.mesh import FloatArray, IntArray, cross
 
 from .axes import Point, Y, Z
 from .outlines import circle, rounded
@@ -202,9 +202,9 @@ def pipe(
         ahead[-1] = points[-1] - points[-2]
     ahead /= np.sqrt(np.square(ahead).sum(axis=1, keepdims=True))
     lean = _across(ahead) if up is None else np.asarray(up, dtype=np.float64)
-    side = _cross(ahead, lean)
+    side = cross(ahead, lean)
     side /= np.sqrt(np.square(side).sum(axis=1, keepdims=True))
-    above = _cross(side, ahead)
+    above = cross(side, ahead)
     cosine, sine = circle(sides)
     reach = np.broadcast_to(np.asarray(radius, dtype=np.float64), len(points))[:, None, None]
     section = side[:, None] * cosine[:, None] + flat * above[:, None] * sine[:, None]
@@ -214,17 +214,12 @@ def pipe(
 
 def _across(ahead: FloatArray) -> FloatArray:
     """Return a direction that the path of these directions never takes, if it lies in one plane."""
-    normal = _cross(ahead[0], ahead)
+    normal = cross(np.broadcast_to(ahead[0], ahead.shape), ahead)
     length = np.square(normal).sum(axis=1)
     widest = int(length.argmax())
     if length[widest] > 1e-6:
         return np.asarray(normal[widest])
     return np.array((0.0, 0.0, 1.0) if abs(ahead[0, 2]) < 0.9 else (1.0, 0.0, 0.0))
-
-
-def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Return the cross products of rows of three, in a fifth of the time of numpy's own."""
-    return np.asarray(a[..., [1, 2, 0]] * b[..., [2, 0, 1]] - a[..., [2, 0, 1]] * b[..., [1, 2, 0]])
 
 
 def ribbon(
