@@ -113,13 +113,6 @@ def test_a_carrier_of_two_parts_is_refused(tmp_path):
         write_sample(both, tmp_path)
 
 
-def test_a_value_beyond_its_limits_is_refused(tmp_path):
-    with pytest.raises(ValueError, match="outside"):
-        write_sample(turning_slider(), tmp_path, {"slide": 0.2})
-    with pytest.raises(KeyError, match="no joint"):
-        write_sample(turning_slider(), tmp_path, {"push": 0.0})
-
-
 def test_the_command_writes_the_same_files_for_the_same_options(tmp_path, monkeypatch, capsys):
     def given(name, *options):
         return [str(tmp_path / name), "--category", "chest", *options]
