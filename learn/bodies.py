@@ -55,13 +55,9 @@ class Bodies:
         """Return how a body moves relative to the one that holds it."""
         return MotionClass(sum({1 if joint.turns else 2 for joint in self.joints[body]}))
 
-    def turn(self, body: int) -> Joint | None:
-        """Return the turning joint nearest to a body, of its own; ``None`` if it has none."""
-        return next((each for each in reversed(self.joints[body]) if each.turns), None)
-
-    def slide(self, body: int) -> Joint | None:
-        """Return the sliding joint nearest to a body, of its own; ``None`` if it has none."""
-        return next((each for each in reversed(self.joints[body]) if not each.turns), None)
+    def joint(self, body: int, turns: bool) -> Joint | None:
+        """Return the joint that turns, or slides, nearest to a body; ``None`` if it has none."""
+        return next((each for each in reversed(self.joints[body]) if each.turns is turns), None)
 
     def own_motion(self, body: int, share: float) -> FloatArray:
         """Return a body's motion by its own joints, opened by a share of range, [4, 4]."""

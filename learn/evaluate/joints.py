@@ -52,8 +52,10 @@ def joint_figures(pairing: Pairing) -> dict[str, tuple[float, ...]]:
         guess = partners.get(real)
         mover = guess if guess is not None and predicted.moving[guess] else None
         alike = guess is not None and true.kind(real) == predicted.kind(guess)
-        turns = (true.turn(real), None if mover is None else predicted.turn(mover))
-        slides = (true.slide(real), None if mover is None else predicted.slide(mover))
+        turns, slides = (
+            (true.joint(real, way), None if mover is None else predicted.joint(mover, way))
+            for way in (True, False)
+        )
         angle = max(_angles(turns, slides), default=None)
         own = true.labels == real
         place = _offset(turns, np.average(centres[own], axis=0, weights=areas[own]), pairing.size)

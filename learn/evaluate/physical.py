@@ -118,8 +118,8 @@ def _with_aligned_turns(pairing: Pairing) -> Pairing:
     """Turn axes of endless joints to match their true ones, as their sign means nothing."""
     flipped = set()
     for real, guess in pairing.pairs:
-        ours = pairing.true.turn(real)
-        theirs = pairing.predicted.turn(guess)
+        ours = pairing.true.joint(real, turns=True)
+        theirs = pairing.predicted.joint(guess, turns=True)
         if ours is None or theirs is None:
             continue
         if ours.kind is theirs.kind is JointKind.CONTINUOUS and ours.axis @ theirs.axis < 0.0:
