@@ -25,6 +25,9 @@ SURE_WAY = 0.8
 AGREED = 0.4
 #: Fronts mostly face -Y or +X, so that lids are mostly hinged across from there.
 USUAL_HINGES = (Side.BACK, Side.LEFT, Side.FRONT, Side.RIGHT)
+#: Panels higher than so many of their widths are doors: of 262 labelled drawers none is higher than
+#: 1.11 of its own, of 306 doors most are.
+TALL = 1.2
 #: A panel of which this much is in a likelier one is no part of its own.
 INSIDE = 0.5
 
@@ -114,9 +117,11 @@ def _share_inside(one: Found, other: Found) -> float:
 
 
 def _panel(found: Found, sizes: FloatArray) -> StatedPart:
-    kind = StatedKind(found.sort)
+    width, height = found.box[2:] - found.box[:2]
+    tall = found.sort is Sort.DRAWER and height > TALL * width
+    kind = StatedKind.DOOR if tall else StatedKind(found.sort)
     hinge = None
-    if found.sort is not Sort.DRAWER:
+    if kind is not StatedKind.DRAWER:
         ways = [PanelWay(way) for way in USUAL[kind.part]]
         chances = {way: float(found.ways[WAYS.index(way)]) for way in ways}
         likely = max(chances, key=chances.__getitem__)

@@ -60,6 +60,13 @@ def test_an_unsure_hinge_is_left_to_geometry():
     assert part.hinge is None
 
 
+@pytest.mark.parametrize(("high", "kind"), [(1.0, StatedKind.DOOR), (0.5, StatedKind.DRAWER)])
+def test_what_is_much_higher_than_wide_is_no_drawer(high, kind):
+    drawer = seen(Side.FRONT, [0.0, 0.0, 1.0, high], Sort.DRAWER, PanelWay.OUT)
+    (part,) = stated_parts([drawer], TALL)
+    assert part.kind is kind
+
+
 def test_a_panel_in_another_is_left_out():
     whole = seen(Side.FRONT, [0.0, 0.0, 1.0, 1.0], Sort.DOOR, PanelWay.LEFT, score=0.9)
     half = seen(Side.FRONT, [0.0, 0.0, 1.0, 0.5], Sort.DRAWER, PanelWay.OUT, score=0.6)
