@@ -26,7 +26,7 @@ from .plates import Plate, Silhouette, sticking_out
 #: Kinds of object that have panels on a side, and those that have a lid.
 PANELLED = (
     "cabinet", "drawer_unit", "wardrobe", "fridge", "oven", "microwave", "dishwasher", "washer",
-    "bin", "door", "safe", "lockers", "kitchen",
+    "bin", "safe", "lockers", "kitchen",
 )  # fmt: skip
 LIDDED = ("chest", "case", "bin", "toilet", "crate", "barrel")
 #: From this probability on an object is such a one, and has something that opens.
