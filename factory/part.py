@@ -167,6 +167,10 @@ class Part:
         )
         object.__setattr__(self, "kind", PartKind(self.kind))
 
+    def is_by(self, *proposers: Proposer) -> bool:
+        """Tell whether one of these proposed it."""
+        return self.source is not None and self.source.proposer in proposers
+
     def turned(self, rotation: FloatArray) -> Part:
         """Return the part of an object that is turned about the origin by ``rotation``, [3, 3]."""
         return replace(self, panel=None if self.panel is None else self.panel.turned(rotation))

@@ -12,7 +12,7 @@ from scipy.special import expit
 
 from asset_factory.factory.articulate.articulator import Articulator
 from asset_factory.factory.articulate.detected.agreement import LID, PANEL, PROPOSED, SIGNS
-from asset_factory.factory.articulate.detected.articulator import ASKED, LEAST_SCORE
+from asset_factory.factory.articulate.detected.articulator import ASKED, LEAST_SCORE, STRANGE
 from asset_factory.factory.articulate.detected.panels import panels_of
 from asset_factory.factory.articulate.detected.rating import CellParts, support_of_box
 from asset_factory.factory.articulate.origin import MeshOrigin
@@ -61,7 +61,7 @@ class LabelledMesh:
 def labelled_meshes(folders: Sequence[Path], root: Path) -> Iterator[LabelledMesh]:
     """Yield labelled real meshes that the detector did not see, as they are and made one piece.
 
-    After them come the objects in ``root`` of the list's half to tune on, made one piece.
+    After them come the objects in ``root`` of the list's half to tune on, likewise.
 
     Raises:
         ConfigError: an object of the list is not there.
@@ -72,7 +72,7 @@ def labelled_meshes(folders: Sequence[Path], root: Path) -> Iterator[LabelledMes
         yield LabelledMesh(coloured_skin(each.mesh, seed), each.sides.instances)
     requests = real_requests(root, "develop")
     fused = [replace(request, fused=True) for request in requests]
-    for request in in_settings(fused, ("closed",), ("front",)):
+    for request in in_settings([*requests, *fused], ("closed",), ("front",)):
         try:
             made = make_case(request)
         except InputRejected:
@@ -110,15 +110,17 @@ def _rate_own(rated: Rated, each: LabelledMesh, detection: Detection) -> None:
 def _rate_proposed(
     rated: Rated, guess: Articulator, each: LabelledMesh, detection: Detection
 ) -> None:
-    """Add the parts that somebody else proposes; raises what they do."""
+    """Add the parts that others propose, where the detector is asked; raises what they do."""
+    if detection.kind in STRANGE:
+        return
     articulation = guess.articulate(each.mesh)
     cells = CellParts.of(articulation, look_at(articulation.mesh).cells)
     for joint in articulation.movable_joints:
         part = articulation.parts[joint.child]
-        shown = cells.support(joint.child, detection.dense)
-        if part.kind in ASKED and shown is not None:
+        signs = cells.signs(joint.child, detection)
+        if part.kind in ASKED and signs is not None:
             right = _right(_boxes(cells, joint.child), each.truth, _TRUE[PROPOSED])
-            _add(rated[PROPOSED], [shown], right)
+            _add(rated[PROPOSED], signs.tolist(), right)
 
 
 def _add(rows: list[tuple[float, ...]], signs: Sequence[float], right: bool | None) -> None:

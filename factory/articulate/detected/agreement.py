@@ -17,8 +17,9 @@ FILE = "agreement.safetensors"
 PROPOSED = "proposed"
 PANEL = "panel"
 LID = "lid"
+PROPOSED_SIGNS = ("support", "root of support", "by rules of shape", "anything opens")
 PANEL_SIGNS = ("support", "root of support", "seams in relief", "handle")
-SIGNS = {PROPOSED: ("support",), PANEL: PANEL_SIGNS, LID: ("support",)}
+SIGNS = {PROPOSED: PROPOSED_SIGNS, PANEL: PANEL_SIGNS, LID: ("support",)}
 
 
 @dataclass(frozen=True)
@@ -37,9 +38,9 @@ class Agreement:
     lid: Perceptron
     least: float
 
-    def of_proposed(self, support: float) -> float:
-        """Return the probability of a part that somebody else proposes."""
-        return _chance(self.proposed, support)
+    def of_proposed(self, signs: FloatArray) -> float:
+        """Return the probability of a part for which :data:`PROPOSED_SIGNS` speak."""
+        return _chance(self.proposed, *signs)
 
     def of_panel(self, signs: FloatArray) -> float:
         """Return the probability of a panel for which :data:`PANEL_SIGNS` speak."""

@@ -15,7 +15,7 @@ from ...geometry.posing import closed, posed, rotated
 from ...intake.stated import Hinge, Stated, StatedAlternative, StatedKind, StatedPart
 from ...mesh import Mesh
 from ...models.detector.canvas import Sort, look_at
-from ...part import Part, PartKind, Proposer
+from ...part import PartKind, Proposer
 from ...views.raster import Side
 from ..articulator import Articulator, HypothesisMaker
 from ..closing import note_open, with_closed_hinges
@@ -28,10 +28,11 @@ from ..stated.placing import SeenMesh
 from ..straight import straightening
 from .agreement import Agreement
 from .boxes import with_whole_drawers
+from .facing import without_backs
 from .merging import DetectedPart, likely_hinges, seen_parts
 from .open_panels import open_panels, reopened, with_closed
 from .panels import panels_of
-from .rating import CARRIED, CellParts, support_of_box
+from .rating import CARRIED, CellParts, by_rules, support_of_box
 from .screens import open_screen
 
 if TYPE_CHECKING:
@@ -132,6 +133,7 @@ class DetectedArticulator(HypothesisMaker):
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if not made or len(sure) > len(guess.movable_joints):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
+        made = [without_backs(each, detection.kind) for each in made]
         moving = [with_closed_hinges(with_whole_drawers(e)) for e in made if e.movable_joints]
         told = moving or [self._still(mesh, guess, detection)]
         notes = tuple(_said(part, least) for part in left[:MOST_TOLD])
@@ -199,20 +201,18 @@ class DetectedArticulator(HypothesisMaker):
         alone = False
         for joint in guess.joints:
             part = guess.parts[joint.child]
-            support = cells.support(joint.child, detection.dense) if part.kind in ASKED else None
-            confidence = part.confidence or 0.0
-            ruled = part.kind is not PartKind.PART and _is_by(part, Proposer.RULES, Proposer.SIDES)
-            if support is None:
-                if not _is_by(part, Proposer.SIDES) or detection.kind in KNOBBED:
+            signs = cells.signs(joint.child, detection) if part.kind in ASKED else None
+            if signs is None:
+                if not part.is_by(Proposer.SIDES) or detection.kind in KNOBBED:
                     kept.append(joint.child)
-                    alone |= ruled
+                    alone |= by_rules(part)
                 continue
-            chance = self.agreement.of_proposed(support)
-            if ruled or (
-                confidence >= BELIEVED
-                and not any(cells.hides(joint.child, f) for each in sure for f in each.found)
+            chance = self.agreement.of_proposed(signs)
+            confidence = part.confidence or 0.0
+            if confidence >= BELIEVED and not any(
+                cells.hides(joint.child, f) for each in sure for f in each.found
             ):
-                chance = max(chance, confidence, least)
+                chance = max(chance, confidence)
             if chance >= least:
                 kept.append(joint.child)
                 chances[joint.child] = chance
@@ -325,10 +325,6 @@ def _pulls(cells: CellParts, beside: Sequence[DetectedPart]) -> list[int]:
         if guess.parts[joint.child].kind in CARRIED
         and any(cells.lies_in(joint.child, f) for part in beside for f in part.found)
     ]
-
-
-def _is_by(part: Part, *proposers: Proposer) -> bool:
-    return part.source is not None and part.source.proposer in proposers
 
 
 def _said(part: DetectedPart, least: float) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import expit
@@ -12,7 +13,10 @@ from ...geometry.posing import face_parts
 from ...mesh import BoolArray, FloatArray, IntArray
 from ...models.detector.canvas import CANVAS, OPENING, SIDES, STRIDE, Sort
 from ...models.detector.decode import Dense, Found
-from ...part import PartKind
+from ...part import Part, PartKind, Proposer
+
+if TYPE_CHECKING:
+    from ...models.detector.detect import Detection
 
 #: These kinds of part come and go with others that move.
 CARRIED = frozenset({PartKind.KNOB, PartKind.BUTTON, PartKind.RACK, PartKind.TURNTABLE})
@@ -44,14 +48,19 @@ class CellParts:
         """Return the cells that show a part or what it carries, shape [5, 64, 64]."""
         return np.isin(self.owner, self.articulation.carried(part))
 
-    def support(self, part: int, dense: Dense) -> float | None:
-        """Return the support of a part on the side where it is highest, 0 to 1.
+    def signs(self, part: int, detection: Detection) -> FloatArray | None:
+        """Return what speaks for a part that somebody proposes, as ``PROPOSED_SIGNS`` names it.
 
-        ``None`` of one that no side shows: behind a door the detector sees nothing.
+        Its support is that on the side where it is highest. ``None`` of one that no side shows:
+        behind a door the detector sees nothing.
         """
         shown = self.shown(part)
         views = np.flatnonzero(shown.sum(axis=(1, 2)) >= LEAST_CELLS).tolist()
-        return max((_support_of_cells(shown[view], dense, view) for view in views), default=None)
+        if not views:
+            return None
+        support = max(_support_of_cells(shown[view], detection.dense, view) for view in views)
+        proposed = self.articulation.parts[part]
+        return np.array([support, np.sqrt(support), by_rules(proposed), detection.opens])
 
     def hides(self, part: int, found: Found) -> bool:
         """Tell whether a part is where another is seen."""
@@ -84,6 +93,11 @@ class CellParts:
             if (shown & box).sum() > SAME_PLACE * max(shown.sum(), 1):
                 return True
         return False
+
+
+def by_rules(part: Part) -> bool:
+    """Tell whether rules of shape found a part and say what it is."""
+    return part.kind is not PartKind.PART and part.is_by(Proposer.RULES, Proposer.SIDES)
 
 
 def box_cells(box: FloatArray) -> BoolArray:

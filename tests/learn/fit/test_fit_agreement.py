@@ -63,7 +63,7 @@ def test_what_is_fitted_believes_what_was_right():
         right = (rows[:, 0] + 0.1 * rng.normal(size=200) > 0.5).astype(float)
         rated[name] = [tuple(row) for row in np.column_stack([rows, right]).tolist()]
     fitted = agreement_of(fit_agreement(rated))
-    for believed in (fitted.of_lid, fitted.of_proposed):
-        assert believed(0.9) > 0.9
-        assert believed(0.1) < 0.1
-    assert fitted.of_panel(np.array([0.9, 0.5, 0.5, 0.5])) > 0.9
+    assert fitted.of_lid(0.9) > 0.9
+    assert fitted.of_lid(0.1) < 0.1
+    for believed in (fitted.of_panel, fitted.of_proposed):
+        assert believed(np.array([0.9, 0.5, 0.5, 0.5])) > 0.9

@@ -11,6 +11,7 @@ from tests.samples.says import Says
 pytest.importorskip("torch")
 
 from asset_factory.factory.articulate.detected import DetectedArticulator, load_agreement
+from asset_factory.factory.articulate.detected.facing import without_backs
 from asset_factory.factory.articulate.pruning import keep_parts
 from asset_factory.factory.articulate.rigid import rigid_articulation
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, Weights
@@ -71,6 +72,36 @@ def test_knobs_that_rules_find_move_alone_and_guessed_ones_do_not(proposer, move
     knob = with_part(said, np.arange(2), PartKind.KNOB, source=source)
     made = detected(knob)[0].articulation
     assert bool(made.movable_joints) is moves
+
+
+@pytest.mark.parametrize(
+    ("said", "moves"),
+    [(unmoving("dresser", 1), True), (make_still("still_table", np.random.default_rng(4)), False)],
+    ids=["dresser", "table"],
+)
+def test_a_drawer_that_rules_find_moves_where_something_opens(said, moves):
+    source = PartSource("0", Proposer.RULES, 0.5, {})
+    said = rigid_articulation(said.mesh, "auto", ())
+    drawer = with_part(said, front_of(said.mesh, 0.1), PartKind.DRAWER, source=source)
+    assert bool(detected(drawer)[0].articulation.movable_joints) is moves
+
+
+@pytest.mark.parametrize(
+    ("kind", "confidence", "moving"),
+    [
+        ("fridge", 0.3, ["door", "door"]),
+        ("fridge", 0.9, ["flap"]),
+        ("window", 0.3, ["door", "door", "flap"]),
+    ],
+)
+def test_of_what_opens_on_opposite_sides_the_surer_moves(kind, confidence, moving):
+    truth = make_object("fridge", 4)
+    body, *doors = (replace(part, confidence=0.4, kind=PartKind.DOOR) for part in truth.parts)
+    middles = truth.mesh.vertices[truth.mesh.faces[body.faces]].mean(axis=1)[:, 1]
+    rear = body.faces[middles > np.quantile(middles, 0.9)]
+    said = replace(truth, parts=(replace(body, kind=PartKind.BODY), *doors))
+    made = without_backs(with_part(said, rear, PartKind.FLAP, confidence), kind)
+    assert [part.kind for part in made.parts[1:]] == moving
 
 
 def front_of(mesh, share):
@@ -165,7 +196,9 @@ def test_agreement_rises_with_what_is_seen():
     assert agreement.of_panel(seen) > agreement.least > agreement.of_panel(unseen)
     assert agreement.of_panel(closed) > agreement.of_panel(closed * [1.0, 1.0, 0.0, 0.0])
     assert agreement.of_lid(0.9) > agreement.least > agreement.of_lid(0.0)
-    assert agreement.of_proposed(0.6) > agreement.least > agreement.of_proposed(0.0)
+    guessed = np.array([0.6, np.sqrt(0.6), 0.0, 1.0])
+    assert agreement.of_proposed(guessed) > agreement.least
+    assert agreement.of_proposed(guessed * [0.0, 0.0, 1.0, 1.0]) < agreement.least
 
 
 def test_what_is_seen_and_left_fixed_is_told():
