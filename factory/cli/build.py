@@ -108,7 +108,7 @@ def run(command: Build) -> int:
     stopped = 0
     try:
         with interruptible(partial(_wind_up, job)):
-            console.follow(job.run(), results, len(inputs), job.under_way, quiet=command.quiet)
+            results += console.follow(job.run(), len(inputs), job.under_way, quiet=command.quiet)
     except KeyboardInterrupt as interruption:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)

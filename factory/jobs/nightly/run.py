@@ -26,6 +26,7 @@ from ...report.nightly.report import NightlyReport
 from ...report.nightly.table import read_table
 from ...report.summary import JobState
 from ...runtime.layout import NIGHTS
+from ..job import Job
 from .journal import journal, locked, log, read_journal, utc_now
 from .licenses import sort_out
 from .settings import NightConfig
@@ -176,7 +177,7 @@ class _NightRun:
 
             # What is damaged comes first: a night that runs out of time has mended it.
             job = self.work.job(inputs, frozenset(problem.id for problem in mending))
-            self._build(cast("Generator[Result]", job.run()), len(inputs), tried)
+            self._build(job, len(inputs), tried)
             done.state = job.state
             done.settled = self.work.settle(mending, final=job.state == JobState.FINISHED)
             for asset_id, became in done.settled.items():
@@ -195,10 +196,11 @@ class _NightRun:
         if self.config.upkeep.enabled:
             self.write(f"tidied: {self.work.tidy()}")
 
-    def _build(self, results: Generator[Result], total: int, tried: list[NightResult]) -> None:
+    def _build(self, job: Job, total: int, tried: list[NightResult]) -> None:
+        results = cast("Generator[Result]", job.run())
         # Closed: workers hear of an interruption now, not when the job is no longer referred to.
         with journal(self.folder / files.JOURNAL) as add, closing(results):
-            for result in self.work.follow(results, total):
+            for result in self.work.follow(results, total, job.under_way):
                 attempt = attempt_of(result, self.now())
                 add(attempt)
                 tried.append(attempt)

@@ -48,7 +48,7 @@ class Workshop:
 
     def job(self, paths, damaged=frozenset()):
         self.urgent = damaged
-        job = SimpleNamespace(state="finished", left=0)
+        job = SimpleNamespace(state="finished", left=0, under_way=tuple)
         job.run = lambda: self.run(job, paths)
         return job
 
@@ -99,7 +99,7 @@ class Workshop:
     def tidy(self):
         return "nothing"
 
-    def follow(self, results, total):
+    def follow(self, results, total, under_way):
         return results
 
 
