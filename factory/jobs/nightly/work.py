@@ -7,7 +7,6 @@ from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 
-from ... import jobs
 from ...intake.discover import find_inputs
 from ...intake.mirror import local_inputs
 from ...registry import Entry, Registry
@@ -15,10 +14,9 @@ from ...registry.cleaning import collect_garbage
 from ...registry.result import Result
 from ...registry.verify import Problem, Settled, mend_rows, settle, verify
 from ...report.nightly.formats import counted
-from .. import Executor, LocalExecutor
+from .. import Budget, Executor, executor_for
 from ..job import Job
-from ..memory import BUILD_BYTES, workers_for
-from .settings import LOCAL, NightConfig
+from .settings import NightConfig
 
 _HOUR_S = 3600.0
 _DAY_S = 86400.0
@@ -75,19 +73,14 @@ class Work:
     def executor(self) -> Executor:
         """Return where workers run."""
         config = self._config
-        if config.executor == LOCAL:
-            workers = workers_for(config.workers or None, BUILD_BYTES)
-            return LocalExecutor(workers, config.build.retries)
-        from ..ray.builds import ray_executor
+        place = (config.ray_address, config.exchange)
+        return executor_for(config.build, config.executor, config.workers or None, *place)
 
-        place = {"address": config.ray_address, "exchange": config.exchange}
-        return ray_executor(config.build, workers=config.workers or None, **place)
-
-    def budget(self) -> jobs.Budget:
+    def budget(self) -> Budget:
         """Return how much the job does."""
         budget = self._config.budget
         longest = _HOUR_S * budget.max_hours
-        return jobs.Budget(budget.limit or None, longest or None, budget.retry_rejected)
+        return Budget(budget.limit or None, longest or None, budget.retry_rejected)
 
     def verify(self) -> tuple[Problem, ...]:
         """Return the faults of registered assets."""
