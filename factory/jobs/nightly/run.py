@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace
-from datetime import datetime
 from pathlib import Path
 from typing import cast
 
@@ -27,7 +26,7 @@ from ...report.nightly.table import read_table
 from ...report.summary import JobState
 from ...runtime.layout import NIGHTS
 from ..job import Job
-from .journal import journal, locked, log, read_journal, utc_now
+from .journal import journal, locked, log, read_journal
 from .licenses import sort_out
 from .settings import NightConfig
 from .work import Work
@@ -39,7 +38,6 @@ def run_night(
     *,
     name: str | None = None,
     fresh: bool = False,
-    now: Callable[[], datetime] = utc_now,
 ) -> NightlyReport:
     """Run a night, or go on with one that was interrupted.
 
@@ -66,8 +64,8 @@ def run_night(
             announce(folder.name)
             folder.mkdir(exist_ok=True)
             (folder / files.JOURNAL).touch()
-            with log(folder / files.LOG, now) as write:
-                report = _NightRun(folder, config, work, write, now).report(found)
+            with log(folder / files.LOG, work.now) as write:
+                report = _NightRun(folder, config, work, write).report(found)
                 told = " ".join(report.attention) or "all is well"
                 write(f"ends with exit code {report.night.exit_code}: {told}")
             return report
@@ -111,11 +109,10 @@ class _NightRun:
     config: NightConfig
     work: Work
     write: Callable[[str], None]
-    now: Callable[[], datetime]
 
     def report(self, found: Sequence[Path]) -> NightlyReport:
         """Build, verify and tidy, compare with the night before, and publish."""
-        began = self.now()
+        began = self.work.now()
         earlier = files.read_night(self.folder)
         rows = self.work.entries()
         tried = list(read_journal(self.folder / files.JOURNAL))
@@ -130,7 +127,7 @@ class _NightRun:
         kept = self.work.entries()
         attempts = latest(tried)
         first = min([stamp(began), *(attempt.started for attempt in tried)])
-        ended = self.now()
+        ended = self.work.now()
         seconds = (ended - began).total_seconds() + (earlier.seconds if earlier else 0.0)
         night = Night(
             self.folder.name,
@@ -201,7 +198,7 @@ class _NightRun:
         # Closed: workers hear of an interruption now, not when the job is no longer referred to.
         with journal(self.folder / files.JOURNAL) as add, closing(results):
             for result in self.work.follow(results, total, job.under_way):
-                attempt = attempt_of(result, self.now())
+                attempt = attempt_of(result, self.work.now())
                 add(attempt)
                 tried.append(attempt)
                 known = "known " if attempt.known else ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from datetime import UTC, datetime
 from functools import cached_property
 from pathlib import Path
 
@@ -55,6 +56,10 @@ class Work:
             "workers": str(config.workers or "as many as fit"),
             "licenses": ", ".join(config.licenses.allowed) or "any",
         }
+
+    def now(self) -> datetime:
+        """Return the time."""
+        return datetime.now(UTC)
 
     def find(self) -> tuple[Path, ...]:
         """Return all inputs; those behind URLs are fetched."""

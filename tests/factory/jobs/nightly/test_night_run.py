@@ -115,7 +115,7 @@ def config(tmp_path):
 
 
 def run(workshop, config, **more):
-    return run_night(config, workshop, now=workshop.now, **more)
+    return run_night(config, workshop, **more)
 
 
 def summary(config, name):
