@@ -14,7 +14,7 @@ from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.coupling import sound_chains, whole_chain
 
 from .errors import InvalidArticulation
-from .mesh import FloatArray, Mesh, read_only
+from .mesh import FloatArray, Mesh, freeze
 from .part import Part
 
 __all__ = [
@@ -76,8 +76,7 @@ class Joint:
     mimic: Mimic | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "axis", read_only(self.axis))
-        object.__setattr__(self, "origin", read_only(self.origin))
+        freeze(self, "axis", "origin")
         object.__setattr__(self, "kind", JointKind(self.kind))
         object.__setattr__(self, "lower", float(self.lower))
         object.__setattr__(self, "upper", float(self.upper))
