@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
 from datetime import timedelta
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from rich.console import Console
 from rich.markup import escape
@@ -38,6 +37,7 @@ if TYPE_CHECKING:
     from ..export.manifest import Manifest
     from ..jobs.executor import UnderWay
 
+T = TypeVar("T")
 STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED: "yellow"}
 _STYLES = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.NOTE: "blue"}
 #: In a table of more inputs than this, those known from before are left out.
@@ -142,14 +142,12 @@ class _TimeLeft(ProgressColumn):
         return Text(f"about {timedelta(seconds=round(left))} left")
 
 
-@contextmanager
-def counted(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Show a progress bar on a terminal, nothing elsewhere; it is told how many are done."""
+def tracked(things: Iterable[T], what: str, total: int) -> Iterator[T]:
+    """Pass things on as they come, with a progress bar on a terminal and nothing elsewhere."""
     console = Terminal(stderr=True)
     columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
-        task = progress.add_task(what, total=None)
-        yield lambda done, total: progress.update(task, completed=done, total=total)
+        yield from progress.track(things, total)
 
 
 def _known_sentence(known: int, total: int) -> str:
