@@ -15,7 +15,7 @@ from ...intake.mirror import mirror_of
 from ...registry import Entry
 from ...registry.diff import diff
 from ...registry.result import Result
-from ...registry.verify import Problem, Settled
+from ...registry.verify import Problem, Settled, mend_rows, settle, verify
 from ...report.nightly import files
 from ...report.nightly.figures import compare, source_yields
 from ...report.nightly.formats import counted, stamp
@@ -114,7 +114,7 @@ class _NightRun:
         """Build, verify and tidy, compare with the night before, and publish."""
         began = self.work.now()
         earlier = files.read_night(self.folder)
-        rows = self.work.entries()
+        rows = tuple(self.work.registry.walk())
         tried = list(read_journal(self.folder / files.JOURNAL))
         told = ", ".join(f"{name}: {value}" for name, value in self.work.settings.items())
         begins = "goes on" if tried or earlier else "begins"
@@ -124,7 +124,7 @@ class _NightRun:
         self.write(f"{counted(len(found), 'input')}, {len(left_out)} left out for their license")
         done = self._do(inputs, tried)
 
-        kept = self.work.entries()
+        kept = tuple(self.work.registry.walk())
         attempts = latest(tried)
         first = min([stamp(began), *(attempt.started for attempt in tried)])
         ended = self.work.now()
@@ -167,16 +167,17 @@ class _NightRun:
         try:
             self._tidy()
             if self.config.verify:
-                done.damage = self.work.verify()
+                done.damage = verify(self.work.registry)
                 self.write(f"verified, found {counted(len(done.damage), 'problem')}")
             mending = (done.damage or ()) if self.config.mend else ()
-            self.work.mend_rows(mending)
+            mend_rows(self.work.registry, mending)
 
             # What is damaged comes first: a night that runs out of time has mended it.
             job = self.work.job(inputs, frozenset(problem.id for problem in mending))
             self._build(job, len(inputs), tried)
             done.state = job.state
-            done.settled = self.work.settle(mending, final=job.state == JobState.FINISHED)
+            final = job.state == JobState.FINISHED
+            done.settled = settle(self.work.registry, mending, final=final)
             for asset_id, became in done.settled.items():
                 self.write(f"{became}: {asset_id}")
             self._tidy()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cached_property
@@ -10,10 +10,9 @@ from pathlib import Path
 
 from ...intake.discover import find_inputs
 from ...intake.mirror import local_inputs
-from ...registry import Entry, Registry
+from ...registry import Registry
 from ...registry.cleaning import collect_garbage
 from ...registry.result import Result
-from ...registry.verify import Problem, Settled, mend_rows, settle, verify
 from ...report.nightly.formats import counted
 from .. import Budget, Executor, executor_for
 from ..job import Job
@@ -41,7 +40,8 @@ class Work:
         self.follow = follow
 
     @cached_property
-    def _registry(self) -> Registry:
+    def registry(self) -> Registry:
+        """Return the registry."""
         return Registry(self._config.output, create=True)
 
     @property
@@ -65,10 +65,6 @@ class Work:
         """Return all inputs; those behind URLs are fetched."""
         return find_inputs(local_inputs(self._config.inputs, self._config.output))
 
-    def entries(self) -> tuple[Entry, ...]:
-        """Return all rows of the registry."""
-        return tuple(self._registry.walk())
-
     def job(self, inputs: tuple[Path, ...], damaged: frozenset[str] = frozenset()) -> Job:
         """Return the job over some inputs; those of damaged assets are built again, and first."""
         config = self._config
@@ -86,18 +82,6 @@ class Work:
         budget = self._config.budget
         longest = _HOUR_S * budget.max_hours
         return Budget(budget.limit or None, longest or None, budget.retry_rejected)
-
-    def verify(self) -> tuple[Problem, ...]:
-        """Return the faults of registered assets."""
-        return verify(self._registry)
-
-    def mend_rows(self, damage: Sequence[Problem]) -> None:
-        """Rebuild rows that are not what their folders say."""
-        mend_rows(self._registry, damage)
-
-    def settle(self, damage: Sequence[Problem], *, final: bool) -> dict[str, Settled]:
-        """Return what became of damaged assets; those that nothing could mend are withdrawn."""
-        return settle(self._registry, damage, final=final)
 
     def tidy(self) -> str:
         """Remove what nobody needs; says what that was."""
