@@ -168,16 +168,14 @@ def _floor_points(camera: Camera) -> FloatArray:
 
 def _floor_light(shot: Shot, points: FloatArray) -> FloatArray:
     """Return how much light falls on points of the floor, shape [height, width]."""
-    camera = shot.camera
-    light = light_direction(camera)
+    light = light_direction(shot.camera)
     met = Hits.none(len(points))
     for index, link in shot.caster.links.items():
-        pose = shot.poses[index]
-        corners = link.corners @ pose[:3, :3].T + pose[:3, 3]
+        corners = link.corners @ shot.poses[index][:3, :3].T + shot.poses[index][:3, 3]
         falls = (corners - light * (corners[:, 2:] / light[2]))[:, :2]
         near = (points[:, :2] >= falls.min(axis=0)) & (points[:, :2] <= falls.max(axis=0))
         own = np.flatnonzero(near.all(axis=1))
         directions = np.broadcast_to(light, (len(own), 3))
-        link.meet(points[own], directions, pose, own, met)
-    share = np.where(np.isfinite(met.depth), SHADOW, 1.0).reshape(camera.height, camera.width)
-    return np.asarray(uniform_filter(share, int(BLUR * camera.width) | 1))
+        link.meet(points[own], directions, shot.poses[index], own, met)
+    share = np.where(np.isfinite(met.depth), SHADOW, 1.0).reshape(shot.camera.height, -1)
+    return np.asarray(uniform_filter(share, int(BLUR * share.shape[1]) | 1))
