@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from datetime import timedelta
 from pathlib import Path
-from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rich.console import Console
@@ -77,11 +76,11 @@ def follow(
     columns = (*amounts, _TimeLeft(), _Stages(under_way))
     known = 0
     done = 0
-    told = monotonic()
     with Progress(
         *columns, console=console, disable=not drawn, speed_estimate_period=WINDOW_S
     ) as progress:
         task = progress.add_task("building", total=total)
+        told = progress.get_time()
         for done, result in enumerate(results, start=1):
             known += result.known
             progress.update(task, total=total - known, advance=not result.known)
@@ -92,8 +91,8 @@ def follow(
                 ):
                     console.print(line, markup=False)
             elif every_s is not None:
-                if monotonic() - told >= every_s:
-                    told = monotonic()
+                if progress.get_time() - told >= every_s:
+                    told = progress.get_time()
                     console.print(pace(done, total, progress.tasks[0].speed), markup=False)
             elif not result.known:
                 if 0 < known == done - 1:
