@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from datetime import timedelta
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
     from ..export.manifest import Manifest
     from ..jobs.executor import UnderWay
 
-T = TypeVar("T")
 STATUS_STYLE = {Status.PASSED: "green", Status.REJECTED: "red", Status.UNJUDGED: "yellow"}
 _STYLES = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.NOTE: "blue"}
 #: In a table of more inputs than this, those known from before are left out.
@@ -141,12 +141,14 @@ class _TimeLeft(ProgressColumn):
         return Text(f"about {timedelta(seconds=round(left))} left")
 
 
-def tracked(things: Iterable[T], what: str, total: int) -> Iterator[T]:
-    """Pass things on as they come, with a progress bar on a terminal and nothing elsewhere."""
+@contextmanager
+def counted(what: str) -> Iterator[Callable[[int, int], None]]:
+    """Show a progress bar on a terminal, nothing elsewhere; it is told how many are done."""
     console = Terminal(stderr=True)
     columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
-        yield from progress.track(things, total)
+        task = progress.add_task(what, total=None)
+        yield lambda done, total: progress.update(task, completed=done, total=total)
 
 
 def _known_sentence(known: int, total: int) -> str:

@@ -60,11 +60,13 @@ def write_report(registry: Registry, workers: int | None) -> Path:
     try:
         calls = [Call(each.id, {"root": registry.root, "entry": each}) for each in stale(registry)]
         drawn = drawers.run(write_asset, calls, Limits(wall_s=PAGE_S))
-        for call, outcome in console.tracked(drawn, "drawing pages", len(calls)):
-            if isinstance(outcome.error, OSError):
-                raise outcome.error
-            if outcome.failure is not None:
-                failed.append(f"factory: no page of {call.name}: {outcome.detail}")
+        with console.counted("drawing pages") as progress:
+            for done, (call, outcome) in enumerate(drawn, start=1):
+                if isinstance(outcome.error, OSError):
+                    raise outcome.error
+                if outcome.failure is not None:
+                    failed.append(f"factory: no page of {call.name}: {outcome.detail}")
+                progress(done, len(calls))
         write_index(registry)
     except OSError as error:
         where = error.filename or registry.root
