@@ -15,7 +15,7 @@ import imageio.v2 as imageio
 from PIL import Image, ImageDraw, ImageFont
 
 from asset_factory.factory.display.camera import Viewpoint
-from asset_factory.factory.display.casting import Caster
+from asset_factory.factory.display.casting import Caster, Shot
 from asset_factory.factory.display.described import scene_of_file
 from asset_factory.factory.display.glb import read_model, scene_from
 from asset_factory.factory.display.pictures import Pixels, tinted
@@ -83,10 +83,10 @@ def stages(mesh: SceneGraph, made: SceneGraph) -> list[Pixels]:
     camera = Viewpoint(made).camera(*CELL, closed, opened)
     own = Caster(made, made.visuals)
     return [
-        still(Caster(mesh, tinted(mesh.visuals, CLAY)), camera, {}),
-        still(own, camera, closed),
-        still(own, camera, opened),
-        still(Caster(made, tinted(made.hulls)), camera, opened),
+        still(Shot(Caster(mesh, tinted(mesh.visuals, CLAY)), camera, {})),
+        still(Shot(own, camera, closed)),
+        still(Shot(own, camera, opened)),
+        still(Shot(Caster(made, tinted(made.hulls)), camera, opened)),
     ]
 
 

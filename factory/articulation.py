@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
@@ -14,7 +14,7 @@ from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.coupling import sound_chains, whole_chain
 
 from .errors import InvalidArticulation
-from .mesh import FloatArray, Mesh, read_only
+from .mesh import FloatArray, Mesh, freeze
 from .part import Part
 
 __all__ = [
@@ -76,8 +76,7 @@ class Joint:
     mimic: Mimic | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "axis", read_only(self.axis))
-        object.__setattr__(self, "origin", read_only(self.origin))
+        freeze(self, "axis", "origin")
         object.__setattr__(self, "kind", JointKind(self.kind))
         object.__setattr__(self, "lower", float(self.lower))
         object.__setattr__(self, "upper", float(self.upper))
@@ -274,27 +273,26 @@ RESERVED_PART_NAME = "world"
 UNIT_TOLERANCE = 1e-6
 
 
-def _check_name(what: str, name: str) -> None:
-    if not name or not set(name) <= NAME_CHARACTERS:
-        raise InvalidArticulation(
-            f"{what} {name!r}: want a name of letters, digits, '_', '-' and '.'"
-        )
+def _check_names(what: str, names: Sequence[str]) -> None:
+    for place, name in enumerate(names):
+        if not name or not set(name) <= NAME_CHARACTERS:
+            raise InvalidArticulation(
+                f"{what} {name!r}: want a name of letters, digits, '_', '-' and '.'"
+            )
+        if name in names[:place]:
+            raise InvalidArticulation(f"{what} {name!r}: appears twice, want unique names")
 
 
 def _check_parts(parts: tuple[Part, ...], face_count: int) -> None:
     if not parts:
         raise InvalidArticulation("articulation: has no parts, want at least a root")
+    _check_names("part", [part.name for part in parts])
     owner = np.full(face_count, -1)
-    names: set[str] = set()
     for index, part in enumerate(parts):
-        _check_name("part", part.name)
         if part.name == RESERVED_PART_NAME:
             raise InvalidArticulation(
                 f"part {part.name!r}: MuJoCo keeps that name for the ground, want another"
             )
-        if part.name in names:
-            raise InvalidArticulation(f"part {part.name!r}: appears twice, want unique names")
-        names.add(part.name)
         if len(part.faces) and not 0 <= part.faces[0] <= part.faces[-1] < face_count:
             raise InvalidArticulation(f"part {part.name!r}: has a face outside 0..{face_count - 1}")
         taken = owner[part.faces]
@@ -316,12 +314,8 @@ def _check_tree(parts: tuple[Part, ...], joints: tuple[Joint, ...]) -> None:
             f"articulation: {len(joints)} joints for {len(parts)} parts, want {len(parts) - 1}: "
             "one tree, one root"
         )
-    names: set[str] = set()
+    _check_names("joint", [joint.name for joint in joints])
     for index, joint in enumerate(joints):
-        _check_name("joint", joint.name)
-        if joint.name in names:
-            raise InvalidArticulation(f"joint {joint.name!r}: appears twice, want unique names")
-        names.add(joint.name)
         if joint.child != index + 1:
             raise InvalidArticulation(
                 f"joint {joint.name!r}: child is {joint.child}, want {index + 1} (tree order)"

@@ -9,7 +9,7 @@ import numpy as np
 
 from .articulation import Articulation
 from .errors import InvalidAsset
-from .mesh import FloatArray, IntArray, cross, read_only
+from .mesh import FloatArray, IntArray, cross, freeze, read_only
 
 
 @dataclass(frozen=True)
@@ -25,8 +25,8 @@ class Hull:
     faces: IntArray
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "vertices", read_only(self.vertices))
-        object.__setattr__(self, "faces", read_only(self.faces, np.int64))
+        freeze(self, "vertices")
+        freeze(self, "faces", dtype=np.int64)
         if len(self.vertices) < 4 or not np.isfinite(self.vertices).all():
             raise InvalidAsset(f"hull: {len(self.vertices)} vertices, want at least 4 finite ones")
         if not self.volume > 0.0:
@@ -74,8 +74,7 @@ class Inertial:
     tensor: FloatArray
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "center", read_only(self.center))
-        object.__setattr__(self, "tensor", read_only(self.tensor))
+        freeze(self, "center", "tensor")
         if not (np.isfinite(self.mass) and self.mass > 0.0):
             raise InvalidAsset(f"inertial: mass must be more than 0, not {self.mass} kg")
         if not (np.isfinite(self.center).all() and np.isfinite(self.tensor).all()):
@@ -114,9 +113,8 @@ class Handle:
     source: str = "far_edge"
 
     def __post_init__(self) -> None:
-        for name in ("point", "normal", "pull"):
-            object.__setattr__(self, name, read_only(getattr(self, name)))
-        object.__setattr__(self, "faces", read_only(self.faces, np.int64))
+        freeze(self, "point", "normal", "pull")
+        freeze(self, "faces", dtype=np.int64)
 
 
 @dataclass(frozen=True)
@@ -150,8 +148,7 @@ class Target:
     score: float
 
     def __post_init__(self) -> None:
-        for name in ("point", "normal", "pull", "fingers"):
-            object.__setattr__(self, name, read_only(getattr(self, name)))
+        freeze(self, "point", "normal", "pull", "fingers")
 
 
 @dataclass(frozen=True)

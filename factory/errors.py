@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from asset_factory.sim_checks import Finding
+from asset_factory.sim_checks import Finding, Severity
 
 
 class Exit(IntEnum):
@@ -52,7 +52,7 @@ class InputRejected(AssetFactoryError):
     Attributes:
         code: stable reason code, e.g. ``unreadable``, ``empty``, ``too_large``.
         message: one sentence: what, where, what would work.
-        value, unit, limit: the number behind the sentence, where there is one.
+        finding: both, and the number behind the sentence, where there is one.
         digest: SHA-256 over all files of the input, where all were read before it was rejected.
     """
 
@@ -69,23 +69,18 @@ class InputRejected(AssetFactoryError):
         super().__init__(message)
         self.code = code
         self.message = message
-        self.value = value
-        self.unit = unit
-        self.limit = limit
+        self.finding = Finding(code, Severity.ERROR, message, value=value, unit=unit, limit=limit)
         self.digest = digest
+
+    @classmethod
+    def of(cls, finding: Finding, digest: str = "") -> InputRejected:
+        """Return the rejection for a finding."""
+        number = {"value": finding.value, "limit": finding.limit}
+        return cls(finding.code, finding.message, unit=finding.unit, **number, digest=digest)
 
     def __reduce__(self) -> tuple[object, ...]:
         # Keyword-only arguments do not survive the default pickling between worker processes.
-        return (
-            _rebuild_rejection,
-            (self.code, self.message, self.value, self.unit, self.limit, self.digest),
-        )
-
-
-def _rebuild_rejection(
-    code: str, message: str, value: float | None, unit: str | None, limit: float | None, digest: str
-) -> InputRejected:
-    return InputRejected(code, message, value=value, unit=unit, limit=limit, digest=digest)
+        return InputRejected.of, (self.finding, self.digest)
 
 
 class Unjudged(AssetFactoryError):

@@ -22,6 +22,14 @@ def read_only(array: npt.ArrayLike, dtype: npt.DTypeLike = np.float64) -> npt.ND
     return copy
 
 
+def freeze(thing: object, *names: str, dtype: npt.DTypeLike = np.float64) -> None:
+    """Make arrays of a frozen dataclass read-only, each a copy of its own; ``None`` stays."""
+    for name in names:
+        value = getattr(thing, name)
+        if value is not None:
+            object.__setattr__(thing, name, read_only(value, dtype))
+
+
 def cross(first: FloatArray, second: FloatArray) -> FloatArray:
     """Return the cross products of rows, shape [n, 3], as ``np.cross`` does, several times faster.
 
@@ -92,19 +100,8 @@ class Mesh:
     materials: tuple[Material, ...]
 
     def __post_init__(self) -> None:
-        def freeze(name: str, dtype: npt.DTypeLike) -> None:
-            value = getattr(self, name)
-            if value is not None:
-                object.__setattr__(self, name, read_only(value, dtype))
-
-        for name, dtype in (
-            ("vertices", np.float64),
-            ("faces", np.int64),
-            ("corner_uv", np.float64),
-            ("corner_normals", np.float64),
-            ("face_material", np.int64),
-        ):
-            freeze(name, dtype)
+        freeze(self, "vertices", "corner_uv", "corner_normals")
+        freeze(self, "faces", "face_material", dtype=np.int64)
         face_count = len(self.faces)
         if self.vertices.ndim != 2 or self.vertices.shape[1] != 3:
             raise ValueError(f"mesh: vertices have shape {self.vertices.shape}, want [n, 3]")

@@ -8,7 +8,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from .mesh import FloatArray, IntArray, read_only
+from .mesh import FloatArray, IntArray, freeze, read_only
 
 
 class PartKind(StrEnum):
@@ -82,8 +82,7 @@ class Panel:
     opens: OpensBy
 
     def __post_init__(self) -> None:
-        for name in ("frame", "low", "high"):
-            object.__setattr__(self, name, read_only(getattr(self, name)))
+        freeze(self, "frame", "low", "high")
         object.__setattr__(self, "front", float(self.front))
         object.__setattr__(self, "opens", OpensBy(self.opens))
 

@@ -12,7 +12,7 @@ from scipy.ndimage import uniform_filter
 from scipy.spatial import ConvexHull
 
 from asset_factory.factory.display.camera import Camera, Viewpoint
-from asset_factory.factory.display.casting import Caster, Hits
+from asset_factory.factory.display.casting import Caster, Hits, Shot
 from asset_factory.factory.display.described import scene_of_file
 from asset_factory.factory.display.made import plain_surface
 from asset_factory.factory.display.pictures import Pixels, paint_still
@@ -112,11 +112,12 @@ def draw_film(made: FilmScene, width: int, height: int, every: int = 1) -> Itera
     points = _floor_points(camera)
     poses = np.array([made.scene.poses(values) for values in made.values])
     moving = frozenset(np.flatnonzero((np.ptp(poses, axis=0) > STILL).any(axis=(1, 2))).tolist())
-    under = paint_still(caster, camera, made.values[0], moving)
+    under = paint_still(Shot(caster, camera, made.values[0]), moving)
     for values in made.values[::every]:
-        seen = still(caster, camera, values, under)
+        shot = Shot(caster, camera, values)
+        seen = still(shot, under)
         covered = seen[..., 3:] / 255.0
-        floor = FLOOR * _floor_light(caster, camera, values, points)[..., None]
+        floor = FLOOR * _floor_light(shot, points)[..., None]
         yield np.round(seen[..., :3] * covered + floor * (1.0 - covered)).astype(np.uint8)
 
 
@@ -148,7 +149,7 @@ def _camera(made: FilmScene, width: int, height: int) -> Camera:
 
     def shown(turn: float) -> int:
         rough = view.camera(ROUGH, ROUGH * height // width, *poses, turn=turn)
-        seen = [caster.see(rough, values).link for values in poses]
+        seen = [Shot(caster, rough, values).see().link for values in poses]
         return sum(int(np.isin(each, list(made.watched)).sum()) for each in seen)
 
     turns = [2.0 * np.pi * place / PLACES for place in range(PLACES)]
@@ -165,17 +166,16 @@ def _floor_points(camera: Camera) -> FloatArray:
     return np.asarray(camera.eye - rays * (camera.eye[2] / rays[:, 2:]))
 
 
-def _floor_light(caster: Caster, camera: Camera, values: Values, points: FloatArray) -> FloatArray:
+def _floor_light(shot: Shot, points: FloatArray) -> FloatArray:
     """Return how much light falls on points of the floor, shape [height, width]."""
-    light = light_direction(camera)
+    light = light_direction(shot.camera)
     met = Hits.none(len(points))
-    poses = caster.scene.poses(values)
-    for index, link in caster.links.items():
-        corners = link.corners @ poses[index][:3, :3].T + poses[index][:3, 3]
+    for index, link in shot.caster.links.items():
+        corners = link.corners @ shot.poses[index][:3, :3].T + shot.poses[index][:3, 3]
         falls = (corners - light * (corners[:, 2:] / light[2]))[:, :2]
         near = (points[:, :2] >= falls.min(axis=0)) & (points[:, :2] <= falls.max(axis=0))
         own = np.flatnonzero(near.all(axis=1))
         directions = np.broadcast_to(light, (len(own), 3))
-        link.meet(points[own], directions, poses[index], own, met)
-    share = np.where(np.isfinite(met.depth), SHADOW, 1.0).reshape(camera.height, camera.width)
-    return np.asarray(uniform_filter(share, int(BLUR * camera.width) | 1))
+        link.meet(points[own], directions, shot.poses[index], own, met)
+    share = np.where(np.isfinite(met.depth), SHADOW, 1.0).reshape(shot.camera.height, -1)
+    return np.asarray(uniform_filter(share, int(BLUR * share.shape[1]) | 1))

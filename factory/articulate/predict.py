@@ -32,13 +32,8 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
     try:
         intake, (likeliest, *_) = standing_hypotheses(origin.load(), origin, Stages(config))
     except InputRejected as rejection:
-        reason = {
-            "code": rejection.code,
-            "message": rejection.message,
-            "value": rejection.value,
-            "unit": rejection.unit,
-            "limit": rejection.limit,
-        }
+        told_of = ("code", "message", "value", "unit", "limit")
+        reason = {name: getattr(rejection.finding, name) for name in told_of}
         return {"input": source.name, "rejected": reason}
     told = outline(likeliest.articulation)
     return {"input": source.name, **told, "notes": [*intake.provenance.notes, *told["notes"]]}

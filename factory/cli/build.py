@@ -108,7 +108,7 @@ def run(command: Build) -> int:
     stopped = 0
     try:
         with interruptible(partial(_wind_up, job)):
-            console.follow(job.run(), results, len(inputs), job.under_way, quiet=command.quiet)
+            results += console.follow(job.run(), len(inputs), job.under_way, quiet=command.quiet)
     except KeyboardInterrupt as interruption:
         stopped = Exit.TERMINATED if isinstance(interruption, Terminated) else Exit.INTERRUPTED
     left = len(inputs) - len(results)
@@ -191,24 +191,14 @@ def idle_retries(command: Build) -> Iterator[str]:
 
 def job_for(command: Build, inputs: tuple[Path, ...]) -> Job:
     """Return the job that flags ask for. Raises ConfigError: a bad flag, and what is right."""
-    from ..jobs import Budget, Executor, LocalExecutor
+    from ..jobs import Budget, executor_for
     from ..jobs.job import Job
-    from ..jobs.memory import BUILD_BYTES, workers_for
 
     config = build_config(command)
     if command.executor != "ray" and (command.ray_address != "local" or command.ray_exchange):
         raise ConfigError("--ray-address and --ray-exchange want --executor ray")
-    workers = command.workers
-    if command.executor != "ray" or command.ray_address == "local":
-        workers = workers_for(workers, BUILD_BYTES)
-    executor: Executor
-    if command.executor == "ray":
-        from ..jobs.ray.builds import ray_executor
-
-        place = {"address": command.ray_address, "exchange": command.ray_exchange}
-        executor = ray_executor(config, workers=workers, **place)
-    else:
-        executor = LocalExecutor(workers or 1, config.retries)
+    place = (command.ray_address, command.ray_exchange)
+    executor = executor_for(config, command.executor, command.workers, *place)
     max_s = None if command.max_hours is None else 3600.0 * command.max_hours
     budget = Budget(command.limit, max_s, command.retry_rejected, command.repair)
     return Job(inputs, command.output, config, executor, budget)

@@ -17,6 +17,7 @@ from asset_factory.sim_checks.grouping import group_findings
 
 from ..errors import ConfigError
 from ..reasons import meaning_of
+from ..report.nightly.formats import counted
 from ..runtime.store import write_json
 from ..runtime.terminal import one_line, printable
 
@@ -147,12 +148,8 @@ def total(checked: Checked, told: Sequence[Finding] | None = None) -> str:
     findings = [each.severity for each in told]
     words = {Status.UNJUDGED: "could not be validated"}
     files = ", ".join(f"{statuses.count(each)} {words.get(each, each)}" for each in Status)
-    found = ", ".join(_counted(findings.count(each), each) for each in Severity)
-    return f"{_counted(len(checked), 'file')}: {files}; {found}"
-
-
-def _counted(number: int, noun: str) -> str:
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+    found = ", ".join(counted(findings.count(each), each) for each in Severity)
+    return f"{counted(len(checked), 'file')}: {files}; {found}"
 
 
 def _told(finding: Finding) -> str:

@@ -28,6 +28,7 @@ from asset_factory.sim_checks.grouping import group_disagreements, group_finding
 
 from ..registry import Entry
 from ..registry.result import Result
+from ..report.nightly.formats import clock_span
 from ..report.summary import Summary
 from ..runtime.layout import ASSETS, MODEL, REJECTED, SUMMARY
 from ..runtime.terminal import Terminal, one_line
@@ -42,49 +43,72 @@ _STYLES = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.NOTE: "bl
 LISTED = 100
 #: Inputs at work that are named beside the bar.
 SHOWN_AT_WORK = 3
+#: The rate that is said is that of the last while [s].
+WINDOW_S = 600.0
 #: Columns of a terminal that a list wants beside its ids; in a narrower one its lines are broken.
 LEAST_BESIDE = 52
 
 
 def follow(
     results: Iterable[Result],
-    collected: list[Result],
     total: int,
     under_way: Callable[[], tuple[UnderWay, ...]] = tuple,
     *,
     quiet: bool = False,
-) -> None:
-    """Collect results as they come, showing a progress bar on a terminal and plain lines elsewhere.
+    every_s: float | None = None,
+) -> Iterator[Result]:
+    """Pass results on as they come, with a progress bar on a terminal and plain lines elsewhere.
 
     What was known from before is counted, not told one by one; rate and time left are those of the
     rest.
 
-    ``collected`` is given each, so that an interruption loses none.
+    Args:
+        results: at most ``total``.
+        total: how many inputs there are.
+        under_way: asked what workers are at.
+        quiet: print nothing.
+        every_s: without a terminal, say so often how far it is [s], in place of a line for each
+            result.
     """
     console = Terminal(stderr=True, quiet=quiet)
     drawn = console.is_terminal
     amounts = (BarColumn(bar_width=20), MofNCompleteColumn(), TimeElapsedColumn())
     columns = (*amounts, _TimeLeft(), _Stages(under_way))
     known = 0
-    with Progress(*columns, console=console, disable=not drawn) as progress:
+    done = 0
+    with Progress(
+        *columns, console=console, disable=not drawn, speed_estimate_period=WINDOW_S
+    ) as progress:
         task = progress.add_task("building", total=total)
-        for result in results:
-            collected.append(result)
-            if result.known:
-                known += 1
-                progress.update(task, total=total - known)
-                continue
-            progress.update(task, advance=1)
+        told = progress.get_time()
+        for done, result in enumerate(results, start=1):
+            known += result.known
+            progress.update(task, total=total - known, advance=not result.known)
             line = f"{result.entry.status}: {_sentence(result)}"
-            if not drawn:
-                if 0 < known == len(collected) - 1:
+            if drawn:
+                if not result.known and (
+                    result.entry.status is not Status.PASSED or result.replaced
+                ):
+                    console.print(line, markup=False)
+            elif every_s is not None:
+                if progress.get_time() - told >= every_s:
+                    told = progress.get_time()
+                    console.print(pace(done, total, progress.tasks[0].speed), markup=False)
+            elif not result.known:
+                if 0 < known == done - 1:
                     console.print(_known_sentence(known, total), markup=False)
-                line = f"[{len(collected)}/{total}] {line}"
-                console.print(line, markup=False, soft_wrap=True)
-            elif result.entry.status is not Status.PASSED or result.replaced:
-                console.print(line, markup=False)
-    if not drawn and 0 < known == len(collected):
+                console.print(f"[{done}/{total}] {line}", markup=False, soft_wrap=True)
+            yield result
+    if not drawn and every_s is None and 0 < known == done:
         console.print(_known_sentence(known, total), markup=False)
+
+
+def pace(done: int, total: int, speed: float | None) -> str:
+    """Return e.g. ``120 of 1,000, 14.2 a minute, about 1 h 02 min left``; speed is in 1/s."""
+    told = f"{done:,} of {total:,}"
+    if not speed:
+        return told
+    return f"{told}, {60.0 * speed:.1f} a minute, about {clock_span((total - done) / speed)} left"
 
 
 class _Stages(ProgressColumn):

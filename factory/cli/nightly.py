@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..runtime.layout import NIGHTS
 from ..runtime.terminal import say
+from . import console
 from .flags import given, on_device, simulators_named, with_repairs
 from .report import report_after
 
 if TYPE_CHECKING:
     from ..jobs.nightly.settings import NightConfig
+
+#: Without a terminal a night says so often how far it is [s].
+EVERY_S = 60.0
 
 
 @dataclass(frozen=True)
@@ -68,7 +73,8 @@ def run(command: Nightly) -> int:
     config = night_config(command)
     require_libraries("the nightly report", ("jinja2", "pyarrow"), "nightly")
     with interruptible():
-        report = run_night(config, Work(config), name=command.name, fresh=command.fresh)
+        work = Work(config, partial(console.follow, every_s=EVERY_S))
+        report = run_night(config, work, name=command.name, fresh=command.fresh)
     if not command.no_report:
         report_after(config.output, config.workers or None)
     say(message(report))

@@ -9,7 +9,7 @@ from pathlib import Path
 import tyro
 from tyro.conf import Positional
 
-from ..errors import ConfigError, Exit
+from ..errors import ConfigError, Exit, InputRejected
 from ..runtime.store import write_whole
 from ..runtime.terminal import say
 from .flags import InputFlags, in_own_process, input_config, require_writable
@@ -46,12 +46,13 @@ def run(command: Propose) -> int:
     config = input_config(command.loading)
     if not command.input.is_file():
         raise ConfigError(f"{command.input}: no such file; want a mesh")
-    asked = in_own_process(question_about, command.input, config, limits=config)
+    try:
+        asked = in_own_process(question_about, command.input, config, limits=config)
+    except InputRejected as rejection:
+        say(f"rejected: {rejection.code}: {rejection.message}")
+        return Exit.REJECTED
     if asked is None:
         return Exit.UNJUDGED
-    if asked.rejected:
-        say(f"rejected: {asked.rejected}")
-        return Exit.REJECTED
     require_writable(command.to, "--to")
     write_whole(command.to / SHEET, asked.sheet)
     write_whole(command.to / INSTRUCTION, asked.instruction.encode())

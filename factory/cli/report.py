@@ -10,6 +10,11 @@ from ..registry import Registry
 from ..runtime.terminal import complain, say
 from .flags import OfRegistry
 
+#: Longest that one asset's page may take [s]: far more than any took.
+PAGE_S = 180.0
+#: After so many pages a worker is replaced.
+PAGES = 500
+
 
 @dataclass(frozen=True)
 class ReportPages(OfRegistry):
@@ -34,26 +39,40 @@ def run(command: ReportPages) -> int:
 
 
 def write_report(registry: Registry, workers: int | None) -> Path:
-    """Draw the pages, and say on stderr what could not be; returns the first page.
+    """Draw pages of new or changed assets by a few workers; others may use the registry meanwhile.
+
+    Returns the first page; what could not be drawn is said on stderr.
 
     Raises:
         ConfigError: a library is missing.
         RegistryError: the pages cannot be written.
     """
-    from asset_factory.sim_checks.processes.isolation import processors
+    from asset_factory.sim_checks.processes.isolation import Limits, processors
 
-    from ..jobs.pages import draw_pages
-    from ..report.site.site import index_of
+    from ..jobs import Call, LocalExecutor
+    from ..report.pages import require_libraries
+    from ..report.site.site import index_of, stale, write_asset, write_index
     from . import console
 
+    require_libraries()
+    drawers = LocalExecutor(workers or processors(), calls=PAGES)
+    failed = []
     try:
+        calls = [Call(each.id, {"root": registry.root, "entry": each}) for each in stale(registry)]
+        drawn = drawers.run(write_asset, calls, Limits(wall_s=PAGE_S))
         with console.counted("drawing pages") as progress:
-            failed = draw_pages(registry, workers or processors(), progress)
+            for done, (call, outcome) in enumerate(drawn, start=1):
+                if isinstance(outcome.error, OSError):
+                    raise outcome.error
+                if outcome.failure is not None:
+                    failed.append(f"factory: no page of {call.name}: {outcome.detail}")
+                progress(done, len(calls))
+        write_index(registry)
     except OSError as error:
         where = error.filename or registry.root
         raise RegistryError(f"{where}: the report cannot be written: {error.strerror}") from error
-    for sentence in failed:
-        complain(f"factory: no page of {sentence}")
+    for sentence in sorted(failed):
+        complain(sentence)
     return index_of(registry.root)
 
 

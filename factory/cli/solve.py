@@ -61,9 +61,13 @@ def run(command: Solve) -> int:
     from asset_factory.envs.solving.record import UNJUDGED, SolveRecord, read_record, write_record
 
     from ..registry import Registry
+    from ..report.pages import require_libraries
     from .report import report_after
 
-    _require_sound(command)
+    check_effort(command, ("workers", "tries"))
+    require_maniskill("solving wants")
+    if command.video:
+        require_libraries("--video: the report")
     registry = Registry(command.output)
     assets = _wanted(read_registry(command.output), command)
     records: dict[str, SolveRecord] = {}
@@ -101,15 +105,6 @@ def run(command: Solve) -> int:
     if any(row["reason"] in UNJUDGED for rows in shown.values() for row in rows):
         return Exit.UNJUDGED
     return Exit.REJECTED if command.strict and solved < len(shown) else Exit.OK
-
-
-def _require_sound(command: Solve) -> None:
-    from ..report.pages import require_libraries
-
-    check_effort(command, ("workers", "tries"))
-    require_maniskill("solving wants")
-    if command.video:
-        require_libraries("--video: the report")
 
 
 def _wanted(assets: dict[str, RegisteredAsset], command: Solve) -> dict[str, RegisteredAsset]:

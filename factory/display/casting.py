@@ -123,39 +123,48 @@ class Caster:
             if own:
                 self.links[index] = LinkCaster(index, own)
 
-    def see(
-        self,
-        camera: Camera,
-        values: Mapping[str, float],
-        known: Hits | None = None,
-        moving: frozenset[int] | None = None,
-    ) -> Hits:
+
+@dataclass(frozen=True)
+class Shot:
+    """A pose of a scene, as a camera sees it.
+
+    Attributes:
+        caster: the surfaces that are seen.
+        camera: that sees them.
+        values: of joints [rad] or [m].
+    """
+
+    caster: Caster
+    camera: Camera
+    values: Mapping[str, float]
+
+    @cached_property
+    def poses(self) -> FloatArray:
+        """Return the frames of links in the root's frame, shape [links, 4, 4]."""
+        return self.caster.scene.poses(self.values)
+
+    def see(self, known: Hits | None = None, moving: frozenset[int] | None = None) -> Hits:
         """Return what the middle of every pixel meets; arguments as :meth:`cast` has them."""
+        camera = self.camera
         middles = np.meshgrid(np.arange(camera.width) + 0.5, np.arange(camera.height) + 0.5)
-        places = np.stack(middles, axis=-1).reshape(-1, 2)
-        return self.cast(camera, values, places, known, moving)
+        return self.cast(np.stack(middles, axis=-1).reshape(-1, 2), known, moving)
 
     def cast(
-        self,
-        camera: Camera,
-        values: Mapping[str, float],
-        places: FloatArray,
-        known: Hits | None = None,
-        moving: frozenset[int] | None = None,
+        self, places: FloatArray, known: Hits | None = None, moving: frozenset[int] | None = None
     ) -> Hits:
         """Return what places in the picture meet, shape [count, 2].
 
-        ``values`` are those of joints [rad] or [m]; ``known`` is what other links look like in this
-        pose already, and only ``moving`` ones are cast then.
+        ``known`` is what other links look like in this pose already, and only ``moving`` ones are
+        cast then.
         """
-        poses = self.scene.poses(values)
+        camera = self.camera
         hits = Hits.none(len(places)) if known is None else deepcopy(known)
         directions = camera.rays(places)
         across, down = np.ascontiguousarray(places.T)
-        for index, caster in self.links.items():
+        for index, caster in self.caster.links.items():
             if moving is not None and index not in moving:
                 continue
-            pose = poses[index]
+            pose = self.poses[index]
             box = camera.places(caster.corners @ pose[:3, :3].T + pose[:3, 3])[:, :2]
             # A pixel more on every side.
             left, top = box.min(axis=0) - 1.0

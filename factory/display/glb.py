@@ -22,7 +22,7 @@ from ..config import IntakeConfig
 from ..errors import InputRejected
 from ..intake.files import InputFiles
 from ..intake.formats.gltf_document import GltfDocument
-from .gltf import Buffer
+from .gltf import MAGIC, Buffer
 from .scene import FloatRows, SceneGraph, SceneJoint, SceneSurface
 
 #: Key frames of the animation, and how long it takes [s].
@@ -192,8 +192,10 @@ def read_model(path: Path) -> bytes:
 
 def scene_from(data: bytes) -> SceneGraph:
     """Return the scene of such a file's bytes. Raises ValueError."""
-    document = _document(data)
+    if data[:4] != MAGIC:
+        raise ValueError("no GLB file")
     try:
+        document = GltfDocument(data, _NO_FOLDER, InputFiles(_NO_FOLDER, _LIMITS))
         extras = document.json["extras"]
         links = tuple(extras["links"])
         scenes = (VISUALS, HULLS, REPLACED)
@@ -202,15 +204,6 @@ def scene_from(data: bytes) -> SceneGraph:
         return SceneGraph(extras["name"], links, joints, *shown)
     except (InputRejected, OSError, LookupError, TypeError, AttributeError) as error:
         raise ValueError(f"no scene of ours: {type(error).__name__}: {error}") from error
-
-
-def _document(data: bytes) -> GltfDocument:
-    if data[:4] != b"glTF":
-        raise ValueError("no GLB file")
-    try:
-        return GltfDocument(data, _NO_FOLDER, InputFiles(_NO_FOLDER, _LIMITS))
-    except (InputRejected, LookupError, TypeError, AttributeError) as error:
-        raise ValueError(f"no GLB file: {error}") from error
 
 
 def _surfaces(document: GltfDocument, which: int, links: int) -> Iterator[SceneSurface]:

@@ -13,7 +13,7 @@ from PIL import Image, ImageDraw
 
 from ..geometry.colors import linear_of
 from .camera import Camera, Viewpoint
-from .casting import Caster
+from .casting import Caster, Shot
 from .scene import SceneGraph, SceneSurface
 from .shading import PASSING, RAYS, Painted, paint, still
 
@@ -74,9 +74,9 @@ def pictures_of(scene: SceneGraph, fault: Fault | None = None) -> Pictures:
     small = view.camera(SMALL_WIDTH, SMALL_HEIGHT)
     seen = frames(caster, small, FRAMES if scene.movable else 1)
     return Pictures(
-        webp(still(caster, view.camera(WIDTH, HEIGHT, closed), closed)),
+        webp(still(Shot(caster, view.camera(WIDTH, HEIGHT, closed), closed))),
         webp(seen[-1]),
-        webp(still(hulls, small, closed)),
+        webp(still(Shot(hulls, small, closed))),
         animated(seen) if scene.movable else b"",
         b"" if fault is None else webp(_pointed(caster, view, fault)),
     )
@@ -86,7 +86,7 @@ def _pointed(caster: Caster, view: Viewpoint, fault: Fault) -> Pixels:
     """Return the pose in which something is wrong, the place marked."""
     values = {**caster.scene.opened(0.0), **fault.values}
     camera = view.camera(WIDTH, HEIGHT, values)
-    seen = still(caster, camera, values)
+    seen = still(Shot(caster, camera, values))
     return seen if fault.point is None else marked(seen, camera, fault.point)
 
 
@@ -109,24 +109,21 @@ def frames(caster: Caster, camera: Camera, count: int) -> list[Pixels]:
     scene = caster.scene
     moving = _moving(scene)
     closed = scene.opened(0.0)
-    under = paint_still(caster, camera, closed, moving)
+    under = paint_still(Shot(caster, camera, closed), moving)
     made = []
     for amount in np.linspace(0.0, 1.0, count):
         values = scene.opened(float(amount))
         rays = PASSING if 0.0 < amount < 1.0 else RAYS
-        made.append(still(caster, camera, values, under, rays))
+        made.append(still(Shot(caster, camera, values), under, rays))
     return made
 
 
-def paint_still(
-    caster: Caster, camera: Camera, values: Mapping[str, float], moving: frozenset[int]
-) -> Painted:
+def paint_still(shot: Shot, moving: frozenset[int]) -> Painted:
     """Return the picture of a pose as if the links that move were not there."""
-    scene = caster.scene
-    shown = [each for link in caster.links.values() for each in link.surfaces]
+    shown = [each for link in shot.caster.links.values() for each in link.surfaces]
     # At the border of a shape more rays are cast, which must not meet what moves either.
-    rest = Caster(scene, [each for each in shown if each.link not in moving])
-    return replace(paint(rest, camera, values), without=moving)
+    rest = Caster(shot.caster.scene, [each for each in shown if each.link not in moving])
+    return replace(paint(replace(shot, caster=rest)), without=moving)
 
 
 def tinted(surfaces: Iterable[SceneSurface], tint: Tint | None = None) -> list[SceneSurface]:

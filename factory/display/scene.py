@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..articulation import rotation_about
-from ..mesh import FloatArray, read_only
+from ..mesh import FloatArray, freeze
 
 FloatRows = npt.NDArray[np.float32]
 IndexRows = npt.NDArray[np.int32]
@@ -45,12 +45,8 @@ class SceneSurface:
     image: bytes | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "vertices", read_only(self.vertices, np.float32))
-        object.__setattr__(self, "faces", read_only(self.faces, np.int32))
-        for name in ("normals", "uv"):
-            value = getattr(self, name)
-            if value is not None:
-                object.__setattr__(self, name, read_only(value, np.float32))
+        freeze(self, "vertices", "normals", "uv", dtype=np.float32)
+        freeze(self, "faces", dtype=np.int32)
         if self.faces.size and not 0 <= self.faces.min() <= self.faces.max() < len(self.vertices):
             raise ValueError(f"surface: a face index is outside 0..{len(self.vertices) - 1}")
         if not np.isfinite(self.vertices).all():
@@ -85,8 +81,7 @@ class SceneJoint:
     offset: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "origin", read_only(self.origin))
-        object.__setattr__(self, "axis", read_only(self.axis))
+        freeze(self, "origin", "axis")
 
     @property
     def moves(self) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -15,7 +14,7 @@ from scipy.ndimage import binary_dilation, uniform_filter
 from ..geometry.colors import linear_of, srgb_of
 from ..mesh import FloatArray
 from .camera import Camera
-from .casting import Caster, Hits, lengths
+from .casting import Hits, Shot, lengths
 from .scene import SceneSurface
 
 FloatRows = npt.NDArray[np.float32]
@@ -57,19 +56,14 @@ class Painted:
     without: frozenset[int] = frozenset()
 
 
-def still(
-    caster: Caster,
-    camera: Camera,
-    values: Mapping[str, float],
-    under: Painted | None = None,
-    rays: int = RAYS,
-) -> npt.NDArray[np.uint8]:
+def still(shot: Shot, under: Painted | None = None, rays: int = RAYS) -> npt.NDArray[np.uint8]:
     """Return one picture of a pose, sRGB with alpha, shape [height, width, 4].
 
     ``under`` is the same picture without the links that move; so many ``rays`` are cast per pixel
     where shapes end.
     """
-    painted = paint(caster, camera, values, under, rays)
+    camera = shot.camera
+    painted = paint(shot, under, rays)
     factor = _corners(painted.hits, (camera.height, camera.width)).reshape(-1)
     factor *= np.where(painted.ends, 1.0 - LINE * 0.6, 1.0).astype(np.float32)
     # Colours are kept multiplied by alpha while they are averaged.
@@ -80,21 +74,15 @@ def still(
     return np.concatenate([shown, opaque], axis=1).reshape(camera.height, camera.width, 4)
 
 
-def paint(
-    caster: Caster,
-    camera: Camera,
-    values: Mapping[str, float],
-    under: Painted | None = None,
-    rays: int = RAYS,
-) -> Painted:
+def paint(shot: Shot, under: Painted | None = None, rays: int = RAYS) -> Painted:
     """Return the colours of all pixels; arguments as :func:`still` has them."""
-    shape = (camera.height, camera.width)
+    shape = (shot.camera.height, shot.camera.width)
     if under is None:
-        hits = caster.see(camera, values)
+        hits = shot.see()
         color = np.zeros((len(hits.link), 4), dtype=np.float32)
         fresh = np.ones(len(hits.link), dtype=bool)
     else:
-        hits = caster.see(camera, values, under.hits, under.without)
+        hits = shot.see(under.hits, under.without)
         color = under.color.copy()
         # A pixel whose neighbours are as they were has the colour that it had.
         differs = (hits.depth != under.hits.depth) | (hits.link != under.hits.link)
@@ -104,26 +92,19 @@ def paint(
     inner = np.flatnonzero(fresh & ~(ends | bends))
     seen = inner[hits.link[inner] >= 0]
     color[inner] = 0.0
-    color[seen, :3] = _lit(caster, camera, values, hits, seen)
+    color[seen, :3] = _lit(shot, hits, seen)
     color[seen, 3] = 1.0
     if len(edge):
-        color[edge] = _smooth(caster, camera, values, edge, rays)
+        color[edge] = _smooth(shot, edge, rays)
     return Painted(hits, color, ends)
 
 
-def _lit(
-    caster: Caster,
-    camera: Camera,
-    values: Mapping[str, float],
-    hits: Hits,
-    rays: npt.NDArray[np.int64],
-) -> FloatRows:
+def _lit(shot: Shot, hits: Hits, rays: npt.NDArray[np.int64]) -> FloatRows:
     """Return the linear RGB of rays that met something."""
     color = np.empty((len(rays), 3), dtype=np.float32)
     normal = hits.normal[rays]
-    poses = caster.scene.poses(values)
     links = hits.link[rays]
-    for index, link in caster.links.items():
+    for index, link in shot.caster.links.items():
         own = np.flatnonzero(links == index)
         owners = link.owner[hits.face[rays[own]]]
         for number, surface in enumerate(link.surfaces):
@@ -138,8 +119,8 @@ def _lit(
             color[mine] = _albedo(surface, faces, weights)
             if surface.normals is not None:
                 smooth = np.einsum("ij,ijk->ik", weights, surface.normals[faces])
-                normal[mine] = smooth @ poses[index][:3, :3].T.astype(np.float32)
-    return color * _light(camera, normal)[:, None]
+                normal[mine] = smooth @ shot.poses[index][:3, :3].T.astype(np.float32)
+    return color * _light(shot.camera, normal)[:, None]
 
 
 def light_direction(camera: Camera) -> FloatArray:
@@ -206,22 +187,16 @@ def _borders(hits: Hits, shape: tuple[int, int]) -> npt.NDArray[np.bool_]:
     return np.stack([ends, bends])
 
 
-def _smooth(
-    caster: Caster,
-    camera: Camera,
-    values: Mapping[str, float],
-    edge: npt.NDArray[np.int64],
-    rays: int,
-) -> FloatRows:
+def _smooth(shot: Shot, edge: npt.NDArray[np.int64], rays: int) -> FloatRows:
     """Return colour with alpha of pixels where shapes end, several rays each."""
     within = _WITHIN[:rays]
-    rows, columns = np.divmod(edge, camera.width)
+    rows, columns = np.divmod(edge, shot.camera.width)
     starts = np.stack([columns, rows], axis=1).astype(np.float64)
     pixels = (starts[:, None] + within[None]).reshape(-1, 2)
-    hits = caster.cast(camera, values, pixels)
+    hits = shot.cast(pixels)
     seen = np.flatnonzero(hits.link >= 0)
     color = np.zeros((len(pixels), 4), dtype=np.float32)
-    color[seen, :3] = _lit(caster, camera, values, hits, seen)
+    color[seen, :3] = _lit(shot, hits, seen)
     color[seen, 3] = 1.0
     return np.asarray(color.reshape(len(edge), rays, 4).mean(axis=1), dtype=np.float32)
 

@@ -13,8 +13,30 @@ from ..registry.result import Result
 from .budget import Budget
 from .executor import Call, Executor
 from .local import LocalExecutor
+from .memory import BUILD_BYTES, workers_for
 
-__all__ = ["Budget", "Call", "Executor", "LocalExecutor", "run_builds"]
+__all__ = ["Budget", "Call", "Executor", "LocalExecutor", "executor_for", "run_builds"]
+
+
+def executor_for(
+    config: BuildConfig, name: str, workers: int | None, address: str, exchange: str
+) -> Executor:
+    """Return the executor of builds that users ask for.
+
+    Args:
+        config: of the builds.
+        name: ``local``, or ``ray``.
+        workers: ``None``: as many as this machine, or the cluster, has room for.
+        address: of a Ray cluster, see :class:`~.ray.executor.RayExecutor`.
+        exchange: see :func:`~.ray.builds.ray_executor`.
+    """
+    if name == "local" or address == "local":
+        workers = workers_for(workers, BUILD_BYTES)
+    if name == "ray":
+        from .ray.builds import ray_executor
+
+        return ray_executor(config, workers=workers, address=address, exchange=exchange)
+    return LocalExecutor(workers or 1, config.retries)
 
 
 def run_builds(

@@ -42,13 +42,12 @@ class Budget:
             raise ConfigError(f"longest time must be 0 or more, not {self.max_s / 3600.0:g} h")
 
 
-def parse_since(text: str, now: float | None = None) -> float:
+def parse_since(text: str) -> float:
     """Return a point in time [s since 1970].
 
     Args:
         text: seconds ago (``3600``), a date or a time (``2026-11-21``, ``2026-11-21T18:00``, local
             unless it says otherwise), or a file: when that was last modified.
-        now: the present; by the clock if ``None``.
 
     Raises:
         ConfigError: it is none of these.
@@ -58,7 +57,7 @@ def parse_since(text: str, now: float | None = None) -> float:
     except ValueError:
         ago = float("nan")
     if ago >= 0.0:
-        return (time() if now is None else now) - ago
+        return time() - ago
     try:
         return datetime.fromisoformat(text).timestamp()
     except ValueError:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+
+import msgspec
 
 from ..config import BuildConfig
 from ..intake.reads import Reads, content_digest, digest_now
@@ -94,13 +96,10 @@ class KnownReads:
 
     def _names(self, source: Path, digest: str) -> list[str]:
         """Return those noted; else those of an input that is a single file."""
-        try:
-            noted = json.loads(self._path(source, digest).read_text())
-        except (OSError, ValueError):
-            noted = None
-        names = isinstance(noted, list) and all(isinstance(name, str) for name in noted)
-        if names and source.name in noted:
-            return sorted(noted)
+        with suppress(OSError, msgspec.DecodeError):
+            noted = msgspec.json.decode(self._path(source, digest).read_bytes(), type=list[str])
+            if source.name in noted:
+                return sorted(noted)
         return sorted({source.name, *(path.name for path in sidecar_paths(source))})
 
     def _path(self, source: Path, digest: str) -> Path:

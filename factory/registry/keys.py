@@ -15,7 +15,7 @@ from ..manufacture.decompose.decompose import DECOMPOSE
 from ..manufacture.solids.build import SOLIDS
 from ..manufacture.stage import FINISH
 from ..runtime.code import code_digest
-from ..runtime.keys import limits_of, settings_of
+from ..runtime.keys import settings_of
 from ..runtime.store import digest_bytes, stage_key
 from ..verify.validate import INSPECT, VALIDATE
 
@@ -44,7 +44,8 @@ def failure_key(built: str, config: BuildConfig) -> str:
     """
     if not built:
         return ""
-    return stage_key("failure", __version__, built, limits_of(config)).removeprefix("failure-")
+    settings = settings_of(config, without=())
+    return stage_key("failure", __version__, built, settings).removeprefix("failure-")
 
 
 @lru_cache(maxsize=4)

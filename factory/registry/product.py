@@ -6,7 +6,7 @@ import shutil
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from asset_factory.sim_checks import Finding, Report, Severity, Status
+from asset_factory.sim_checks import Finding, Report, Status
 
 from ..asset import Asset
 from ..errors import InputRejected, Unjudged
@@ -106,13 +106,8 @@ def refused(
     origin: Source, why: InputRejected | Unjudged, stages: Stages, shown: Path | None = None
 ) -> Product:
     """Return the product of an input that became no asset; ``shown`` is kept of it."""
-    if isinstance(why, Unjudged):
-        finding = why.finding
-    else:
-        told = (why.code, Severity.ERROR, why.message)
-        finding = Finding(*told, value=why.value, unit=why.unit, limit=why.limit)
     status = Status.UNJUDGED if isinstance(why, Unjudged) else Status.REJECTED
-    entry, report = without_asset(origin, finding, status)
+    entry, report = without_asset(origin, why.finding, status)
     return _product(origin, entry, report, shown, stages)
 
 

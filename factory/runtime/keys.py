@@ -76,19 +76,6 @@ def settings_of(value: object, *, without: tuple[str, ...] = (LIMIT, GATE)) -> A
     }
 
 
-def limits_of(value: object) -> Any:
-    """Return the settings marked as limits, as JSON data; ``None`` where there are none."""
-    if not is_dataclass(value):
-        return None
-    found = {
-        field.name: settings_of(getattr(value, field.name), without=())
-        if LIMIT in field.metadata
-        else limits_of(getattr(value, field.name))
-        for field in fields(value)
-    }
-    return {name: limits for name, limits in found.items() if limits is not None} or None
-
-
 @lru_cache(maxsize=64)
 def installed_version(distribution: str) -> str:
     """Return a distribution's version; ``absent`` where it is not installed."""

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TypeVar
+
+from asset_factory.sim_checks import Finding
 
 from ..config import BuildConfig
 from ..errors import InputRejected
@@ -13,17 +14,6 @@ from .packing import pack, unpack
 from .store import Store
 
 T = TypeVar("T")
-
-
-@dataclass(frozen=True)
-class _Refusal:
-    """A rejection that was kept: the same question would be answered so again."""
-
-    code: str
-    message: str
-    value: float | None
-    unit: str | None
-    limit: float | None
 
 
 class Stages:
@@ -71,18 +61,18 @@ class Stages:
         if kept is None:
             return self._made(stage, key, make, worth)
         _add(self.reused, stage)
-        if isinstance(kept, _Refusal):
-            raise InputRejected(
-                kept.code, kept.message, value=kept.value, unit=kept.unit, limit=kept.limit
-            )
+        if isinstance(kept, InputRejected):
+            raise kept
         return kept
 
-    def _kept(self, kind: type[T], key: str) -> T | _Refusal | None:
+    def _kept(self, kind: type[T], key: str) -> T | InputRejected | None:
         arrays = None if self.store is None else self.store.load(key)
         if arrays is None:
             return None
         try:
-            return unpack(_Refusal, arrays) if "refused" in arrays else unpack(kind, arrays)
+            if "refused" in arrays:
+                return InputRejected.of(unpack(Finding, arrays))
+            return unpack(kind, arrays)
         except ValueError:
             return None
 
@@ -93,8 +83,7 @@ class Stages:
                 value = make()
         except InputRejected as error:
             if self.store is not None:
-                refusal = _Refusal(error.code, error.message, error.value, error.unit, error.limit)
-                self.store.save(key, {**pack(refusal), "refused": pack(True)["text"]})
+                self.store.save(key, {**pack(error.finding), "refused": pack(True)["text"]})
             raise
         if self.store is not None and worth(value):
             self.store.save(key, pack(value))

@@ -11,8 +11,7 @@ from asset_factory.factory.articulation import Articulation, Joint, JointKind, P
 from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.errors import InvalidArticulation, InvalidAsset
 from asset_factory.factory.mesh import Mesh
-from asset_factory.factory.part import OpensBy, Panel, PartKind, PartSource, Proposer
-from asset_factory.factory.runtime.packing import pack, unpack
+from asset_factory.factory.part import OpensBy, Panel, PartKind
 
 
 def triangles(count):
@@ -138,7 +137,6 @@ DOOR = Part(
     0.7,
     kind=PartKind.DOOR,
     panel=Panel(FRAME, [0.1, 0.2], [0.5, 0.8], -0.3, 0.02, OpensBy.LEFT),
-    source=PartSource("0123456789ab", Proposer.SIDES, 0.7, {"shown": 1.5}),
 )
 
 
@@ -153,18 +151,6 @@ def test_a_panel_knows_where_it_is_and_turns_with_its_part_and_handle():
     np.testing.assert_allclose(turned.panel.outward, turn @ panel.outward)
     back = turned.turned(turn.T)
     np.testing.assert_allclose(back.panel.frame, panel.frame, atol=1e-15)
-
-
-def test_a_part_is_remembered_with_all_that_it_is():
-    kept = unpack(Part, pack(DOOR))
-    assert kept.kind is PartKind.DOOR
-    assert kept.panel.opens is OpensBy.LEFT
-    assert kept.source == DOOR.source
-    np.testing.assert_array_equal(kept.panel.frame, DOOR.panel.frame)
-    plain = unpack(Part, pack(Part("base", np.arange(2))))
-    assert plain.kind is PartKind.PART
-    assert plain.panel is None
-    assert plain.source is None
 
 
 BOX = trimesh.creation.box((1, 2, 3))

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...config import BuildConfig
-from ...errors import InputRejected
 from ...intake.source import Source
 from ...intake.stated import Hinge, StatedKind
 from ...mesh import Mesh
@@ -57,12 +56,10 @@ class Question:
     Attributes:
         sheet: a PNG of its sides.
         instruction: how to answer.
-        rejected: why there is nothing to ask; empty otherwise.
     """
 
-    sheet: bytes = b""
-    instruction: str = ""
-    rejected: str = ""
+    sheet: bytes
+    instruction: str
 
 
 def question_of(mesh: Mesh, name: str) -> Question:
@@ -83,8 +80,5 @@ def question_about(source: Path, config: BuildConfig) -> Question:
         source: a mesh file.
         config: how to load it.
     """
-    try:
-        intake = Source(source, config).load()
-        return question_of(intake.mesh, intake.provenance.input)
-    except InputRejected as rejection:
-        return Question(rejected=f"{rejection.code}: {rejection.message}")
+    intake = Source(source, config).load()
+    return question_of(intake.mesh, intake.provenance.input)

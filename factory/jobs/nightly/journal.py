@@ -8,7 +8,7 @@ import platform
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 
 from ...errors import ConfigError
@@ -46,13 +46,8 @@ def read_journal(path: Path) -> tuple[NightResult, ...]:
     return tuple(attempts)
 
 
-def utc_now() -> datetime:
-    """Return the time."""
-    return datetime.now(UTC)
-
-
 @contextmanager
-def log(path: Path, now: Callable[[], datetime] = utc_now) -> Iterator[Callable[[str], None]]:
+def log(path: Path, now: Callable[[], datetime]) -> Iterator[Callable[[str], None]]:
     """Append to a log: gives a function that writes one line, with the time before it."""
     with path.open("a", encoding="utf-8", errors="backslashreplace", buffering=1) as file:
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace
-from datetime import datetime
 from pathlib import Path
 from typing import cast
 
@@ -16,7 +15,7 @@ from ...intake.mirror import mirror_of
 from ...registry import Entry
 from ...registry.diff import diff
 from ...registry.result import Result
-from ...registry.verify import Problem, Settled
+from ...registry.verify import Problem, Settled, mend_rows, settle, verify
 from ...report.nightly import files
 from ...report.nightly.figures import compare, source_yields
 from ...report.nightly.formats import counted, stamp
@@ -26,7 +25,8 @@ from ...report.nightly.report import NightlyReport
 from ...report.nightly.table import read_table
 from ...report.summary import JobState
 from ...runtime.layout import NIGHTS
-from .journal import journal, locked, log, read_journal, utc_now
+from ..job import Job
+from .journal import journal, locked, log, read_journal
 from .licenses import sort_out
 from .settings import NightConfig
 from .work import Work
@@ -38,7 +38,6 @@ def run_night(
     *,
     name: str | None = None,
     fresh: bool = False,
-    now: Callable[[], datetime] = utc_now,
 ) -> NightlyReport:
     """Run a night, or go on with one that was interrupted.
 
@@ -65,8 +64,8 @@ def run_night(
             announce(folder.name)
             folder.mkdir(exist_ok=True)
             (folder / files.JOURNAL).touch()
-            with log(folder / files.LOG, now) as write:
-                report = _NightRun(folder, config, work, write, now).report(found)
+            with log(folder / files.LOG, work.now) as write:
+                report = _NightRun(folder, config, work, write).report(found)
                 told = " ".join(report.attention) or "all is well"
                 write(f"ends with exit code {report.night.exit_code}: {told}")
             return report
@@ -110,13 +109,12 @@ class _NightRun:
     config: NightConfig
     work: Work
     write: Callable[[str], None]
-    now: Callable[[], datetime]
 
     def report(self, found: Sequence[Path]) -> NightlyReport:
         """Build, verify and tidy, compare with the night before, and publish."""
-        began = self.now()
+        began = self.work.now()
         earlier = files.read_night(self.folder)
-        rows = self.work.entries()
+        rows = tuple(self.work.registry.walk())
         tried = list(read_journal(self.folder / files.JOURNAL))
         told = ", ".join(f"{name}: {value}" for name, value in self.work.settings.items())
         begins = "goes on" if tried or earlier else "begins"
@@ -126,10 +124,10 @@ class _NightRun:
         self.write(f"{counted(len(found), 'input')}, {len(left_out)} left out for their license")
         done = self._do(inputs, tried)
 
-        kept = self.work.entries()
+        kept = tuple(self.work.registry.walk())
         attempts = latest(tried)
         first = min([stamp(began), *(attempt.started for attempt in tried)])
-        ended = self.now()
+        ended = self.work.now()
         seconds = (ended - began).total_seconds() + (earlier.seconds if earlier else 0.0)
         night = Night(
             self.folder.name,
@@ -169,16 +167,17 @@ class _NightRun:
         try:
             self._tidy()
             if self.config.verify:
-                done.damage = self.work.verify()
+                done.damage = verify(self.work.registry)
                 self.write(f"verified, found {counted(len(done.damage), 'problem')}")
             mending = (done.damage or ()) if self.config.mend else ()
-            self.work.mend_rows(mending)
+            mend_rows(self.work.registry, mending)
 
             # What is damaged comes first: a night that runs out of time has mended it.
             job = self.work.job(inputs, frozenset(problem.id for problem in mending))
-            self._build(cast("Generator[Result]", job.run()), len(inputs), tried)
+            self._build(job, len(inputs), tried)
             done.state = job.state
-            done.settled = self.work.settle(mending, final=job.state == JobState.FINISHED)
+            final = job.state == JobState.FINISHED
+            done.settled = settle(self.work.registry, mending, final=final)
             for asset_id, became in done.settled.items():
                 self.write(f"{became}: {asset_id}")
             self._tidy()
@@ -195,11 +194,12 @@ class _NightRun:
         if self.config.upkeep.enabled:
             self.write(f"tidied: {self.work.tidy()}")
 
-    def _build(self, results: Generator[Result], total: int, tried: list[NightResult]) -> None:
+    def _build(self, job: Job, total: int, tried: list[NightResult]) -> None:
+        results = cast("Generator[Result]", job.run())
         # Closed: workers hear of an interruption now, not when the job is no longer referred to.
         with journal(self.folder / files.JOURNAL) as add, closing(results):
-            for result in self.work.follow(results, total):
-                attempt = attempt_of(result, self.now())
+            for result in self.work.follow(results, total, job.under_way):
+                attempt = attempt_of(result, self.work.now())
                 add(attempt)
                 tried.append(attempt)
                 known = "known " if attempt.known else ""

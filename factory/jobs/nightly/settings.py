@@ -21,8 +21,7 @@ from ...report.nightly.outcome import ALL_INPUTS, SHARED_INPUTS, FailureRules
 from ...runtime.remote import is_url
 from .licenses import Licenses
 
-LOCAL = "local"
-EXECUTORS = (LOCAL, "ray")
+EXECUTORS = ("local", "ray")
 #: Settings that are numbers of at least 0.
 _AMOUNTS = (
     *("workers", "budget.limit", "budget.max_hours", "upkeep.cache_days", "upkeep.cache_gb"),
@@ -56,7 +55,7 @@ class NightConfig:
     output: Path = Path("out")
     sim: str = "sapien"
     workers: int = 0
-    executor: str = LOCAL
+    executor: str = "local"
     ray_address: str = "local"
     exchange: str = ""
     verify: bool = True

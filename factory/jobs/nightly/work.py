@@ -1,95 +1,47 @@
-"""What a night calls upon, and how far it is, at what rate."""
+"""What a night calls upon."""
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import replace
+from datetime import UTC, datetime
 from functools import cached_property
 from pathlib import Path
-from time import monotonic
 
-from rich.markup import escape
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-from asset_factory.sim_checks import Status
-
-from ... import jobs
 from ...intake.discover import find_inputs
 from ...intake.mirror import local_inputs
-from ...registry import Entry, Registry
+from ...registry import Registry
 from ...registry.cleaning import collect_garbage
 from ...registry.result import Result
-from ...registry.verify import Problem, Settled, mend_rows, settle, verify
-from ...report.nightly.formats import clock_span, counted
-from ...runtime.terminal import Terminal, complain
-from .. import Executor, LocalExecutor
+from ...report.nightly.formats import counted
+from .. import Budget, Executor, executor_for
 from ..job import Job
-from ..memory import BUILD_BYTES, workers_for
-from .settings import LOCAL, NightConfig
-
-#: Without a terminal there is a line every so often [s]; the rate is that of the last while [s].
-EVERY_S = 60.0
-WINDOW_S = 600.0
-
-
-def followed(results: Iterable[Result], total: int) -> Iterator[Result]:
-    """Pass results on as they come, with a bar on a terminal and a line a minute elsewhere.
-
-    There will be ``total`` results at most.
-    """
-    console = Terminal(stderr=True)
-    drawn = console.is_terminal
-    columns = TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[pace]}")
-    marks = deque([(monotonic(), 0)])
-    told = monotonic()
-    with Progress(*columns, TimeElapsedColumn(), console=console, disable=not drawn) as bar:
-        task = bar.add_task("building", total=total, pace="")
-        for done, result in enumerate(results, start=1):
-            marks.append((monotonic(), done))
-            while marks[-1][0] - marks[0][0] > WINDOW_S and len(marks) > 2:
-                marks.popleft()
-
-            bar.update(
-                task, advance=1, description=escape(result.entry.id), pace=pace(marks, total)
-            )
-            if drawn and result.entry.status is not Status.PASSED and not result.known:
-                line = f"{result.entry.status}: {result.entry.id}: {result.entry.message}"
-                console.print(line, markup=False, soft_wrap=True)
-            elif not drawn and monotonic() - told >= EVERY_S:
-                told = monotonic()
-                complain(pace(marks, total))
-            yield result
-
-
-def pace(marks: Sequence[tuple[float, int]], total: int) -> str:
-    """Return e.g. ``120 of 1,000, 14.2 a minute, about 1 h 02 min left``.
-
-    ``marks`` are times [s] and how many were done by then, the last one now.
-    """
-    (since, begun) = marks[0]
-    (now, done) = marks[-1]
-    told = f"{done:,} of {total:,}"
-    if done == begun or now <= since:
-        return told
-    rate = (done - begun) / (now - since)
-    return f"{told}, {60.0 * rate:.1f} a minute, about {clock_span((total - done) / rate)} left"
-
+from .settings import NightConfig
 
 _HOUR_S = 3600.0
 _DAY_S = 86400.0
 
 
 class Work:
-    """The steps of a night as its configuration wants them; makes the registry if there is none."""
+    """The steps of a night as its configuration wants them; makes the registry if there is none.
 
-    follow = staticmethod(followed)
+    Args:
+        config: of the night.
+        follow: passes results on as they come, and shows how far the night is; it is given them,
+            how many there are at most, and what tells what workers are at.
+    """
 
-    def __init__(self, config: NightConfig) -> None:
+    def __init__(
+        self,
+        config: NightConfig,
+        follow: Callable[..., Iterable[Result]] = lambda results, *_: results,
+    ) -> None:
         self._config = config
+        self.follow = follow
 
     @cached_property
-    def _registry(self) -> Registry:
+    def registry(self) -> Registry:
+        """Return the registry."""
         return Registry(self._config.output, create=True)
 
     @property
@@ -105,13 +57,13 @@ class Work:
             "licenses": ", ".join(config.licenses.allowed) or "any",
         }
 
+    def now(self) -> datetime:
+        """Return the time."""
+        return datetime.now(UTC)
+
     def find(self) -> tuple[Path, ...]:
         """Return all inputs; those behind URLs are fetched."""
         return find_inputs(local_inputs(self._config.inputs, self._config.output))
-
-    def entries(self) -> tuple[Entry, ...]:
-        """Return all rows of the registry."""
-        return tuple(self._registry.walk())
 
     def job(self, inputs: tuple[Path, ...], damaged: frozenset[str] = frozenset()) -> Job:
         """Return the job over some inputs; those of damaged assets are built again, and first."""
@@ -122,31 +74,14 @@ class Work:
     def executor(self) -> Executor:
         """Return where workers run."""
         config = self._config
-        if config.executor == LOCAL:
-            workers = workers_for(config.workers or None, BUILD_BYTES)
-            return LocalExecutor(workers, config.build.retries)
-        from ..ray.builds import ray_executor
+        place = (config.ray_address, config.exchange)
+        return executor_for(config.build, config.executor, config.workers or None, *place)
 
-        place = {"address": config.ray_address, "exchange": config.exchange}
-        return ray_executor(config.build, workers=config.workers or None, **place)
-
-    def budget(self) -> jobs.Budget:
+    def budget(self) -> Budget:
         """Return how much the job does."""
         budget = self._config.budget
         longest = _HOUR_S * budget.max_hours
-        return jobs.Budget(budget.limit or None, longest or None, budget.retry_rejected)
-
-    def verify(self) -> tuple[Problem, ...]:
-        """Return the faults of registered assets."""
-        return verify(self._registry)
-
-    def mend_rows(self, damage: Sequence[Problem]) -> None:
-        """Rebuild rows that are not what their folders say."""
-        mend_rows(self._registry, damage)
-
-    def settle(self, damage: Sequence[Problem], *, final: bool) -> dict[str, Settled]:
-        """Return what became of damaged assets; those that nothing could mend are withdrawn."""
-        return settle(self._registry, damage, final=final)
+        return Budget(budget.limit or None, longest or None, budget.retry_rejected)
 
     def tidy(self) -> str:
         """Remove what nobody needs; says what that was."""

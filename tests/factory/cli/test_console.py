@@ -24,8 +24,7 @@ def results(known, built):
 
 def test_what_was_known_is_counted_in_a_line(capsys):
     everything = results(3, 2)
-    console.follow(iter(everything), collected := [], 5)
-    assert collected == everything
+    assert list(console.follow(iter(everything), 5)) == everything
     assert capsys.readouterr().err.splitlines() == [
         "3 of 5 inputs known from before",
         "[4/5] passed: new-0",
@@ -34,18 +33,28 @@ def test_what_was_known_is_counted_in_a_line(capsys):
 
 
 def test_nothing_known_and_nothing_else_are_told_too(capsys):
-    console.follow(iter(results(0, 1)), [], 1)
+    list(console.follow(iter(results(0, 1)), 1))
     assert capsys.readouterr().err.splitlines() == ["[1/1] rejected: bad: 5 mm deep"]
-    console.follow(iter(results(4, 0)), [], 4)
+    list(console.follow(iter(results(4, 0)), 4))
     assert capsys.readouterr().err.splitlines() == ["4 of 4 inputs known from before"]
-    console.follow(iter(()), [], 0)
+    list(console.follow(iter(()), 0))
     assert capsys.readouterr().err == ""
 
 
 def test_rate_and_time_left_are_those_of_what_is_built(monkeypatch):
     monkeypatch.setattr(console, "Progress", Watched)
-    console.follow(iter(results(3, 2)), [], 6)
+    list(console.follow(iter(results(3, 2)), 6))
     assert (Watched.total, Watched.advanced) == (3, 2)
+
+
+def test_a_night_without_a_terminal_says_how_far_it_is_by_the_pace_of_the_last_minutes(capsys):
+    assert console.pace(0, 100, None) == "0 of 100"
+    told = console.pace(50, 80, 10.0 / 60.0)
+    assert told == "50 of 80, 10.0 a minute, about 3 min 00 s left"
+    for every_s, said in ((60.0, []), (0.0, ["1 of 3", "2 of 3", "3 of 3"])):
+        assert len(list(console.follow(iter(results(1, 2)), 3, every_s=every_s))) == 3
+        lines = capsys.readouterr().err.splitlines()
+        assert [line.split(",")[0] for line in lines] == said
 
 
 def test_the_bar_says_what_is_at_work_and_after_one_input_how_long_the_rest_takes(monkeypatch):
@@ -61,7 +70,7 @@ def test_the_bar_says_what_is_at_work_and_after_one_input_how_long_the_rest_take
             seen.append(told.file.getvalue())
             yield result
 
-    console.follow(slowly(), [], 3, lambda: at_work)
+    list(console.follow(slowly(), 3, lambda: at_work))
     assert "about" not in seen[0]
     assert "about 0:00:" in told.file.getvalue()
     assert "oven_0.glb solids, oven_1.glb solids, oven_2.glb solids +2" in told.file.getvalue()

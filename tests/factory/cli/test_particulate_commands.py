@@ -56,13 +56,6 @@ def test_the_articulation_alone(told, checkpoint):
     assert weights["license"].startswith("Not stated in the file.")
 
 
-def test_the_same_again(checkpoint):
-    settings = {"points": 800, "context_points": 200, "samples": 2}
-    first = told_of(FRIDGE, checkpoint, **settings)
-    assert first == told_of(FRIDGE, checkpoint, **settings)
-    assert any("2 samples were read" in note for note in first["notes"])
-
-
 def test_features_are_asked_for_where_the_network_wants_them(fixtures):
     model = fixtures / "pat_tiny" / "weights_seed1.safetensors"
     field = fixtures / "partfield_tiny"

@@ -15,7 +15,7 @@ from export_samples import cabinet
 from PIL import Image
 
 from asset_factory.factory.display.camera import Viewpoint
-from asset_factory.factory.display.casting import Caster
+from asset_factory.factory.display.casting import Caster, Shot
 from asset_factory.factory.display.made import plain_surface, scene_of
 from asset_factory.factory.display.pictures import FRAMES, HEIGHT, WIDTH, Fault, pictures_of
 from asset_factory.factory.display.scene import SceneGraph, SceneJoint
@@ -59,9 +59,9 @@ def test_the_door_is_where_it_swings(scene):
     camera = Viewpoint(scene).camera(WIDTH, HEIGHT)
     caster = Caster(scene, scene.visuals)
     closed, opened = (scene.opened(amount) for amount in (0.0, 1.0))
-    seen = [caster.see(camera, values) for values in (closed, opened)]
-    before, after = (each.link.reshape(HEIGHT, WIDTH) for each in seen)
-    stills = [still(caster, camera, values) for values in (closed, opened)]
+    shots = [Shot(caster, camera, values) for values in (closed, opened)]
+    before, after = (shot.see().link.reshape(HEIGHT, WIDTH) for shot in shots)
+    stills = [still(shot) for shot in shots]
     one, other = (each.astype(int) for each in stills)
     differs = np.abs(one - other).max(axis=2) > 24
     assert differs[(after == 1) & (before == -1)].mean() > 0.95
@@ -73,7 +73,7 @@ def test_everything_is_in_the_picture_and_seen_from_the_front(scene):
     assert camera.eye[1] < -1.0
     assert camera.eye[2] > 0.4
     for amount in (0.0, 0.5, 1.0):
-        hits = Caster(scene, scene.visuals).see(camera, scene.opened(amount))
+        hits = Shot(Caster(scene, scene.visuals), camera, scene.opened(amount)).see()
         seen = (hits.link >= 0).reshape(HEIGHT, WIDTH)
         assert seen.any()
         border = seen[[0, -1]].any() or seen[:, [0, -1]].any()

@@ -184,7 +184,7 @@ def test_what_cannot_be_used_is_refused_with_a_code_and_a_name(tmp_path, code, b
 
 def test_too_many_faces_or_bytes_are_refused_with_the_number(tmp_path):
     path = write(tmp_path, link("a", BOX * 3))
-    found = refusal(load_description, path, IntakeConfig(max_faces=30))
+    found = refusal(load_description, path, IntakeConfig(max_faces=30)).finding
     assert (found.code, found.value) == ("too_large", 36)
     path.write_text(path.read_text() + " " * 70_000_000)
     assert "bytes of XML" in refusal(load, path).message

@@ -16,7 +16,7 @@ from job_samples import PLAIN, job, made, pretend, write_inputs
 from asset_factory.factory.errors import ConfigError, InputRejected, RegistryError
 from asset_factory.factory.intake import source as source_module
 from asset_factory.factory.intake.source import Source
-from asset_factory.factory.jobs import Budget, LocalExecutor, run_builds
+from asset_factory.factory.jobs import Budget, LocalExecutor, budget, run_builds
 from asset_factory.factory.jobs import job as job_module
 from asset_factory.factory.jobs.budget import modified_since, parse_since
 from asset_factory.factory.jobs.probe import KnownReads
@@ -260,8 +260,9 @@ def test_that_something_was_stopped_is_not_remembered_as_an_answer(tmp_path):
         assert bool(without_asset(origin, finding, Status.UNJUDGED)[0].key) == remembered
 
 
-def test_a_point_in_time_is_seconds_ago_a_date_or_a_file(tmp_path):
-    assert parse_since("3600", now=10_000.0) == 6_400.0
+def test_a_point_in_time_is_seconds_ago_a_date_or_a_file(tmp_path, monkeypatch):
+    monkeypatch.setattr(budget, "time", lambda: 10_000.0)
+    assert parse_since("3600") == 6_400.0
     assert parse_since("2026-11-21T00:00+00:00") == 1_795_219_200.0
     assert parse_since("2026-11-21T01:00+01:00") == 1_795_219_200.0
     stamp = tmp_path / "stamp"

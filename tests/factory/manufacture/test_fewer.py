@@ -99,6 +99,6 @@ def test_an_asset_that_still_has_too_many_is_joined_further_at_once(kept):
 
 def test_a_part_that_still_needs_too_many_hulls_rejects_with_the_numbers(kept):
     config = BuildConfig(decompose=DecomposeConfig(max_hulls=4))
-    found = refusal(manufactured, make_object("fan", seed=3), kept, Plan(), config)
+    found = refusal(manufactured, make_object("fan", seed=3), kept, Plan(), config).finding
     assert (found.code, found.limit) == ("too_many_hulls", 4.0)
     assert found.value > 4.0

@@ -113,8 +113,8 @@ def test_a_rejection_is_remembered_with_its_number(tmp_path):
         stages = Stages(BASE, Store(tmp_path))
         with pytest.raises(InputRejected) as rejection:
             stages.recall("articulate", int, "articulate-00", refuse)
-        wanted = ("no_movable_joint", 0.0, 1.0)
-        assert (rejection.value.code, rejection.value.value, rejection.value.limit) == wanted
+        found = rejection.value.finding
+        assert (found.code, found.value, found.limit) == ("no_movable_joint", 0.0, 1.0)
     assert len(asked) == 1
     assert stages.reused == ["articulate"]
 

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from datetime import UTC, datetime
 
 import pytest
 from nights_made import ATTEMPTS
@@ -53,8 +54,8 @@ def test_two_nights_on_one_output_do_not_run_at_once(tmp_path):
 
 
 def test_the_log_has_a_line_each_with_the_time(tmp_path):
-    with log(tmp_path / "night.log") as write:
+    with log(tmp_path / "night.log", lambda: datetime(2026, 11, 21, 1, tzinfo=UTC)) as write:
         write("one\ntwo")
         write("three")
-    lines = (tmp_path / "night.log").read_text().splitlines()
-    assert [line.split("Z ")[1] for line in lines] == ["one two", "three"]
+    told = (tmp_path / "night.log").read_text()
+    assert told == "2026-11-21T01:00:00Z one two\n2026-11-21T01:00:00Z three\n"

@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import pytest
 
 from asset_factory.factory.errors import ConfigError, RegistryError
+from asset_factory.factory.jobs.nightly import run as night
 from asset_factory.factory.jobs.nightly.licenses import Licenses
-from asset_factory.factory.jobs.nightly.run import run_night
 from asset_factory.factory.jobs.nightly.settings import NightConfig, Upkeep
 from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.result import Result
@@ -27,6 +27,7 @@ class Workshop:
 
     def __init__(self, folder, names):
         self.folder = folder
+        self.registry = self
         self.settings = {"executor": "made up"}
         self.rejected = set()
         self.known = {}
@@ -48,7 +49,7 @@ class Workshop:
 
     def job(self, paths, damaged=frozenset()):
         self.urgent = damaged
-        job = SimpleNamespace(state="finished", left=0)
+        job = SimpleNamespace(state="finished", left=0, under_way=tuple)
         job.run = lambda: self.run(job, paths)
         return job
 
@@ -77,18 +78,12 @@ class Workshop:
         result = Result(str(path), entry, seconds=5.0)
         return replace(result, attempts=0, seconds=0.01, reused=("build",)) if known else result
 
-    def entries(self):
+    def walk(self):
         known = [(name, key.split("-")[1]) for name, key in sorted(self.known.items())]
         return tuple(Entry(f"{name}-00", name, "", status, "", 1, 1, 1) for name, status in known)
 
     def now(self):
         return datetime(2026, 11, 21, 1, tzinfo=UTC) + timedelta(hours=self.hours)
-
-    def verify(self):
-        return self.damage
-
-    def mend_rows(self, damage):
-        pass
 
     def settle(self, damage, *, final):
         ids = {problem.id for problem in damage}
@@ -99,12 +94,15 @@ class Workshop:
     def tidy(self):
         return "nothing"
 
-    def follow(self, results, total):
+    def follow(self, results, total, under_way):
         return results
 
 
 @pytest.fixture
-def workshop(tmp_path):
+def workshop(tmp_path, monkeypatch):
+    monkeypatch.setattr(night, "verify", lambda workshop: workshop.damage)
+    monkeypatch.setattr(night, "mend_rows", lambda *_: None)
+    monkeypatch.setattr(night, "settle", Workshop.settle)
     (tmp_path / "in").mkdir()
     return Workshop(tmp_path / "in", ["a", "b", "c"])
 
@@ -115,7 +113,7 @@ def config(tmp_path):
 
 
 def run(workshop, config, **more):
-    return run_night(config, workshop, now=workshop.now, **more)
+    return night.run_night(config, workshop, **more)
 
 
 def summary(config, name):

@@ -9,13 +9,11 @@ import trimesh
 from registry_samples import named, publish
 
 from asset_factory.factory.cli.nightly import Nightly, night_config, run
-from asset_factory.factory.jobs.nightly import work
 from asset_factory.factory.jobs.nightly.run import run_night
 from asset_factory.factory.jobs.nightly.settings import NightBudget
 from asset_factory.factory.jobs.nightly.work import Work
 from asset_factory.factory.jobs.ray.executor import RayExecutor
-from asset_factory.factory.registry import Entry, Registry
-from asset_factory.factory.registry.result import Result
+from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.verify import verify
 from asset_factory.factory.runtime.store import folder_digests
 
@@ -93,19 +91,3 @@ def test_a_night_mends_what_it_can_and_withdraws_nothing_before_inputs_are_begun
 
     again = night(config)
     assert (again.night.exit_code, again.night.known, again.night.damaged) == (0, 1, 0)
-
-
-def test_a_night_without_a_terminal_says_how_far_it_is_by_the_pace_of_the_last_minutes(
-    monkeypatch, capsys
-):
-    assert work.pace([(0.0, 0), (60.0, 0)], 100) == "0 of 100"
-    told = work.pace([(100.0, 40), (160.0, 50)], 80)
-    assert told == "50 of 80, 10.0 a minute, about 3 min 00 s left"
-    entries = [Entry(f"a{n}", "a", "", "passed", "", 1, 1, 1) for n in range(3)]
-    results = [Result(f"meshes/{entry.id}.glb", entry) for entry in entries]
-    assert list(work.followed(iter(results), 3)) == results
-    assert capsys.readouterr().err == ""
-    monkeypatch.setattr(work, "EVERY_S", 0.0)
-    assert list(work.followed(iter(results), 3)) == results
-    said = capsys.readouterr().err.splitlines()
-    assert [line.split(",")[0] for line in said] == ["1 of 3", "2 of 3", "3 of 3"]
