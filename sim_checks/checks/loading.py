@@ -9,7 +9,8 @@ import numpy as np
 from ..config import CheckConfig, LoadingConfig
 from ..description import Description, Link, LinkInertia, sensible
 from ..report import Finding
-from ..simulators.simulator import LoadedLink, Observation
+from ..simulators.simulator import Observation
+from ..simulators.world import LoadedLink
 from .agreement import check_agreement
 from .loading_joints import SINGLE, added, joint_findings, joint_numbers
 from .result import (

@@ -16,7 +16,7 @@ from ..description import Description, JointLine
 from ..geometry.coupling import leaders, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, sound_mimics, unit_axis
 from ..report import Finding
-from ..simulators.simulator import LoadedJoint
+from ..simulators.world import LoadedJoint
 from .result import (
     Concerned,
     Findings,

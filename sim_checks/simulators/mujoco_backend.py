@@ -16,8 +16,9 @@ from ..read.mjcf_compiler import begin_compiling
 from ..read.mjcf_model import CompiledMechanism, read_mechanism
 from ..read.read import format_of
 from ..read.urdf import exempt_pairs
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
+from .simulator import Simulator
 from .twin import twin_of
+from .world import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touches, World, triple
 
 WORLD = 0
 #: Shapes that belong to the scene, not to the link.
@@ -82,7 +83,7 @@ def _fix_base(spec: Any, mujoco: Any) -> None:
         spec.delete(key)
 
 
-class MujocoWorld:
+class MujocoWorld(World):
     """A compiled model, by the names that are read of it, and its state."""
 
     def __init__(

@@ -12,9 +12,9 @@ from .catalog import simulator
 from .chatter import captured_lines, timeless
 from .drive import sweep
 from .hold import hold
-from .joints import Groups
 from .rest import fall, rest
-from .simulator import JointValues, Observation, PoseSample, World
+from .simulator import JointValues, Observation, PoseSample
+from .world import Groups, World
 
 
 def observe(

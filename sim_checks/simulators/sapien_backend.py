@@ -15,8 +15,9 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
 from ..geometry.statics import GRAVITY
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
+from .simulator import Simulator
 from .twin import twin_of
+from .world import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touches, World, triple
 
 KINDS = {"revolute_unwrapped": "revolute", "revolute": "continuous", "prismatic": "prismatic"}
 
@@ -79,7 +80,7 @@ class SapienSimulator(Simulator):
         return SapienWorld(scene, body, _articulation_model(body, _mimics(body, said), forced))
 
 
-class SapienWorld:
+class SapienWorld(World):
     """One articulation; or, of a file without joints, one actor, which only stands there."""
 
     def __init__(self, scene: Any, articulation: Any | None, model: LoadedModel) -> None:
@@ -171,10 +172,6 @@ class SapienWorld:
         if self._articulation is None:
             return {link.name: np.eye(4) for link in self.model.links}
         return {link.name: _matrix(link.entity_pose) for link in self._articulation.links}
-
-    def warnings(self) -> tuple[str, ...]:
-        """Return none: PhysX has no warnings that can be asked for."""
-        return ()
 
     def close(self) -> None:
         """Let go of the scene and all that is in it."""

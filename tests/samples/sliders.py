@@ -4,17 +4,18 @@ import numpy as np
 
 from asset_factory.sim_checks.config import MotionConfig
 from asset_factory.sim_checks.description import FloatArray
-from asset_factory.sim_checks.simulators.simulator import (
+from asset_factory.sim_checks.simulators.world import (
     LoadedJoint,
     LoadedLink,
     LoadedModel,
     Touch,
+    World,
 )
 
 CONFIG = MotionConfig()
 
 
-class Sliders:
+class Sliders(World):
     """Blocks on rails: mass [kg], closing weight, friction, a wall or a push, all [N]."""
 
     time_step = CONFIG.time_step_s

@@ -16,13 +16,8 @@ from asset_factory.sim_checks.geometry.kinematics import build_tree, sound_mimic
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import UNJUDGED_CODES, Report, Severity
 from asset_factory.sim_checks.simulators.catalog import simulator
-from asset_factory.sim_checks.simulators.simulator import (
-    LoadedJoint,
-    LoadedLink,
-    LoadedModel,
-    Observation,
-    PoseSample,
-)
+from asset_factory.sim_checks.simulators.simulator import Observation, PoseSample
+from asset_factory.sim_checks.simulators.world import LoadedJoint, LoadedLink, LoadedModel
 
 NAN = float("nan")
 LIMIT = '<limit lower="0.0" upper="0.3" effort="50" velocity="2"/>'

@@ -18,11 +18,10 @@ from asset_factory.sim_checks.simulators.simulator import (
     Fall,
     FallMotion,
     JointMotion,
-    LoadedModel,
     Observation,
     RestMotion,
-    Touch,
 )
+from asset_factory.sim_checks.simulators.world import LoadedModel, Touch
 
 NOTHING = LoadedModel((), (), ())
 

@@ -20,7 +20,6 @@ from asset_factory.sim_checks.read.read import read_here
 from asset_factory.sim_checks.report import Severity
 from asset_factory.sim_checks.simulators.catalog import installed, simulator
 from asset_factory.sim_checks.simulators.drive import sweep
-from asset_factory.sim_checks.simulators.joints import ranges
 from asset_factory.sim_checks.simulators.observe import observe
 
 CONFIG = MotionConfig()
@@ -169,7 +168,7 @@ def test_joints_are_where_the_engine_is_said_to_force_them(tmp_path, engine, par
     path.write_text(chain(parents, mimics))
     with closing(simulator(engine).open(path, CONFIG)) as world:
         world.weigh(False)
-        span = ranges(world)
+        span = world.span
         world.place(span.lower + 0.25 * span.travel)
         goal = span.lower + 0.6 * span.travel
         for _ in range(1200):
@@ -210,7 +209,7 @@ def test_whoever_moves_together_begins_and_ends_together_within_all_limits(rates
     free = [replace(joint, lower=lower) for joint in world.joints]
     mimics = [None, *(Mimic(f"j{i}", rates[i], offsets[i]) for i in (0, 1))]
     world.joints = tuple(replace(joint, mimic=mimics[i]) for i, joint in enumerate(free))
-    span = ranges(world)
+    span = world.span
     for end in (span.lower, span.upper):
         assert end[1] == pytest.approx(rates[0] * end[0] + offsets[0])
         assert end[2] == pytest.approx(rates[1] * end[1] + offsets[1])
