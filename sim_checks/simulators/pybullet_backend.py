@@ -37,7 +37,6 @@ class PybulletSimulator(Simulator):
     name = "pybullet"
     distribution = "pybullet"
     formats = ("urdf",)
-    soft_friction = ()
     blind_spots = (
         (
             "Bullet keeps a margin of 1 mm around every mesh hull: "

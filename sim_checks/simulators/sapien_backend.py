@@ -33,7 +33,6 @@ class SapienSimulator(Simulator):
     name = "sapien"
     distribution = "sapien"
     formats = ("urdf",)
-    soft_friction = ()
     blind_spots = (
         (
             "PhysX never lets parent and child of an articulation touch: "

@@ -185,7 +185,7 @@ class Simulator(Protocol):
     name: str
     distribution: str
     formats: tuple[str, ...]
-    soft_friction: tuple[str, ...]
+    soft_friction: tuple[str, ...] = ()
     blind_spots: tuple[str, ...]
 
     def open(self, path: Path, config: MotionConfig) -> World:

@@ -13,6 +13,7 @@ from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig, MotionConfig
 from asset_factory.sim_checks.description import LinkInertia, Mimic
 from asset_factory.sim_checks.geometry.kinematics import build_tree, sound_mimics, unit_axis
+from asset_factory.sim_checks.processes.isolation import WarmChild
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import UNJUDGED_CODES, Report, Severity
 from asset_factory.sim_checks.simulators.catalog import simulator
@@ -241,7 +242,8 @@ def test_poses_are_compared_where_there_are_any(description, upper):
 
 def test_an_engine_that_is_not_installed_is_named_with_its_install_line(description, monkeypatch):
     monkeypatch.setattr(in_simulator, "installed", lambda name: False)
-    (finding,) = in_simulator.judge_in_simulator(description, "mujoco", CheckConfig()).findings
+    result = in_simulator.judge_in_simulator(description, "mujoco", CheckConfig(), None)
+    (finding,) = result.findings
     assert finding.code == "simulator_missing"
     assert "pip install 'asset-factory[mujoco]'" in finding.message
 
@@ -249,7 +251,9 @@ def test_an_engine_that_is_not_installed_is_named_with_its_install_line(descript
 def test_an_engine_that_does_not_answer_in_time_is_a_finding(description):
     pytest.importorskip("mujoco")
     config = CheckConfig(child=ChildConfig(wall_s=0.01))
-    (finding,) = in_simulator.judge_in_simulator(description, "mujoco", config).findings
+    with WarmChild() as child:
+        result = in_simulator.judge_in_simulator(description, "mujoco", config, child)
+    (finding,) = result.findings
     assert (finding.code, finding.severity) == ("simulator_timeout", Severity.ERROR)
     assert finding.code in UNJUDGED_CODES
 
