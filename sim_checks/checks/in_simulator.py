@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -48,16 +49,18 @@ def judge_in_simulator(
     if outcome.value is None:
         return CheckResult((_failure(outcome, name, description.path),))
     observation = outcome.value
-    loading = check_loading(description, name, observation, config)
-    motion = check_motion(description, name, observation, config)
-    soft = description.format in engine.soft_friction
-    creep = check_creep(description, name, observation, config, soft=soft)
+    loading = check_loading(description, observation, config)
+    motion = check_motion(description, observation, config)
+    creep = check_creep(description, engine, observation, config)
     measurements: dict[str, Any] = {
         "loading": loading.measurements,
         "motion": {**motion.measurements, **creep.measurements},
         "blind_spots": list(engine.blind_spots),
     }
-    return CheckResult((*loading.findings, *motion.findings, *creep.findings), measurements)
+    seen = (*loading.findings, *motion.findings, *creep.findings)
+    # The checks of what an engine saw know no engine: here it says who it was.
+    said = (replace(f, simulator=name, message=f"{name}: {f.message}") for f in seen)
+    return CheckResult(tuple(said), measurements)
 
 
 def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:

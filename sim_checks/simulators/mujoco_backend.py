@@ -34,6 +34,7 @@ class MujocoSimulator(Simulator):
     distribution = "mujoco"
     formats = ("urdf", "mjcf")
     soft_friction = ("urdf",)
+    friction_advice = "; solimpfriction near 1 makes MuJoCo's stiff"
     blind_spots = (
         (
             "contacts and limits are soft: a part may sink by fractions of a "

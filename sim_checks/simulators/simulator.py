@@ -179,6 +179,7 @@ class Simulator(Protocol):
         distribution: the installed package that provides it.
         formats: the description formats it loads: ``urdf``, ``mjcf``.
         soft_friction: formats in which no file can tell it how stiffly joint friction holds.
+        friction_advice: what makes joint friction stiffer in the others, after a semicolon.
         blind_spots: sentences: what this engine, as it is used here, cannot see.
     """
 
@@ -186,6 +187,7 @@ class Simulator(Protocol):
     distribution: str
     formats: tuple[str, ...]
     soft_friction: tuple[str, ...] = ()
+    friction_advice: str = ""
     blind_spots: tuple[str, ...]
 
     def open(self, path: Path, config: MotionConfig) -> World:

@@ -50,7 +50,7 @@ def faithful(description):
 
 def found(description, observation):
     """What the check says, in words that a report can hold."""
-    result = check_loading(description, "engine", observation, CheckConfig())
+    result = check_loading(description, observation, CheckConfig())
     assert Report("x", ("engine",), result.findings, {"engine": result.measurements}).to_json()
     return result.findings
 
@@ -273,7 +273,7 @@ def test_real_engines_agree_on_poses_and_tell_whether_they_couple_joints(tmp_pat
     pytest.importorskip(name)
     description = read_description(write_urdf(tmp_path, replace=MIMIC))
     observation = loaded(description, name)
-    result = check_loading(description, name, observation, CheckConfig())
+    result = check_loading(description, observation, CheckConfig())
     codes = {finding.code for finding in result.findings}
     assert not codes & {"pose_mismatch", "axis_mismatch", "limit_mismatch"}
     assert not codes & {"link_added", "joint_added", "mimic_mismatch"}

@@ -29,7 +29,7 @@ NOTHING = LoadedModel((), (), ())
 def faults(observation):
     """What the check says of an engine that saw this, of a file that says nothing."""
     nothing = Description(Path("nothing.urdf"), "urdf", (), ())
-    return check_motion(nothing, "engine", observation, CheckConfig()).findings
+    return check_motion(nothing, observation, CheckConfig()).findings
 
 
 def only(world):

@@ -61,7 +61,7 @@ def pendulum(tmp_path, engine):
 def judged(path, engine):
     """The motion check in this process, where each engine is imported but once."""
     seen = observe(engine, path, CONFIG, ())
-    return check_motion(read_description(path), engine, seen, CheckConfig())
+    return check_motion(read_description(path), seen, CheckConfig())
 
 
 def written(folder, text, name="object.urdf"):
