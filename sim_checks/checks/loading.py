@@ -50,7 +50,7 @@ def check_loading(
     findings += _invented(description, links)
     agreement = check_agreement(description, observation, config.loading)
     findings += agreement.findings
-    if lines := observation.model.warnings:
+    if lines := observation.loader_lines:
         message = f"said while loading: {' | '.join(lines[:MOST_WARNINGS])}"
         count = measured(float(len(lines)), "lines")
         findings.append(warning("loader_warning", message, **count))
@@ -135,7 +135,7 @@ def _numbers(observation: Observation) -> dict[str, Any]:
         "joints": len(observation.model.joints),
         "shapes": sum(link.shapes for link in links),
         "mass_kg": finite(float(sum(link.mass for link in links))),
-        "loader_lines": list(observation.model.warnings),
+        "loader_lines": list(observation.loader_lines),
         "held_links": [
             {
                 "link": link.name,

@@ -106,7 +106,7 @@ class MujocoWorld(World):
         # Without the flag MuJoCo keeps a link and a moving parent apart, but not a link and the
         # unmoved base.
         rules = PairRules(parents_touch, static_parent=True, excluded=_excluded(held, links))
-        self.model = LoadedModel(links, every, (), rules)
+        self.model = LoadedModel(links, every, rules)
         self.time_step = float(model.opt.timestep)
         self.carried = tuple(_below(held, held.joints[i].body) for i in pushed)
         self._complaints = np.zeros(int(mujoco.mjtWarning.mjNWARNING), np.int64)

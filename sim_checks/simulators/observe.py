@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -46,8 +45,9 @@ def observe(
         falling = fall(world, config)
         motions = sweep(world, config, apart)
         holds = hold(world, motions, config, apart)
-        model = replace(world.model, warnings=said)
-        return Observation(model, poses, alone, falling, motions, world.warnings(), holds)
+        return Observation(
+            world.model, poses, alone, falling, motions, world.warnings(), holds, said
+        )
     finally:
         world.close()
 

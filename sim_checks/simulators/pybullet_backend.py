@@ -107,7 +107,7 @@ class PybulletWorld(World):
         self._couple()
         touch = config.parents_touch
         rules = PairRules(touch, static_parent=touch, excluded=self._let_pass(exempt))
-        self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
+        self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, rules)
         beyond = {i: [k for k in self._names if self._is_beyond(k, i)] for i in self._ids}
         self.carried = tuple(frozenset(self._names[k] for k in beyond[i]) for i in self._ids)
         self._dynamics = Dynamics(bullet, body, beyond)

@@ -187,7 +187,7 @@ def _actor_model(actor: Any) -> LoadedModel:
     body = next(c for c in actor.components if isinstance(c, sapien.physx.PhysxRigidBaseComponent))
     held = (actor.name, 0.0, len(body.collision_shapes), None)
     link = LoadedLink(*held, static=True, friction=_friction(body))
-    return LoadedModel((link,), (), ())
+    return LoadedModel((link,), ())
 
 
 def couple_as_written(builder: Any) -> frozenset[str]:
@@ -240,7 +240,7 @@ def _articulation_model(
     )
     joints = tuple(_joint(joint, mimics, forced) for joint in articulation.active_joints)
     rules = PairRules(moving_parent=False, static_parent=False, excluded=_excluded(articulation))
-    return LoadedModel(links, joints, (), rules)
+    return LoadedModel(links, joints, rules)
 
 
 def _joint(joint: Any, mimics: Mapping[str, Mimic], forced: frozenset[str]) -> LoadedJoint:

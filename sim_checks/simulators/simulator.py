@@ -160,7 +160,7 @@ class PoseSample:
 
 @dataclass(frozen=True)
 class Observation:
-    """All that one engine had to say about one file."""
+    """All that one engine had to say about one file: its loader, and itself while things moved."""
 
     model: LoadedModel
     poses: tuple[PoseSample, ...] = ()
@@ -169,6 +169,7 @@ class Observation:
     motions: tuple[JointMotion, ...] = ()
     warnings: tuple[str, ...] = ()
     holds: tuple[HoldMotion, ...] = ()
+    loader_lines: tuple[str, ...] = ()
 
 
 class Simulator(Protocol):

@@ -116,11 +116,10 @@ class PairRules:
 
 @dataclass(frozen=True)
 class LoadedModel:
-    """Everything a loader kept, and what it said while loading."""
+    """Everything a loader kept."""
 
     links: tuple[LoadedLink, ...]
     joints: tuple[LoadedJoint, ...]
-    warnings: tuple[str, ...]
     pairs: PairRules | None = None
 
 

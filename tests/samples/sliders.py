@@ -27,9 +27,8 @@ class Sliders(World):
             LoadedJoint(f"j{i}", "prismatic", 0.0, upper, 0.0, friction) for i in range(len(masses))
         )
         links = tuple(LoadedLink(f"block{i}", mass, 1, None) for i, mass in enumerate(masses))
-        self.model = LoadedModel(
-            (*links, LoadedLink("post", 0.0, 1, None, static=True)), self.joints, ()
-        )
+        post = LoadedLink("post", 0.0, 1, None, static=True)
+        self.model = LoadedModel((*links, post), self.joints)
         self.carried = tuple(frozenset({link.name}) for link in links)
         self.steps = 0
         self._heavy = True

@@ -44,7 +44,7 @@ def faithful(description):
         joints.append(LoadedJoint(line.name, line.kind, *numbers, (x, y, z), line.mimic))
     tree = build_tree(description)
     values = tree.completed({line.name: 0.1 for line in tree.free})
-    model = LoadedModel(tuple(links), tuple(joints), ())
+    model = LoadedModel(tuple(links), tuple(joints))
     return Observation(model, (PoseSample(values, tree.link_poses(values)),))
 
 

@@ -23,7 +23,7 @@ from asset_factory.sim_checks.simulators.simulator import (
 )
 from asset_factory.sim_checks.simulators.world import LoadedModel, Touch
 
-NOTHING = LoadedModel((), (), ())
+NOTHING = LoadedModel((), ())
 
 
 def faults(observation):
