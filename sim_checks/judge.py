@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -27,18 +27,14 @@ ABSENT = frozenset({"format_not_loaded", "simulator_missing"})
 
 
 @dataclass(frozen=True)
-class Examination:
-    """What needs no simulator.
+class Examination(CheckResult):
+    """What needs no simulator: of reading and of all checks, numbers by check.
 
     Attributes:
         description: the file as read; ``None`` if it cannot be.
-        findings: of reading and of the checks, in order.
-        measurements: every number taken, by check; JSON data only.
     """
 
-    description: Description | None
-    findings: tuple[Finding, ...] = ()
-    measurements: Mapping[str, Any] = field(default_factory=dict)
+    description: Description | None = None
 
 
 class Judge:
@@ -82,12 +78,12 @@ class Judge:
         if outcome.value is not None:
             return outcome.value
         failure = _failure(outcome, path)
-        if isinstance(outcome.error, DescriptionError):
-            return Examination(None, (failure,))
-        second = child.call(examine_here, path, self._config, limits=limits, native=False).value
+        second = None
+        if not isinstance(outcome.error, DescriptionError):
+            second = child.call(examine_here, path, self._config, limits=limits, native=False).value
         if second is None:
-            return Examination(None, (failure,))
-        return Examination(second.description, (failure, *second.findings), second.measurements)
+            return Examination((failure,))
+        return replace(second, findings=(failure, *second.findings))
 
     def check(
         self,
@@ -223,12 +219,12 @@ def examine_here(path: Path, config: CheckConfig, *, native: bool = True) -> Exa
     description = read_here(path)
     too_large = oversized(description, config.work)
     if too_large is not None:
-        return Examination(None, (too_large,))
+        return Examination((too_large,))
     asked = (check for check in CHECKS if native or not check.native)
     results = {check.name: check.run(description, config) for check in asked}
     findings = tuple(finding for result in results.values() for finding in result.findings)
     measurements = {name: dict(result.measurements) for name, result in results.items()}
-    return Examination(description, findings, measurements)
+    return Examination(findings, measurements, description)
 
 
 def _unasked(description: Description, simulators: Sequence[str]) -> list[Finding]:

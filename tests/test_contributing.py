@@ -113,10 +113,11 @@ def test_a_repair(monkeypatch):
     jammed = Finding("jammed", Severity.ERROR, "it jams", joint="button")
     verdict = Verdict(Report("asset.urdf", findings=(jammed,)))
     spare = Spare(frozenset({"button"}))
-    plan = repair.next_plan(verdict, Plan(), RepairConfig(), spare)
+    told = (RepairConfig(), spare, small_asset())
+    plan = repair.next_plan(verdict, Plan(), *told)
     assert plan.frozen == {"button"}
     assert [each.sentence for each in plan.repairs] == ["froze button: it jams"]
-    assert repair.next_plan(verdict, plan, RepairConfig(), spare) is None
+    assert repair.next_plan(verdict, plan, *told) is None
 
 
 def test_an_export_format(monkeypatch, tmp_path):

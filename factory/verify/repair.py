@@ -44,12 +44,11 @@ GEOMETRY = (separate_hulls, exclude_knuckles, fit_closely, build_fronts, hollow_
 
 
 def next_plan(
-    verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare, asset: Asset | None = None
+    verdict: Verdict, plan: Plan, config: RepairConfig, spare: Spare, asset: Asset
 ) -> Plan | None:
     """Return what to change so that the asset becomes better; ``None`` where nothing could help.
 
-    The verdict is of the round just validated, which the plan made. Without the asset no joint is
-    mended.
+    Verdict and asset are of the round just validated, which the plan made.
     """
     evidence = RepairEvidence(verdict, config, spare, asset)
     for repair in REPAIRS:

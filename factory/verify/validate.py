@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -47,7 +47,7 @@ class Verdict:
     """
 
     report: Report
-    examined: Examination | None = None
+    examined: Examination = field(default_factory=Examination)
     key: str = ""
 
     @property
@@ -103,11 +103,10 @@ def _reported(
     simulators: tuple[str, ...],
     judge: Judge,
     own_findings: tuple[Finding, ...],
-    examined: Examination | None,
+    examined: Examination,
 ) -> Report:
     urdf_simulators = tuple(name for name in simulators if name not in MJCF_SIMULATORS)
     mjcf_simulators = tuple(name for name in simulators if name in MJCF_SIMULATORS)
-    examined = examined or judge.examine(bundle.urdf)
     if urdf_simulators and examined.description is None:
         examined = replace(examined, description=_read_again(bundle))
     report = judge.check(bundle.urdf, urdf_simulators, examined)

@@ -14,7 +14,7 @@ from ..description import Description, FloatArray, JointLine, sensible
 from ..geometry.kinematics import find_tree
 from ..report import Finding
 from ..simulators.simulator import JointValues, Observation
-from .result import CheckResult, Concerned, error, significant
+from .result import CheckResult, error, measured, significant
 
 #: Shares of the range at which link poses are compared; irrational steps, so that no symmetry hides
 #: a sign.
@@ -51,7 +51,7 @@ def _at(joint: JointLine, share: float) -> float:
 
 
 def check_agreement(
-    description: Description, simulator: str, observation: Observation, config: LoadingConfig
+    description: Description, observation: Observation, config: LoadingConfig
 ) -> CheckResult:
     """Compare every link's pose to the root at every sample; the worst per link is reported.
 
@@ -73,7 +73,7 @@ def check_agreement(
             before = worst.get(name, (0.0, 0.0))
             worst[name] = (max(before[0], distance), max(before[1], angle))
     findings = [
-        _finding(name, *off, simulator, config)
+        _finding(name, *off, config)
         for name, off in worst.items()
         if off[0] > config.position_m or off[1] > config.angle_rad
     ]
@@ -91,23 +91,20 @@ def _largest(values: Iterable[float]) -> float | None:
     return significant(round(max(values, default=0.0), DECIMALS), 3)
 
 
-def _finding(
-    name: str, distance: float, angle: float, simulator: str, config: LoadingConfig
-) -> Finding:
-    subject: Concerned = {"simulator": simulator, "parts": (name,)}
-    limit = config.position_m
+def _finding(name: str, distance: float, angle: float, config: LoadingConfig) -> Finding:
+    told = measured(distance, "m", config.position_m)
     if math.isinf(distance):
-        message = f"{simulator} has NaN or infinity for the place of link {name!r}"
-        return error("pose_mismatch", message, **subject, unit="m", limit=limit)
+        message = f"has NaN or infinity for the place of link {name!r}"
+        return error("pose_mismatch", message, parts=(name,), **told)
     off = [(1000.0 * distance, 1000.0 * config.position_m, "mm")]
     off += [(math.degrees(angle), math.degrees(config.angle_rad), "deg")]
     off = [each for each in off if each[0] > each[1]]
     message = (
-        f"{simulator} puts link {name!r} up to "
+        f"puts link {name!r} up to "
         f"{' and '.join(f'{value:.4g} {unit}' for value, _, unit in off)} from where the file puts "
         f"it; at most {' and '.join(f'{most:.3g} {unit}' for _, most, unit in off)} is allowed"
     )
-    return error("pose_mismatch", message, **subject, value=distance, unit="m", limit=limit)
+    return error("pose_mismatch", message, parts=(name,), **told)
 
 
 def _difference(ours: FloatArray, theirs: npt.NDArray[Any]) -> tuple[float, float]:

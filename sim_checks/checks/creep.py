@@ -13,28 +13,27 @@ from ..description import Description, JointLine
 from ..geometry.kinematics import find_tree
 from ..geometry.statics import gravity_load
 from ..report import Finding
-from ..simulators.simulator import HoldMotion, Observation
+from ..simulators.simulator import HoldMotion, Observation, Simulator
 from .result import DECIMALS, CheckResult, Findings, about, graded, not_finite, rounded
+
+#: Where no file of the format can tell the engine better.
+SOFT = "; its joint friction is soft, and this format cannot tell it to be stiff"
 
 
 def check_creep(
-    description: Description,
-    simulator: str,
-    observation: Observation,
-    config: CheckConfig,
-    *,
-    soft: bool,
+    description: Description, engine: Simulator, observation: Observation, config: CheckConfig
 ) -> CheckResult:
     """Check what joints did that were left alone part-way open.
 
-    Creep is a warning where no file of the format can tell the engine how stiffly friction holds
-    (``soft``).
+    Creep is a warning where no file of the format can tell the engine how stiffly friction holds.
     """
     tree = find_tree(description)
     if tree is None:
         return CheckResult()
+    soft = description.format in engine.soft_friction
     lines = {line.name: line for line in description.joints}
     ranges = {motion.joint: motion.range for motion in observation.motions}
+    advice = SOFT if soft else engine.friction_advice
     findings: list[Finding] = []
     rows: list[dict[str, Any]] = []
     for held in observation.holds:
@@ -44,7 +43,8 @@ def check_creep(
             continue
         if abs(load) > config.motion.hold_share * line.friction:
             continue
-        findings.extend(_findings(held, line, ranges[held.joint], simulator, config.motion, soft))
+        length = ranges[held.joint]
+        findings.extend(_findings(held, line, length, config.motion, soft=soft, advice=advice))
         row = {"at": held.values[held.joint], "moved": held.moved, "load": load}
         rows.append({"joint": held.joint, **{k: round(v, DECIMALS) + 0.0 for k, v in row.items()}})
     # Of each code and joint the largest.
@@ -58,11 +58,12 @@ def _findings(
     held: HoldMotion,
     line: JointLine,
     length: float,
-    simulator: str,
     config: MotionConfig,
+    *,
     soft: bool,
+    advice: str,
 ) -> Findings:
-    subject = about(line, simulator)
+    subject = about(line)
     at = f"{round(held.values[line.name], DECIMALS) + 0.0:.4g}"
     if not held.finite:
         yield not_finite(f"joint {line.name!r}", f"left alone at {at}", **subject)
@@ -71,18 +72,11 @@ def _findings(
     allowed = min(most, config.creep_share * length)
     unit = line.unit
     if held.moved > allowed:
+        pressed = held.pressed_by
+        why = advice if pressed is None else f"; {pressed[0]!r} presses on {pressed[1]!r}"
         message = (
-            f"{simulator}: joint {line.name!r}, left alone at {at}, crept by {held.moved:.3g} "
+            f"joint {line.name!r}, left alone at {at}, crept by {held.moved:.3g} "
             f"{unit} in {config.held_s:g} s though its friction of {line.friction:.3g} holds its "
-            f"weight; at most {allowed:.3g} {unit} is allowed{_remedy(held, simulator, soft)}"
+            f"weight; at most {allowed:.3g} {unit} is allowed{why}"
         )
         yield graded(not soft, "creeps", message, **subject, **rounded(held.moved, unit, allowed))
-
-
-def _remedy(held: HoldMotion, simulator: str, soft: bool) -> str:
-    if held.pressed_by is not None:
-        one, two = held.pressed_by
-        return f"; {one!r} presses on {two!r}"
-    if soft:
-        return f"; {simulator}'s joint friction is soft, and this format cannot tell it to be stiff"
-    return "; solimpfriction near 1 makes MuJoCo's stiff" if simulator == "mujoco" else ""

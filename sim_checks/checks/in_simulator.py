@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ..config import CheckConfig
 from ..description import Description
 from ..geometry.apart import joints_apart
-from ..processes.isolation import Failure, Outcome, WarmChild, run_isolated
+from ..processes.isolation import Failure, Outcome, WarmChild
 from ..report import KILLED, OUT_OF_TIME, Finding
 from ..simulators.catalog import install_line, installed, simulator
 from ..simulators.observe import observe
@@ -22,12 +23,11 @@ from .result import CheckResult, error, note
 
 
 def judge_in_simulator(
-    description: Description, name: str, config: CheckConfig, child: WarmChild | None = None
+    description: Description, name: str, config: CheckConfig, child: WarmChild
 ) -> CheckResult:
-    """Load and drive the file in one engine, in one child process, and check both.
+    """Load and drive the file in one engine, in a child process that looks, and check both.
 
     A crash, a hang, a missing engine or a format it does not load is a finding, never an exception.
-    Without a ``child`` that looks, one is started for this call.
 
     Raises:
         ValueError: if there is no engine of this name.
@@ -45,21 +45,22 @@ def judge_in_simulator(
         return CheckResult((too_large,))
     asked = (name, description.path, config.motion)
     together = (pose_samples(description), joints_apart(description))
-    ask = run_isolated if child is None else child.call
-    outcome = ask(observe, *asked, *together, limits=config.child.limits)
+    outcome = child.call(observe, *asked, *together, limits=config.child.limits)
     if outcome.value is None:
         return CheckResult((_failure(outcome, name, description.path),))
     observation = outcome.value
-    loading = check_loading(description, name, observation, config)
-    motion = check_motion(description, name, observation, config)
-    soft = description.format in engine.soft_friction
-    creep = check_creep(description, name, observation, config, soft=soft)
+    loading = check_loading(description, observation, config)
+    motion = check_motion(description, observation, config)
+    creep = check_creep(description, engine, observation, config)
     measurements: dict[str, Any] = {
         "loading": loading.measurements,
         "motion": {**motion.measurements, **creep.measurements},
         "blind_spots": list(engine.blind_spots),
     }
-    return CheckResult((*loading.findings, *motion.findings, *creep.findings), measurements)
+    seen = (*loading.findings, *motion.findings, *creep.findings)
+    # The checks of what an engine saw know no engine: here it says who it was.
+    said = (replace(f, simulator=name, message=f"{name}: {f.message}") for f in seen)
+    return CheckResult(tuple(said), measurements)
 
 
 def _failure(outcome: Outcome[Observation], name: str, path: Path) -> Finding:

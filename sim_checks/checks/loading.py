@@ -9,12 +9,12 @@ import numpy as np
 from ..config import CheckConfig, LoadingConfig
 from ..description import Description, Link, LinkInertia, sensible
 from ..report import Finding
-from ..simulators.simulator import LoadedLink, Observation
+from ..simulators.simulator import Observation
+from ..simulators.world import LoadedLink
 from .agreement import check_agreement
 from .loading_joints import SINGLE, added, joint_findings, joint_numbers
 from .result import (
     CheckResult,
-    Concerned,
     Findings,
     error,
     finite,
@@ -31,7 +31,7 @@ MOST_WARNINGS = 3
 
 
 def check_loading(
-    description: Description, simulator: str, observation: Observation, config: CheckConfig
+    description: Description, observation: Observation, config: CheckConfig
 ) -> CheckResult:
     """Compare links, shapes, masses, inertias, joints, limits and link poses with the file."""
     held = observation.model.links
@@ -40,39 +40,37 @@ def check_loading(
     findings: list[Finding] = []
     for link in description.links:
         if not link.virtual:
-            findings += _link_findings(link, links.get(link.name), simulator, config.loading)
+            findings += _link_findings(link, links.get(link.name), config.loading)
     written = {link.name for link in description.links}
     # The ground that some engines count as a body is empty.
     bodies = (h for h in held if not (h.static and h.shapes == 0 and h.mass == 0.0))
     if more := tuple(body.name for body in bodies if body.name not in written):
-        findings.append(added("links", more, simulator=simulator, parts=more))
-    findings += joint_findings(description, joints, simulator, config.loading)
-    findings += _invented(description, links, simulator)
-    agreement = check_agreement(description, simulator, observation, config.loading)
+        findings.append(added("links", more, parts=more))
+    findings += joint_findings(description, joints, config.loading)
+    findings += _invented(description, links)
+    agreement = check_agreement(description, observation, config.loading)
     findings += agreement.findings
-    if lines := observation.model.warnings:
-        message = f"{simulator} said while loading: {' | '.join(lines[:MOST_WARNINGS])}"
+    if lines := observation.loader_lines:
+        message = f"said while loading: {' | '.join(lines[:MOST_WARNINGS])}"
         count = measured(float(len(lines)), "lines")
-        findings.append(warning("loader_warning", message, simulator=simulator, **count))
+        findings.append(warning("loader_warning", message, **count))
     return CheckResult(tuple(findings), {**_numbers(observation), **agreement.measurements})
 
 
-def _link_findings(
-    link: Link, held: LoadedLink | None, simulator: str, config: LoadingConfig
-) -> Findings:
-    subject: Concerned = {"simulator": simulator, "parts": (link.name,)}
+def _link_findings(link: Link, held: LoadedLink | None, config: LoadingConfig) -> Findings:
+    parts = (link.name,)
     if held is None:
-        message = f"{simulator}: link {link.name!r} of the file is not in the loaded model"
-        yield error("link_missing", message, **subject)
+        message = f"link {link.name!r} of the file is not in the loaded model"
+        yield error("link_missing", message, parts=parts)
         return
     written = len(link.collisions)
     count = rounded(held.shapes, "shapes", written)
     if held.shapes < written:
         words = f"{written - held.shapes} of {written} collision shapes of link {link.name!r}"
-        yield error("shape_dropped", f"{simulator}: {words} were dropped", **subject, **count)
+        yield error("shape_dropped", f"{words} were dropped", parts=parts, **count)
     elif held.shapes > written:
         words = f"holds {held.shapes} collision shapes, the file has {written}"
-        yield warning("shape_added", f"{simulator}: link {link.name!r} {words}", **subject, **count)
+        yield warning("shape_added", f"link {link.name!r} {words}", parts=parts, **count)
     # A mass of nothing is no word to hold anyone to; it counts as invented below.
     inertia = link.inertia
     if inertia is None or inertia.mass <= 0.0 or held.moments is None:
@@ -80,21 +78,19 @@ def _link_findings(
     if not (sensible(inertia.mass) and sensible(inertia.center) and sensible(inertia.tensor)):
         # The lint says so; there is no number to hold anyone to.
         return
-    yield from _inertia_findings(inertia, held, subject, config)
+    yield from _inertia_findings(inertia, held, config)
 
 
-def _inertia_findings(
-    inertia: LinkInertia, held: LoadedLink, subject: Concerned, config: LoadingConfig
-) -> Findings:
+def _inertia_findings(inertia: LinkInertia, held: LoadedLink, config: LoadingConfig) -> Findings:
     # What never moves is compared where the engine holds it, but its mass changes nothing.
     grave = not held.static
+    parts = (held.name,)
     link = f"link {held.name!r}"
-    simulator = subject["simulator"]
     mass = inertia.mass
     if not abs(held.mass - mass) <= config.mass * abs(mass):
-        message = f"{simulator}: {link} weighs {held.mass:.6g} kg, the file says {mass:.6g} kg"
+        message = f"{link} weighs {held.mass:.6g} kg, the file says {mass:.6g} kg"
         told = measured(held.mass, "kg", mass)
-        yield graded(grave, "mass_mismatch", message, **subject, **told)
+        yield graded(grave, "mass_mismatch", message, parts=parts, **told)
     # A tensor that is no tensor is the lint's business; here only whether the engine holds the
     # same.
     written = np.linalg.eigvalsh(0.5 * (inertia.tensor + inertia.tensor.T))
@@ -103,20 +99,19 @@ def _inertia_findings(
     worst = int(np.argmax(difference))
     if not difference[worst] <= config.inertia * float(np.abs(written).max()) + config.moment_floor:
         has = f"{link} has principal moments {three(moments)} kg m2"
-        message = f"{simulator}: {has}, the file says {three(written)} kg m2"
+        message = f"{has}, the file says {three(written)} kg m2"
         told = measured(float(moments[worst]), "kg m2", float(written[worst]))
-        yield graded(grave, "inertia_mismatch", message, **subject, **told)
+        yield graded(grave, "inertia_mismatch", message, parts=parts, **told)
     if held.center is None:
         return
     offset = float(np.linalg.norm(np.array(held.center) - inertia.center))
     if not offset <= config.position_m:
-        center = f"{simulator}: the centre of mass of {link}"
-        message = f"{center} is {1000 * offset:.3g} mm from where the file says"
+        message = f"the centre of mass of {link} is {1000 * offset:.3g} mm from where the file says"
         told = measured(offset, "m", config.position_m)
-        yield graded(grave, "center_mismatch", message, **subject, **told)
+        yield graded(grave, "center_mismatch", message, parts=parts, **told)
 
 
-def _invented(description: Description, links: dict[str, LoadedLink], simulator: str) -> Findings:
+def _invented(description: Description, links: dict[str, LoadedLink]) -> Findings:
     names = []
     total = 0.0
     for link in description.links:
@@ -127,10 +122,10 @@ def _invented(description: Description, links: dict[str, LoadedLink], simulator:
         names.append(link.name)
         total += held.mass
     if names:
-        invented = f"{simulator} invented mass and inertia, {total:.4g} kg in all"
+        invented = f"invented mass and inertia, {total:.4g} kg in all"
         message = f"{invented}, for {listed(names)}: the file gives none"
-        subject: Concerned = {"simulator": simulator, "parts": tuple(names)}
-        yield warning("inertia_invented", message, **subject, value=finite(total), unit="kg")
+        told = measured(total, "kg")
+        yield warning("inertia_invented", message, parts=tuple(names), **told)
 
 
 def _numbers(observation: Observation) -> dict[str, Any]:
@@ -140,7 +135,7 @@ def _numbers(observation: Observation) -> dict[str, Any]:
         "joints": len(observation.model.joints),
         "shapes": sum(link.shapes for link in links),
         "mass_kg": finite(float(sum(link.mass for link in links))),
-        "loader_lines": list(observation.model.warnings),
+        "loader_lines": list(observation.loader_lines),
         "held_links": [
             {
                 "link": link.name,

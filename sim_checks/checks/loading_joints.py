@@ -16,7 +16,7 @@ from ..description import Description, JointLine
 from ..geometry.coupling import leaders, whole_chain
 from ..geometry.kinematics import MOVING_KINDS, sound_mimics, unit_axis
 from ..report import Finding
-from ..simulators.simulator import LoadedJoint
+from ..simulators.world import LoadedJoint
 from .result import (
     Concerned,
     Findings,
@@ -39,29 +39,24 @@ SINGLE = 7
 
 
 def joint_findings(
-    description: Description,
-    joints: Mapping[str, LoadedJoint],
-    simulator: str,
-    config: LoadingConfig,
+    description: Description, joints: Mapping[str, LoadedJoint], config: LoadingConfig
 ) -> Findings:
     """Yield errors where a joint moves otherwise than the file says, warnings for omissions."""
     for line in description.joints:
         if line.kind != "fixed":
-            yield from _joint(line, joints.get(line.name), simulator, config)
-    yield from _coupling(description, joints, simulator, config)
-    yield from _ignored(description, joints, simulator)
+            yield from _joint(line, joints.get(line.name), config)
+    yield from _coupling(description, joints, config)
+    yield from _ignored(description, joints)
     written = {line.name for line in description.joints}
     more = [name for name in joints if name not in written]
     if more:
-        yield added("joints", more, simulator=simulator)
+        yield added("joints", more)
 
 
 def added(what: str, names: Sequence[str], **concerned: Unpack[Concerned]) -> Finding:
     """Return the warning that an engine holds ``links`` or ``joints`` that no file gave it."""
-    message = (
-        f"{concerned['simulator']} holds {len(names)} {what} that the file does not have, "
-        f"want none: {listed(names)}"
-    )
+    held = f"holds {len(names)} {what} that the file does not have"
+    message = f"{held}, want none: {listed(names)}"
     code = {"links": "link_added", "joints": "joint_added"}[what]
     return warning(code, message, **concerned, **rounded(len(names), what, 0.0))
 
@@ -83,31 +78,29 @@ def joint_numbers(joint: LoadedJoint) -> dict[str, Any]:
     }
 
 
-def _joint(
-    line: JointLine, held: LoadedJoint | None, simulator: str, config: LoadingConfig
-) -> Findings:
-    subject = about(line, simulator)
+def _joint(line: JointLine, held: LoadedJoint | None, config: LoadingConfig) -> Findings:
+    subject = about(line)
     if held is None:
-        message = f"{simulator}: joint {line.name!r} of the file is not in the loaded model"
+        message = f"joint {line.name!r} of the file is not in the loaded model"
         yield error("joint_missing", message, **subject)
         return
     lower = -math.inf if line.lower is None else line.lower
     upper = math.inf if line.upper is None else line.upper
     endless = math.isinf(lower) and {held.kind, line.kind} <= {"revolute", "continuous"}
     if line.kind in MOVING_KINDS and held.kind != line.kind and not endless:
-        message = f"{simulator}: joint {line.name!r} is {held.kind}, the file says {line.kind}"
+        message = f"joint {line.name!r} is {held.kind}, the file says {line.kind}"
         yield error("joint_kind", message, **subject)
     unit = line.unit
     for side, said, has in (("lower", lower, held.lower), ("upper", upper, held.upper)):
         if _differ(said, has, config.limit):
             holds = f"{side} limit of joint {line.name!r} is {has:.6g} {unit}"
-            message = f"{simulator}: {holds}, the file says {said:.6g} {unit}"
+            message = f"{holds}, the file says {said:.6g} {unit}"
             yield error("limit_mismatch", message, **subject, **measured(has, unit, said))
     turned = math.degrees(_turned(line, held))
     most = math.degrees(config.angle_rad)
     if turned > most:
         message = (
-            f"{simulator}: the axis of joint {line.name!r} is {three(held.axis)}, "
+            f"the axis of joint {line.name!r} is {three(held.axis)}, "
             f"{turned:.4g} deg from {three(unit_axis(line))} of the file"
         )
         yield error("axis_mismatch", message, **subject, **rounded(turned, "deg", most))
@@ -126,10 +119,7 @@ def _turned(line: JointLine, held: LoadedJoint) -> float:
 
 
 def _coupling(
-    description: Description,
-    joints: Mapping[str, LoadedJoint],
-    simulator: str,
-    config: LoadingConfig,
+    description: Description, joints: Mapping[str, LoadedJoint], config: LoadingConfig
 ) -> Findings:
     mimics = sound_mimics(description)
     dropped = []
@@ -138,7 +128,7 @@ def _coupling(
         if held is None or line.kind not in MOVING_KINDS:
             continue
         followed = leaders(line.name, mimics)
-        subject = about(line, simulator)
+        subject = about(line)
         if followed and (held.follows is None or held.forced_by_judge):
             dropped.append(line.name)
         elif line.mimic is not None and not followed:
@@ -147,7 +137,7 @@ def _coupling(
         elif held.follows is not None and held.follows not in followed:
             said = f"follows {followed[0]!r}" if followed else "is free"
             message = (
-                f"{simulator}: joint {line.name!r} is made to follow {held.follows!r}, "
+                f"joint {line.name!r} is made to follow {held.follows!r}, "
                 f"in the file it {said}; want them coupled as written"
             )
             yield error("mimic_mismatch", message, **subject)
@@ -157,7 +147,7 @@ def _coupling(
             wrong = next((pair for pair in pairs if _differ(*pair, config.limit)), None)
             if wrong is not None:
                 message = (
-                    f"{simulator}: joint {line.name!r} is held at {has.multiplier:.6g} times "
+                    f"joint {line.name!r} is held at {has.multiplier:.6g} times "
                     f"{has.leader!r} plus {has.offset:.6g}, "
                     f"the file says {whole.multiplier:.6g} times plus {whole.offset:.6g}"
                 )
@@ -165,16 +155,14 @@ def _coupling(
                 yield error("mimic_mismatch", message, **subject, value=value, limit=limit)
     if dropped:
         message = (
-            f"{simulator} does not couple {listed(dropped)} to another joint as the file does: "
+            f"does not couple {listed(dropped)} to another joint as the file does: "
             "whoever simulates it must"
         )
         count = rounded(len(dropped), "joints", 0.0)
-        yield warning("mimic_ignored", message, simulator=simulator, **count)
+        yield warning("mimic_ignored", message, **count)
 
 
-def _ignored(
-    description: Description, joints: Mapping[str, LoadedJoint], simulator: str
-) -> Findings:
+def _ignored(description: Description, joints: Mapping[str, LoadedJoint]) -> Findings:
     for quantity in ("friction", "damping"):
         names = []
         for line in description.joints:
@@ -187,9 +175,9 @@ def _ignored(
                 names.append(line.name)
         if names:
             code = f"{quantity}_ignored"
-            message = f"{simulator} drops the {quantity} that the file gives to {listed(names)}"
+            message = f"drops the {quantity} that the file gives to {listed(names)}"
             count = measured(float(len(names)), "joints")
-            yield note(code, message, simulator=simulator, joints=tuple(names), **count)
+            yield note(code, message, joints=tuple(names), **count)
 
 
 def _differ(said: float, has: float, tolerance: float) -> bool:

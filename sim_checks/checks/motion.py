@@ -31,11 +31,11 @@ from .result import (
 
 
 def check_motion(
-    description: Description, simulator: str, observation: Observation, config: CheckConfig
+    description: Description, observation: Observation, config: CheckConfig
 ) -> CheckResult:
     """Check the drive of every joint, the rest at lower without weight, and the fall with it."""
     lines = {line.name: line for line in description.joints}
-    checks = _MotionChecks(simulator, lines, config.motion)
+    checks = _MotionChecks(lines, config.motion)
     findings = [finding for rest in observation.rest for finding in checks.rest(rest)]
     pushed = {rest.joint for rest in observation.rest if rest.share > config.motion.drift_soft}
     # With weight, the same contacts make up the same energy again.
@@ -47,15 +47,15 @@ def check_motion(
     for motion in observation.motions:
         findings += checks.driven(motion)
     if observation.warnings:
-        message = f"{simulator} complained while moving: {', '.join(observation.warnings)}"
-        findings.append(warning("engine_warning", message, simulator=simulator))
+        message = f"complained while moving: {', '.join(observation.warnings)}"
+        findings.append(warning("engine_warning", message))
     spoken_for = {motion.joint for motion in observation.motions}
     joints = observation.model.joints
     pairs_coupled = ((joint.name, joint.follows) for joint in joints if joint.follows)
     coupled = {name for pair in pairs_coupled for name in pair}
     idle = [joint.name for joint in joints if joint.name not in spoken_for | coupled]
     for name in idle:
-        message = f"{simulator}: joint {name!r} was not driven: it has no range from lower to upper"
+        message = f"joint {name!r} was not driven: it has no range from lower to upper"
         findings.append(note("not_driven", message, **checks.subject(name)))
     pairs = observation.model.pairs
     measurements: dict[str, Any] = {
@@ -76,20 +76,16 @@ class _MotionChecks:
     """The checks of one engine's motions.
 
     Attributes:
-        simulator: its name.
         lines: the file's joints, by name; an engine may have added others.
         config: thresholds.
     """
 
-    simulator: str
     lines: Mapping[str, JointLine]
     config: MotionConfig
 
     def subject(self, joint: str) -> Concerned:
         """Return a joint as the subject of a finding."""
-        if joint in self.lines:
-            return about(self.lines[joint], self.simulator)
-        return {"simulator": self.simulator, "joint": joint}
+        return about(self.lines[joint]) if joint in self.lines else {"joint": joint}
 
     def _unit(self, joint: str) -> str:
         return self.lines[joint].unit if joint in self.lines else ""
@@ -103,7 +99,7 @@ class _MotionChecks:
         subject["parts"] = tuple(dict.fromkeys(parts))
 
         def found(grave: bool, code: str, message: str, value: float, limit: float) -> Finding:
-            sentence = f"{self.simulator}: joint {motion.joint!r} {message}"
+            sentence = f"joint {motion.joint!r} {message}"
             told = _of_range(value, limit)
             return graded(grave, code, sentence, **subject, **told, joints=_leant_on(motion))
 
@@ -146,7 +142,7 @@ class _MotionChecks:
             grave = rest.share > self.config.drift_hard
             who = " and ".join(map(repr, rest.pushed_by)) if rest.pushed_by else "parts"
             message = (
-                f"{self.simulator}: joint {rest.joint!r} moved {rest.share:.1%} of its range by "
+                f"joint {rest.joint!r} moved {rest.share:.1%} of its range by "
                 f"itself, without gravity and springs: {who} overlap and push each other"
             )
             told = _of_range(rest.share, self.config.drift_soft)
@@ -156,18 +152,17 @@ class _MotionChecks:
 
     def fall(self, fall: Fall, *, known: bool) -> Findings:
         """Check the object left alone under its own weight; ``known`` energy is not told again."""
-        subject: Concerned = {"simulator": self.simulator}
         if not fall.finite:
-            yield not_finite("the object", "left alone under its own weight", **subject)
+            yield not_finite("the object", "left alone under its own weight")
         elif not known:
             where = "the object was left alone under its own weight"
-            yield from self._energy(fall.energy, fall.energy_height, where, subject)
+            yield from self._energy(fall.energy, fall.energy_height, where, {})
 
     def opened(self, fallen: FallMotion) -> Findings:
         """Check how far a joint opened by its own weight."""
         if fallen.share > self.config.fall_soft:
             message = (
-                f"{self.simulator}: joint {fallen.joint!r} opens by its own weight, by "
+                f"joint {fallen.joint!r} opens by its own weight, by "
                 f"{fallen.moved:.4g} {self._unit(fallen.joint)} or {fallen.share:.1%} of its range "
                 f"in {self.config.rest_s:g} s: nothing holds it closed"
             )
@@ -181,7 +176,7 @@ class _MotionChecks:
             return
         allowed = max(config.energy_floor_j, config.energy_soft_m * energy / height)
         message = (
-            f"{self.simulator}: {energy:.4g} J came from nowhere while {where}, "
+            f"{energy:.4g} J came from nowhere while {where}, "
             f"enough to lift the moving parts by {height:.3g} m; at most {allowed:.4g} J "
             f"({config.energy_soft_m:g} m) may: contacts push parts apart like springs"
         )

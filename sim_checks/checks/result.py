@@ -27,9 +27,8 @@ class CheckResult:
 
 
 class Concerned(TypedDict, total=False):
-    """Whom a :class:`Finding` concerns, and which engine found it."""
+    """Whom a :class:`Finding` concerns."""
 
-    simulator: str | None
     joint: str | None
     parts: tuple[str, ...]
 
@@ -45,6 +44,7 @@ class Measured(TypedDict, total=False):
 class Details(Concerned, Measured, total=False):
     """What a :class:`Finding` may say besides its code, severity and message."""
 
+    simulator: str | None
     cause: str | None
     joints: tuple[str, ...]
 
@@ -64,9 +64,9 @@ def in_mm(value: float, limit: float, digits: int = 4) -> Measured:
     return measured(round(1000 * value, digits), "mm", round(1000 * limit, digits))
 
 
-def about(joint: JointLine, simulator: str | None = None) -> Concerned:
+def about(joint: JointLine) -> Concerned:
     """Return a joint as the subject of a finding, with the links that it joins."""
-    return {"simulator": simulator, "joint": joint.name, "parts": (joint.parent, joint.child)}
+    return {"joint": joint.name, "parts": (joint.parent, joint.child)}
 
 
 def error(code: str, message: str, **details: Unpack[Details]) -> Finding:
@@ -91,8 +91,7 @@ def note(code: str, message: str, **details: Unpack[Details]) -> Finding:
 
 def not_finite(what: str, doing: str, **concerned: Unpack[Concerned]) -> Finding:
     """Return the error that an engine gave no number for where something is."""
-    words = f"{concerned['simulator']}: {what} went to infinity or NaN while {doing}"
-    return error("not_finite", words, **concerned)
+    return error("not_finite", f"{what} went to infinity or NaN while {doing}", **concerned)
 
 
 def finite(value: float | None) -> float | None:

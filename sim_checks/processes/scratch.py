@@ -67,8 +67,7 @@ def sweep(parent: Path | None = None) -> int:
     return count
 
 
-_own: dict[int, Path] = {}
-_short: dict[int, Path] = {}
+_folders: dict[tuple[int, Path], Path] = {}
 
 
 def scratch() -> Path:
@@ -77,34 +76,28 @@ def scratch() -> Path:
     If it is killed, the next process to ask for its own folder removes it. Only its owner can look
     into it.
     """
-    folder = _own.get(os.getpid())
-    if folder is not None and folder.is_dir():
-        return folder
-    parent = Path(tempfile.gettempdir())
-    sweep(parent)
-    # The lock lasts as long as the process.
-    folder, _ = held_folder(parent, PREFIX)
-    _own[os.getpid()] = folder
-    _remove_at_the_end(folder)
+    folder = _own_folder(Path(tempfile.gettempdir()))
     # The socket of a fork server that is yet to be started shall lie there too.
-    vars(multiprocessing.current_process()).get("_config", {}).setdefault("tempdir", str(sockets()))
+    config = vars(multiprocessing.current_process()).get("_config", {})
+    if "tempdir" not in config:
+        config["tempdir"] = str(sockets())
     return folder
 
 
 def sockets() -> Path:
     """Return this process's folder for sockets: its scratch folder, or one of a shorter path."""
-    folder = scratch()
-    if len(os.fsencode(folder)) <= LONGEST_WITH_SOCKETS:
-        return folder
-    short = _short.get(os.getpid())
-    if short is None or not short.is_dir():
-        sweep(SHORT)
-        short, _ = held_folder(SHORT, PREFIX)
-        _short[os.getpid()] = short
-        _remove_at_the_end(short)
-    return short
+    folder = _own_folder(Path(tempfile.gettempdir()))
+    return folder if len(os.fsencode(folder)) <= LONGEST_WITH_SOCKETS else _own_folder(SHORT)
 
 
-def _remove_at_the_end(folder: Path) -> None:
-    # After multiprocessing's own; in a child these alone are called.
-    multiprocessing.util.Finalize(None, shutil.rmtree, (folder, True), exitpriority=-200)
+def _own_folder(parent: Path) -> Path:
+    """Return this process's folder in a parent; what killed processes left there goes first."""
+    folder = _folders.get((os.getpid(), parent))
+    if folder is None or not folder.is_dir():
+        sweep(parent)
+        # The lock lasts as long as the process.
+        folder, _ = held_folder(parent, PREFIX)
+        _folders[os.getpid(), parent] = folder
+        # After multiprocessing's own; in a child these alone are called.
+        multiprocessing.util.Finalize(None, shutil.rmtree, (folder, True), exitpriority=-200)
+    return folder

@@ -9,10 +9,10 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .joints import Groups, Ranges, any_carried, companions, pressing, ranges, share, standing_open
 from .law import drive_law
-from .rest import Gain, let_go
-from .simulator import JointMotion, World
+from .rest import Gain, let_go, share
+from .simulator import JointMotion
+from .world import Groups, World
 
 #: How often the joints that make way are added to, because another link stands behind them.
 WIDENED = 3
@@ -31,21 +31,20 @@ def sweep(world: World, config: MotionConfig, apart: Groups = ()) -> tuple[Joint
     needed for it: two joints that bar each other never open. Of joints that are forced to move
     together, one that opens speaks for all: the others may have no way to push it.
     """
-    order = _Order(world, ranges(world), config, apart)
+    order = _Order(world, config, apart)
     order.settle()
     motions = order.motions.items()
     opened = {index for index, motion in motions if arrived(motion, config)}
-    return tuple(m for i, m in motions if i in opened or not opened & companions(world, i))
+    return tuple(m for i, m in motions if i in opened or not opened & world.companions(i))
 
 
 class _Order:
     """Which joints open, and which others must be open for it."""
 
-    def __init__(self, world: World, span: Ranges, config: MotionConfig, apart: Groups) -> None:
+    def __init__(self, world: World, config: MotionConfig, apart: Groups) -> None:
         self._world = world
-        self._span = span
         self._config = config
-        driven = np.flatnonzero(span.size > 0.0).tolist()
+        driven = np.flatnonzero(world.span.size > 0.0).tolist()
         self._driven: dict[tuple[int, Joints], JointMotion] = {}
         for names in apart:
             self._drive_together([i for i in driven if world.joints[i].name in names])
@@ -75,10 +74,10 @@ class _Order:
 
     def _drive_together(self, indices: list[int]) -> None:
         """Drive joints that cannot reach one another; forget those that did more than that."""
-        together = [i for i in indices if len(companions(self._world, i)) == 1]
+        together = [i for i in indices if len(self._world.companions(i)) == 1]
         if len(together) < 2:
             return
-        motions = drive(self._world, together, self._span, CLOSED, self._config)
+        motions = drive(self._world, together, CLOSED, self._config)
         for i, motion in zip(together, motions, strict=True):
             if is_plain(motion, self._config):
                 self._driven[i, CLOSED] = motion
@@ -86,7 +85,7 @@ class _Order:
     def _drive(self, index: int, opened: Joints) -> JointMotion:
         """Drive a joint with others open, once."""
         if (index, opened) not in self._driven:
-            (motion,) = drive(self._world, [index], self._span, opened, self._config)
+            (motion,) = drive(self._world, [index], opened, self._config)
             self._driven[index, opened] = motion
         return self._driven[index, opened]
 
@@ -124,7 +123,7 @@ class _Order:
         yield self._ready(index)
 
     def _ready(self, index: int) -> Joints:
-        return frozenset(self.needs) - companions(self._world, index)
+        return frozenset(self.needs) - self._world.companions(index)
 
 
 def arrived(motion: JointMotion, config: MotionConfig) -> bool:
@@ -149,7 +148,7 @@ def is_plain(motion: JointMotion, config: MotionConfig) -> bool:
 
 
 def drive(
-    world: World, indices: Sequence[int], span: Ranges, opened: Joints, config: MotionConfig
+    world: World, indices: Sequence[int], opened: Joints, config: MotionConfig
 ) -> tuple[JointMotion, ...]:
     """Drive joints at the same time from lower to upper and back by a bounded force, then let go.
 
@@ -158,12 +157,13 @@ def drive(
     joints are held the same way, but softly: those in ``opened`` at upper, the rest at lower. What
     rides on the part that is driven, a button on a door, is held so that the ride hardly moves it.
     """
-    start = standing_open(world, opened, span)
+    span = world.span
+    start = world.standing_open(opened)
     world.place(start)
     mass = world.mass_matrix()
-    law = drive_law(world, mass, indices, span, config)
-    linked = any_carried(world)
-    tracks = [_DriveTrack(world, start, indices, index, span, config) for index in indices]
+    law = drive_law(world, mass, indices, config)
+    linked = world.carries_joints
+    tracks = [_DriveTrack(world, start, indices, index, config) for index in indices]
     turning_point = config.ramp_s + config.hold_s
     goal = start.copy()
     speed = np.zeros_like(start)
@@ -195,7 +195,7 @@ def drive(
                 break
     by_index = dict(zip(indices, tracks, strict=True))
     stuck = (i for i, track in by_index.items() if track.finite and not track.arrived)
-    stopped = {i: pressing(world, i) for i in stuck}
+    stopped = {i: world.pressing(i) for i in stuck}
     gain = let_go(world, config) if all(track.finite for track in tracks) else Gain()
     ends = ((track, float(law.bound[i]), stopped.get(i)) for i, track in by_index.items())
     return tuple(track.motion(opened, bound, held, gain) for track, bound, held in ends)
@@ -222,17 +222,15 @@ class _DriveTrack:
         start: FloatArray,
         indices: Sequence[int],
         index: int,
-        span: Ranges,
         config: MotionConfig,
     ) -> None:
         self._world = world
         self._start = start
         self._index = index
         self._config = config
-        self._lower = float(span.lower[index])
-        self._travel = float(span.travel[index])
-        self._sizes = span.size
-        self._together = sorted(companions(world, index).union(indices))
+        self._lower = float(world.span.lower[index])
+        self._travel = float(world.span.travel[index])
+        self._together = sorted(world.companions(index).union(indices))
         # Shares of the way, counted from where the drive begins.
         self._highest = self._lowest = self._last = 0.0
         self._at = self._lower
@@ -290,7 +288,9 @@ class _DriveTrack:
         self, opened: Joints, bound: float, blocked_by: tuple[str, str] | None, gain: Gain
     ) -> JointMotion:
         """Return all of it."""
-        shares = np.array([share(m, s) for m, s in zip(self._moved, self._sizes, strict=True)])
+        shares = np.array(
+            [share(m, s) for m, s in zip(self._moved, self._world.span.size, strict=True)]
+        )
         shares[self._together] = 0.0
         most = int(np.argmax(shares))
         names = [joint.name for joint in self._world.joints]

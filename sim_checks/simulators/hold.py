@@ -9,9 +9,9 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray
 from .drive import arrived
-from .joints import Groups, Ranges, companions, finite, pressing, ranges, standing_open
 from .rest import left_alone
-from .simulator import HoldMotion, JointMotion, World
+from .simulator import HoldMotion, JointMotion
+from .world import Groups, World
 
 #: Shares of the range at which a joint is left alone, in from the limits.
 SHARES = (0.25, 0.5, 0.75)
@@ -34,13 +34,12 @@ def hold(
         move with others are left out, and so are poses where the engine itself feels a load near
         or beyond the friction, from weight or a spring.
     """
-    span = ranges(world)
     numbers = {joint.name: i for i, joint in enumerate(world.joints)}
     asked = {
         numbers[motion.joint]: motion
         for motion in motions
         if arrived(motion, config)
-        and len(companions(world, numbers[motion.joint])) == 1
+        and len(world.companions(numbers[motion.joint])) == 1
         and world.joints[numbers[motion.joint]].friction
     }
     free = {i: motion.joint for i, motion in asked.items() if not motion.needs_open}
@@ -52,15 +51,16 @@ def hold(
         for group in (*together, *alone)
         if group
         # Those of a larger group need none.
-        for share, held in _held(world, group, needs[group[0]], span, config)
+        for share, held in _held(world, group, needs[group[0]], config)
     }
     return tuple(found[i, share] for i in asked for share in SHARES if (i, share) in found)
 
 
 def _held(
-    world: World, group: list[int], opened: list[int], span: Ranges, config: MotionConfig
+    world: World, group: list[int], opened: list[int], config: MotionConfig
 ) -> Iterator[tuple[float, HoldMotion]]:
-    start = standing_open(world, opened, span)
+    span = world.span
+    start = world.standing_open(opened)
     friction = np.array([world.joints[i].friction for i in group], np.float64)
     for share in SHARES:
         start[group] = span.lower[group] + share * span.travel[group]
@@ -83,7 +83,7 @@ def _left_at(
     for position, _ in left_alone(world, config.held_s, config, balance):
         moved = np.maximum(moved, np.abs(position - start))
     values = {joint.name: float(value) for joint, value in zip(world.joints, start, strict=True)}
-    is_finite = finite(world)
+    finite = world.is_finite()
     for index in held:
-        pressed = pressing(world, index) if is_finite else None
-        yield HoldMotion(world.joints[index].name, values, float(moved[index]), is_finite, pressed)
+        pressed = world.pressing(index) if finite else None
+        yield HoldMotion(world.joints[index].name, values, float(moved[index]), finite, pressed)

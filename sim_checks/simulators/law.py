@@ -10,8 +10,7 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import BoolArray, FloatArray
-from .joints import Ranges, carried_masses, companions
-from .simulator import World
+from .world import World
 
 #: Friction is fed forward in full once the joint lags by this share of its range.
 FRICTION_LAG = 0.01
@@ -73,20 +72,19 @@ class Law:
         return np.minimum(np.maximum(pull, -self.bound), self.bound)
 
 
-def drive_law(
-    world: World, mass: FloatArray, indices: Sequence[int], span: Ranges, config: MotionConfig
-) -> Law:
+def drive_law(world: World, mass: FloatArray, indices: Sequence[int], config: MotionConfig) -> Law:
     """Return how to drive some joints and to hold all others softly.
 
     The mass matrix is that at the start, shape [joint_count, joint_count].
     """
+    span = world.span
     frequency = np.full(len(mass), config.hold_frequency)
     damping = np.array([joint.damping or 0.0 for joint in world.joints])
     friction = np.array([joint.friction or 0.0 for joint in world.joints])
     # What a hand has for each joint alone beyond its friction.
     inertia = np.diag(mass)
     slides = np.array([joint.kind == "prismatic" for joint in world.joints])
-    arm = np.sqrt(inertia / np.maximum(carried_masses(world), 1e-12))
+    arm = np.sqrt(inertia / np.maximum(world.carried_masses, 1e-12))
     arm = np.where(slides, 1.0, np.minimum(arm, LONGEST_ARM_M))
     peaks = 0.5 * span.size * (math.pi / config.ramp_s) ** 2
     bound = config.hand_force_n * arm + config.inertia_margin * inertia * peaks
@@ -99,7 +97,7 @@ def drive_law(
         passed_on = config.inertia_margin * np.abs(mass[:, index]) * peak
         passed_on[index] = 0.0
         bound += passed_on
-        for other in _riders(world, index, span):
+        for other in _riders(world, index):
             ride = peak * (RIDING_ARM_M if slides[other] else 1.0)
             size = float(span.size[other])
             stiff = math.sqrt(ride / ((BUTTON_SHARE if size < BUTTON_M else RIDING_SHARE) * size))
@@ -112,17 +110,17 @@ def drive_law(
     bound += friction
     for index in indices:
         # What must move along is not held back.
-        along = sorted(companions(world, index) - {index})
+        along = sorted(world.companions(index) - {index})
         bound[along] = frequency[along] = 0.0
     np.fill_diagonal(coupled, val=True)
     lag = FRICTION_LAG * span.size + 1e-6
     return Law(frequency**2, 2.0 * frequency, damping, friction, lag, bound, coupled)
 
 
-def _riders(world: World, index: int, span: Ranges) -> list[int]:
+def _riders(world: World, index: int) -> list[int]:
     """Return the joints with a range that this one carries."""
     inner = (i for i, carried in enumerate(world.carried) if carried < world.carried[index])
-    return [other for other in inner if span.size[other] > 0.0]
+    return [other for other in inner if world.span.size[other] > 0.0]
 
 
 def _hangs_loose(world: World, index: int, other: int) -> bool:

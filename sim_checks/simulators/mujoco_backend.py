@@ -16,8 +16,9 @@ from ..read.mjcf_compiler import begin_compiling
 from ..read.mjcf_model import CompiledMechanism, read_mechanism
 from ..read.read import format_of
 from ..read.urdf import exempt_pairs
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
+from .simulator import Simulator
 from .twin import twin_of
+from .world import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touches, World, triple
 
 WORLD = 0
 #: Shapes that belong to the scene, not to the link.
@@ -33,6 +34,7 @@ class MujocoSimulator(Simulator):
     distribution = "mujoco"
     formats = ("urdf", "mjcf")
     soft_friction = ("urdf",)
+    friction_advice = "; solimpfriction near 1 makes MuJoCo's stiff"
     blind_spots = (
         (
             "contacts and limits are soft: a part may sink by fractions of a "
@@ -82,7 +84,7 @@ def _fix_base(spec: Any, mujoco: Any) -> None:
         spec.delete(key)
 
 
-class MujocoWorld:
+class MujocoWorld(World):
     """A compiled model, by the names that are read of it, and its state."""
 
     def __init__(
@@ -104,7 +106,7 @@ class MujocoWorld:
         # Without the flag MuJoCo keeps a link and a moving parent apart, but not a link and the
         # unmoved base.
         rules = PairRules(parents_touch, static_parent=True, excluded=_excluded(held, links))
-        self.model = LoadedModel(links, every, (), rules)
+        self.model = LoadedModel(links, every, rules)
         self.time_step = float(model.opt.timestep)
         self.carried = tuple(_below(held, held.joints[i].body) for i in pushed)
         self._complaints = np.zeros(int(mujoco.mjtWarning.mjNWARNING), np.int64)

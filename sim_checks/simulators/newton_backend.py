@@ -12,8 +12,9 @@ from ..read.mjcf_model import CompiledMechanism, read_mechanism
 from ..read.read import format_of
 from .chatter import captured_lines
 from .mujoco_backend import MujocoWorld
-from .simulator import PairRules, Simulator
+from .simulator import Simulator
 from .twin import twin_of
+from .world import PairRules
 
 #: Newton speaks of a body as ``model/link``; its solver calls the same ``model_link``.
 SEPARATOR = "/"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +11,9 @@ from .catalog import simulator
 from .chatter import captured_lines, timeless
 from .drive import sweep
 from .hold import hold
-from .joints import Groups
 from .rest import fall, rest
-from .simulator import JointValues, Observation, PoseSample, World
+from .simulator import JointValues, Observation, PoseSample
+from .world import Groups, World
 
 
 def observe(
@@ -46,8 +45,9 @@ def observe(
         falling = fall(world, config)
         motions = sweep(world, config, apart)
         holds = hold(world, motions, config, apart)
-        model = replace(world.model, warnings=said)
-        return Observation(model, poses, alone, falling, motions, world.warnings(), holds)
+        return Observation(
+            world.model, poses, alone, falling, motions, world.warnings(), holds, said
+        )
     finally:
         world.close()
 

@@ -17,8 +17,9 @@ from ..geometry.placing import rigid
 from ..geometry.statics import GRAVITY
 from ..read.urdf import exempt_pairs, read_mimics
 from .pybullet_dynamics import BulletClient, Dynamics
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
+from .simulator import Simulator
 from .twin import twin_of
+from .world import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touches, World, triple
 
 BASE = -1
 #: With Bullet's own 0.02 m, parts that do not touch jam; the setting outlives a connection, so it
@@ -36,7 +37,6 @@ class PybulletSimulator(Simulator):
     name = "pybullet"
     distribution = "pybullet"
     formats = ("urdf",)
-    soft_friction = ()
     blind_spots = (
         (
             "Bullet keeps a margin of 1 mm around every mesh hull: "
@@ -81,7 +81,7 @@ class PybulletSimulator(Simulator):
         return PybulletWorld(client, body, config, mimics, exempt_pairs(path))
 
 
-class PybulletWorld:
+class PybulletWorld(World):
     """One multibody in one physics client; joints that follow others in the file are made to."""
 
     def __init__(
@@ -107,7 +107,7 @@ class PybulletWorld:
         self._couple()
         touch = config.parents_touch
         rules = PairRules(touch, static_parent=touch, excluded=self._let_pass(exempt))
-        self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, (), rules)
+        self.model = LoadedModel(tuple(self._link(i) for i in self._names), self.joints, rules)
         beyond = {i: [k for k in self._names if self._is_beyond(k, i)] for i in self._ids}
         self.carried = tuple(frozenset(self._names[k] for k in beyond[i]) for i in self._ids)
         self._dynamics = Dynamics(bullet, body, beyond)
@@ -182,10 +182,6 @@ class PybulletWorld:
                 state = self._bullet.getLinkState(self._body, i, computeForwardKinematics=1)
                 poses[name] = rigid(self._turn(state[5]), np.array(state[4]))
         return poses
-
-    def warnings(self) -> tuple[str, ...]:
-        """Return none: Bullet counts no warnings."""
-        return ()
 
     def close(self) -> None:
         """Disconnect; the one setting that outlives a connection goes back to Bullet's own."""

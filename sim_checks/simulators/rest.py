@@ -9,8 +9,9 @@ import numpy as np
 
 from ..config import MotionConfig
 from ..description import FloatArray
-from .joints import carried_masses, finite, height, moving_mass, pressing, ranges, share, uncoupled
-from .simulator import Fall, FallMotion, RestMotion, World
+from ..geometry.statics import GRAVITY
+from .simulator import Fall, FallMotion, RestMotion
+from .world import World
 
 #: A joint without a range stands still below this [rad/s] or [m/s].
 STILL = 1e-6
@@ -34,21 +35,21 @@ def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
     contact's. Balancing forces would say the same less exactly: they do work of their own as soon
     as something moves.
     """
-    free = uncoupled(world)
+    free = world.uncoupled
     if not free:
         return ()
-    span = ranges(world)
+    span = world.span
     world.place(span.lower)
     world.weigh(False)
     drift = np.zeros(len(world.joints))
     kinetic = _Kinetic(world, config)
-    mass = carried_masses(world)
+    mass = world.carried_masses
     pushed_by: dict[int, tuple[str, str] | None] = {}
     for position, velocity in left_alone(world, config.rest_s, config):
-        pushed_by = pushed_by or {i: pressing(world, i) for i in free}
+        pushed_by = pushed_by or {i: world.pressing(i) for i in free}
         drift = np.maximum(drift, np.abs(position - span.lower))
         kinetic.see(velocity)
-    is_finite = finite(world)
+    finite = world.is_finite()
     world.weigh(True)
     energy = kinetic.gained
     return tuple(
@@ -56,7 +57,7 @@ def rest(world: World, config: MotionConfig) -> tuple[RestMotion, ...]:
             world.joints[i].name,
             float(drift[i]),
             share(drift[i], span.size[i]),
-            is_finite,
+            finite,
             float(energy[i]),
             height(energy[i], mass[i]),
             pushed_by.get(i),
@@ -70,10 +71,10 @@ def fall(world: World, config: MotionConfig) -> Fall:
 
     Kinetic and potential energy together can only be lost here; what they gain, the engine made up.
     """
-    free = uncoupled(world)
+    free = world.uncoupled
     if not free:
         return Fall()
-    span = ranges(world)
+    span = world.span
     world.place(span.lower)
     limited = np.array([np.isfinite(joint.lower) for joint in world.joints])
     moved = np.zeros(len(world.joints))
@@ -89,23 +90,23 @@ def fall(world: World, config: MotionConfig) -> Fall:
     joints = tuple(FallMotion(*row) for row in rows)
     # What pulls coupled joints to where they belong together gives energy, too.
     gained = most - before if len(free) == len(world.joints) else 0.0
-    return Fall(joints, finite(world), float(gained), height(gained, moving_mass(world)))
+    return Fall(joints, world.is_finite(), float(gained), height(gained, world.moving_mass))
 
 
 def let_go(world: World, config: MotionConfig) -> Gain:
     """Let go of the joints where they are, weightless: the energy that any joint gains then."""
-    free = uncoupled(world)
+    free = world.uncoupled
     if not free:
         return Gain()
     world.weigh(False)
     kinetic = _Kinetic(world, config)
-    mass = carried_masses(world)
+    mass = world.carried_masses
     for _, velocity in left_alone(world, config.release_s, config):
         kinetic.see(velocity)
-    is_finite = finite(world)
+    finite = world.is_finite()
     world.weigh(True)
     energies = ((float(kinetic.gained[i]), height(kinetic.gained[i], mass[i])) for i in free)
-    return max((Gain(*each, is_finite) for each in energies), key=lambda gain: gain.height)
+    return max((Gain(*each, finite) for each in energies), key=lambda gain: gain.height)
 
 
 class _Kinetic:
@@ -173,4 +174,14 @@ def left_alone(
 
 
 def _slow(world: World, config: MotionConfig) -> FloatArray:
-    return np.maximum(config.still_share * ranges(world).size, STILL)
+    return np.maximum(config.still_share * world.span.size, STILL)
+
+
+def share(moved: float, size: float) -> float:
+    """Return a share of the range; 0 for a joint without one."""
+    return float(moved / size) if size > 0.0 else 0.0
+
+
+def height(energy: float, mass: float) -> float:
+    """Return how high the energy [J] would lift the mass [kg], in metres; 0 for no mass."""
+    return float(energy / (mass * GRAVITY)) if mass > 0.0 else 0.0

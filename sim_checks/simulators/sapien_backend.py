@@ -15,8 +15,9 @@ import numpy as np
 from ..config import MotionConfig
 from ..description import FloatArray, Mimic
 from ..geometry.statics import GRAVITY
-from .simulator import LoadedJoint, LoadedLink, LoadedModel, PairRules, Simulator, Touches, triple
+from .simulator import Simulator
 from .twin import twin_of
+from .world import LoadedJoint, LoadedLink, LoadedModel, PairRules, Touches, World, triple
 
 KINDS = {"revolute_unwrapped": "revolute", "revolute": "continuous", "prismatic": "prismatic"}
 
@@ -32,7 +33,6 @@ class SapienSimulator(Simulator):
     name = "sapien"
     distribution = "sapien"
     formats = ("urdf",)
-    soft_friction = ()
     blind_spots = (
         (
             "PhysX never lets parent and child of an articulation touch: "
@@ -79,7 +79,7 @@ class SapienSimulator(Simulator):
         return SapienWorld(scene, body, _articulation_model(body, _mimics(body, said), forced))
 
 
-class SapienWorld:
+class SapienWorld(World):
     """One articulation; or, of a file without joints, one actor, which only stands there."""
 
     def __init__(self, scene: Any, articulation: Any | None, model: LoadedModel) -> None:
@@ -172,10 +172,6 @@ class SapienWorld:
             return {link.name: np.eye(4) for link in self.model.links}
         return {link.name: _matrix(link.entity_pose) for link in self._articulation.links}
 
-    def warnings(self) -> tuple[str, ...]:
-        """Return none: PhysX has no warnings that can be asked for."""
-        return ()
-
     def close(self) -> None:
         """Let go of the scene and all that is in it."""
         self._active = []
@@ -191,7 +187,7 @@ def _actor_model(actor: Any) -> LoadedModel:
     body = next(c for c in actor.components if isinstance(c, sapien.physx.PhysxRigidBaseComponent))
     held = (actor.name, 0.0, len(body.collision_shapes), None)
     link = LoadedLink(*held, static=True, friction=_friction(body))
-    return LoadedModel((link,), (), ())
+    return LoadedModel((link,), ())
 
 
 def couple_as_written(builder: Any) -> frozenset[str]:
@@ -244,7 +240,7 @@ def _articulation_model(
     )
     joints = tuple(_joint(joint, mimics, forced) for joint in articulation.active_joints)
     rules = PairRules(moving_parent=False, static_parent=False, excluded=_excluded(articulation))
-    return LoadedModel(links, joints, (), rules)
+    return LoadedModel(links, joints, rules)
 
 
 def _joint(joint: Any, mimics: Mapping[str, Mimic], forced: frozenset[str]) -> LoadedJoint:

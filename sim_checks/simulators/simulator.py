@@ -1,150 +1,18 @@
-"""The one interface behind which every physics engine stands."""
+"""One physics engine, and all that it saw of one file."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Protocol
 
 from ..config import MotionConfig
-from ..description import FloatArray, Mimic
+from ..description import FloatArray
+from .world import LoadedModel, World
 
 JointValues = Mapping[str, float]
 """Joint name to value [rad] or [m]."""
-Triple = tuple[float, float, float]
-
-
-def triple(values: Iterable[float]) -> Triple:
-    """Return three numbers as Python's own."""
-    a, b, c = (float(v) for v in values)
-    return a, b, c
-
-
-@dataclass(frozen=True)
-class LoadedLink:
-    """A link as the simulator holds it.
-
-    Attributes:
-        name: link name.
-        mass: [kg]; 0 where the engine holds it as part of the static world.
-        shapes: how many collision shapes arrived.
-        moments: principal moments of inertia about the centre of mass [kg m2], ascending; ``None``
-            if static.
-        center: centre of mass in the link's frame [m]; ``None`` if static.
-        static: the engine never moves it, so its mass and inertia play no part.
-        friction: contact friction coefficient, the largest of its shapes'; ``None`` without shapes.
-    """
-
-    name: str
-    mass: float
-    shapes: int
-    moments: Triple | None
-    center: Triple | None = None
-    static: bool = False
-    friction: float | None = None
-
-
-@dataclass(frozen=True)
-class LoadedJoint:
-    """A joint as the simulator holds it.
-
-    Attributes:
-        name: joint name.
-        kind: ``revolute``, ``continuous``, ``prismatic``, or the engine's word for anything else;
-            fixed joints are not listed, since not every engine keeps them.
-        lower, upper: [rad] or [m]; infinite where it has none.
-        damping: [N m s/rad] or [N s/m]; ``None`` if the engine has no such property.
-        friction: [N m] or [N], as enforced; ``None`` if the engine has no such property.
-        axis: unit vector in the child link's frame; ``None`` for a joint without one axis.
-        mimic: the joint that this one is forced to move with, and how (``<mimic>``, MJCF's joint
-            equality); ``None`` for a free one.
-        forced_by_judge: the engine itself lets it move freely, it is forced here by means of the
-            engine.
-    """
-
-    name: str
-    kind: str
-    lower: float
-    upper: float
-    damping: float | None
-    friction: float | None
-    axis: Triple | None = None
-    mimic: Mimic | None = None
-    forced_by_judge: bool = False
-
-    @property
-    def follows(self) -> str | None:
-        """Return the joint that it is forced to move with."""
-        return None if self.mimic is None else self.mimic.leader
-
-
-@dataclass(frozen=True)
-class PairRules:
-    """Which links the engine lets touch, as loaded.
-
-    All touch that no joint joins: siblings, and links further apart, also across a fixed joint.
-
-    Attributes:
-        moving_parent: whether a link touches the link it is jointed to, where that link moves
-            itself.
-        static_parent: the same where that link belongs to the unmoved base.
-        excluded: pairs that would touch by these rules, and that the file or the files beside it
-            exempt.
-    """
-
-    moving_parent: bool
-    static_parent: bool
-    excluded: tuple[tuple[str, str], ...] = ()
-
-    def words(self) -> dict[str, Any]:
-        """Return the rules in words, for the report."""
-        yes_no = {True: "touch", False: "pass through each other"}
-        return {
-            "link_and_moving_parent": yes_no[self.moving_parent],
-            "link_and_unmoved_parent": yes_no[self.static_parent],
-            "siblings_and_further": "touch",
-            "excluded": [list(pair) for pair in self.excluded],
-        }
-
-
-@dataclass(frozen=True)
-class LoadedModel:
-    """Everything a loader kept, and what it said while loading."""
-
-    links: tuple[LoadedLink, ...]
-    joints: tuple[LoadedJoint, ...]
-    warnings: tuple[str, ...]
-    pairs: PairRules | None = None
-
-
-@dataclass(frozen=True)
-class Touch:
-    """How two links touch after a step.
-
-    Attributes:
-        force: how hard they press on each other [N]; PhysX reports none where it moves overlapping
-            parts apart at once instead of accelerating them.
-        depth: how deep they penetrate each other [m]; negative for a gap that the engine watches.
-    """
-
-    force: float
-    depth: float
-
-    @property
-    def presses(self) -> bool:
-        """Return whether it does anything."""
-        return self.force > 0.0 or self.depth > 0.0
-
-
-class Touches(dict[tuple[str, str], Touch]):
-    """How links touch, by pair in the model's order."""
-
-    def add(self, pair: tuple[str, str], force: float, depth: float) -> None:
-        """Note one more contact of a pair of links: its force [N] and its depth [m]."""
-        before = self.get(pair, Touch(0.0, -math.inf))
-        self[pair] = Touch(before.force + force, max(before.depth, depth))
 
 
 @dataclass(frozen=True)
@@ -292,7 +160,7 @@ class PoseSample:
 
 @dataclass(frozen=True)
 class Observation:
-    """All that one engine had to say about one file."""
+    """All that one engine had to say about one file: its loader, and itself while things moved."""
 
     model: LoadedModel
     poses: tuple[PoseSample, ...] = ()
@@ -301,66 +169,7 @@ class Observation:
     motions: tuple[JointMotion, ...] = ()
     warnings: tuple[str, ...] = ()
     holds: tuple[HoldMotion, ...] = ()
-
-
-class World(Protocol):
-    """A loaded asset, its base fixed, gravity on, self-collision on, ready to be moved.
-
-    Vectors are ordered as :attr:`joints`. A world without joints is only asked where its links are.
-
-    Attributes:
-        model: what arrived.
-        joints: those that :meth:`step` pushes, all with one degree of freedom.
-        time_step: what one :meth:`step` advances [s].
-        carried: the names of the links that each joint moves.
-    """
-
-    model: LoadedModel
-    joints: tuple[LoadedJoint, ...]
-    time_step: float
-    carried: tuple[frozenset[str], ...]
-
-    def weigh(self, on: bool) -> None:
-        """Turn gravity and springs on, as after loading, or off."""
-
-    def place(self, positions: FloatArray) -> None:
-        """Put the joints there, at rest."""
-
-    def positions(self) -> FloatArray:
-        """Return joint values [rad] or [m], shape [joint_count]."""
-
-    def velocities(self) -> FloatArray:
-        """Return joint speeds [rad/s] or [m/s], shape [joint_count]."""
-
-    def mass_matrix(self) -> FloatArray:
-        """Return the mass matrix [kg m2], [kg m] or [kg], shape [joint_count, joint_count]."""
-
-    def energy(self) -> float:
-        """Return the kinetic energy plus potential energy of gravity and springs that are on [J].
-
-        The zero is arbitrary.
-        """
-
-    def balance(self) -> FloatArray:
-        """Return the forces that balance gravity, velocity effects and springs [N m] or [N].
-
-        Shape [joint_count].
-        """
-
-    def step(self, forces: FloatArray) -> None:
-        """Make one time step with these joint forces [N m] or [N], shape [joint_count]."""
-
-    def contacts(self) -> Touches:
-        """Return which links touched in the last step, by pair in the model's order."""
-
-    def link_poses(self) -> dict[str, FloatArray]:
-        """Link frames in world here, shape [4, 4] each."""
-
-    def warnings(self) -> tuple[str, ...]:
-        """Return what the engine complained about while moving."""
-
-    def close(self) -> None:
-        """Release everything, so that the next world finds the engine as new; then ask no more."""
+    loader_lines: tuple[str, ...] = ()
 
 
 class Simulator(Protocol):
@@ -371,13 +180,15 @@ class Simulator(Protocol):
         distribution: the installed package that provides it.
         formats: the description formats it loads: ``urdf``, ``mjcf``.
         soft_friction: formats in which no file can tell it how stiffly joint friction holds.
+        friction_advice: what makes joint friction stiffer in the others, after a semicolon.
         blind_spots: sentences: what this engine, as it is used here, cannot see.
     """
 
     name: str
     distribution: str
     formats: tuple[str, ...]
-    soft_friction: tuple[str, ...]
+    soft_friction: tuple[str, ...] = ()
+    friction_advice: str = ""
     blind_spots: tuple[str, ...]
 
     def open(self, path: Path, config: MotionConfig) -> World:

@@ -4,17 +4,18 @@ import numpy as np
 
 from asset_factory.sim_checks.config import MotionConfig
 from asset_factory.sim_checks.description import FloatArray
-from asset_factory.sim_checks.simulators.simulator import (
+from asset_factory.sim_checks.simulators.world import (
     LoadedJoint,
     LoadedLink,
     LoadedModel,
     Touch,
+    World,
 )
 
 CONFIG = MotionConfig()
 
 
-class Sliders:
+class Sliders(World):
     """Blocks on rails: mass [kg], closing weight, friction, a wall or a push, all [N]."""
 
     time_step = CONFIG.time_step_s
@@ -26,9 +27,8 @@ class Sliders:
             LoadedJoint(f"j{i}", "prismatic", 0.0, upper, 0.0, friction) for i in range(len(masses))
         )
         links = tuple(LoadedLink(f"block{i}", mass, 1, None) for i, mass in enumerate(masses))
-        self.model = LoadedModel(
-            (*links, LoadedLink("post", 0.0, 1, None, static=True)), self.joints, ()
-        )
+        post = LoadedLink("post", 0.0, 1, None, static=True)
+        self.model = LoadedModel((*links, post), self.joints)
         self.carried = tuple(frozenset({link.name}) for link in links)
         self.steps = 0
         self._heavy = True

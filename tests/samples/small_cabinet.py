@@ -1,6 +1,7 @@
 """A carcass with a drawer above a door, of boxes, as URDF and MJCF; a good one and broken ones."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,59 +11,57 @@ from fault_corpus.things import Body, Move, Thing, at, box
 from asset_factory.sim_checks.checks.result import CheckResult
 from asset_factory.sim_checks.report import Report, Severity
 
-Boxes = tuple[tuple[tuple[float, float, float], tuple[float, float, float]], ...]
 
-#: Centre and size [m] of every box, in the base's frame with all joints at 0; front is -x, gaps are
-#: 5 mm.
-PARTS: Mapping[str, Boxes] = {
-    "carcass": (
-        ((0.191, 0.0, 0.4), (0.018, 0.6, 0.8)),
-        ((0.0, -0.291, 0.4), (0.4, 0.018, 0.8)),
-        ((0.0, 0.291, 0.4), (0.4, 0.018, 0.8)),
-        ((0.0, 0.0, 0.791), (0.4, 0.6, 0.018)),
-        ((0.0, 0.0, 0.4), (0.4, 0.6, 0.018)),
-        ((0.0, 0.0, 0.009), (0.4, 0.6, 0.018)),
+def part(
+    name: str, mass: float, origin: Sequence[float], *boxes: Sequence[Sequence[float]]
+) -> Body:
+    """A body of boxes, each by its centre and size [m], in the base's frame with joints at 0."""
+    return Body(name, tuple(box(*each) for each in boxes), at(*origin), mass)
+
+
+#: Front is -x, gaps are 5 mm.
+CABINET = Thing(
+    "cabinet",
+    (
+        part(
+            "carcass",
+            20.0,
+            (0.0, 0.0, 0.0),
+            ((0.191, 0.0, 0.4), (0.018, 0.6, 0.8)),
+            ((0.0, -0.291, 0.4), (0.4, 0.018, 0.8)),
+            ((0.0, 0.291, 0.4), (0.4, 0.018, 0.8)),
+            ((0.0, 0.0, 0.791), (0.4, 0.6, 0.018)),
+            ((0.0, 0.0, 0.4), (0.4, 0.6, 0.018)),
+            ((0.0, 0.0, 0.009), (0.4, 0.6, 0.018)),
+        ),
+        part("drawer", 3.0, (-0.2, 0.0, 0.6), ((-0.015, 0.0, 0.5955), (0.37, 0.554, 0.363))),
+        part("door", 2.0, (-0.223, -0.295, 0.2), ((-0.214, 0.0, 0.2), (0.018, 0.59, 0.38))),
     ),
-    "drawer": (((-0.015, 0.0, 0.5955), (0.37, 0.554, 0.363)),),
-    "door": (((-0.214, 0.0, 0.2), (0.018, 0.59, 0.38)),),
-}
-MASSES = {"carcass": 20.0, "drawer": 3.0, "door": 2.0, "stopper": 1.0}
-ORIGINS = {"drawer": (-0.2, 0.0, 0.6), "door": (-0.223, -0.295, 0.2), "stopper": (-0.3, 0.0, 0.6)}
-MOVES = {
-    "drawer": ("slide", "prismatic", (-1.0, 0.0, 0.0), 0.3),
-    "door": ("hinge", "revolute", (0.0, 0.0, 1.0), 1.57),
-    "stopper": ("stopper_joint", "fixed", (1.0, 0.0, 0.0), 0.0),
-}
+    (
+        Move("slide", "prismatic", "carcass", "drawer", (-1.0, 0.0, 0.0), 0.0, 0.3),
+        Move("hinge", "revolute", "carcass", "door", (0.0, 0.0, 1.0), 0.0, 1.57),
+    ),
+)
+#: Nothing holds its parts.
+LOOSE = replace(CABINET, moves=())
 
 
-def cabinet(parts: Mapping[str, Boxes] = PARTS, *, joints: bool = True) -> Thing:
-    """The cabinet, with other parts or without what holds them."""
-    bodies = []
-    for name, boxes in parts.items():
-        pieces = tuple(box(*each) for each in boxes)
-        bodies.append(Body(name, pieces, at(*ORIGINS.get(name, (0, 0, 0))), MASSES[name]))
-    moves = [
-        Move(name, kind, "carcass", child, axis, 0.0, upper)
-        for child, (name, kind, axis, upper) in MOVES.items()
-        if child in parts and joints
-    ]
-    return Thing("cabinet", tuple(bodies), tuple(moves))
+def stopped(thing: Thing = CABINET) -> Thing:
+    """The cabinet with something before the drawer, which it stops."""
+    stopper = part("stopper", 1.0, (-0.3, 0.0, 0.6), ((-0.31, 0.0, 0.6), (0.02, 0.5, 0.3)))
+    weld = Move("stopper_joint", "fixed", "carcass", "stopper", (1.0, 0.0, 0.0), 0.0, 0.0)
+    return replace(thing, bodies=(*thing.bodies, stopper), moves=(*thing.moves, weld))
 
 
 def write_urdf(
-    folder: Path,
-    parts: Mapping[str, Boxes] = PARTS,
-    replace: Mapping[str, str] | None = None,
-    *,
-    joints: bool = True,
+    folder: Path, thing: Thing = CABINET, replace: Mapping[str, str] | None = None
 ) -> Path:
     """Write it as URDF; ``replace`` edits its text, and must find what it replaces."""
-    made = urdf(cabinet(parts, joints=joints))
-    return edited(made, *(replace or {}).items(), count=-1)(folder)
+    return edited(urdf(thing), *(replace or {}).items(), count=-1)(folder)
 
 
 def write_mjcf(folder: Path) -> Path:
-    return mjcf(cabinet())(folder)
+    return mjcf(CABINET)(folder)
 
 
 def write_lid(folder: Path) -> Path:

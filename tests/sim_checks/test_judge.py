@@ -9,7 +9,7 @@ import signal
 import pytest
 import trimesh
 from box_world import write_drawer
-from small_cabinet import write_mjcf, write_urdf
+from small_cabinet import LOOSE, write_mjcf, write_urdf
 
 from asset_factory.sim_checks import Status, run_checks
 from asset_factory.sim_checks.checks import catalog
@@ -31,7 +31,7 @@ def test_neither_order_nor_workers_nor_a_crash_before_changes_a_byte(good, tmp_p
     unreadable = tmp_path / "bad.urdf"
     unreadable.write_text("<robot")
     # Two roots: Bullet's loader dies of a segmentation fault, MuJoCo's does not.
-    killer = write_urdf(tmp_path, joints=False)
+    killer = write_urdf(tmp_path, LOOSE)
     (tmp_path / "mjcf").mkdir()
     files = (good, killer, bad, write_mjcf(tmp_path / "mjcf"), unreadable)
     alone = {path: run_checks(path, ENGINES) for path in files}

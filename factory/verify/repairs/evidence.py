@@ -24,13 +24,13 @@ class RepairEvidence:
         verdict: of the round.
         config: how far repairs may go.
         spare: what the object is still worth having without.
-        asset: that was validated; ``None`` where only its verdict is known.
+        asset: that was validated.
     """
 
     verdict: Verdict
     config: RepairConfig
     spare: Spare
-    asset: Asset | None = None
+    asset: Asset
 
     @property
     def errors(self) -> tuple[Finding, ...]:

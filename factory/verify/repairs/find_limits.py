@@ -29,7 +29,7 @@ def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     caps: the object is as large wherever they stand.
     """
     asset = evidence.asset
-    if asset is None or "sweep_penetration" not in evidence.codes:
+    if "sweep_penetration" not in evidence.codes:
         return None
     mended = dict(plan.mended)
     repairs = list(plan.repairs)

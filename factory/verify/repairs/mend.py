@@ -70,7 +70,7 @@ def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     A joint whose closed end lies in something begins where it is free, no further than as shown.
     """
     asset = evidence.asset
-    if asset is None or "rest_penetration" not in evidence.codes:
+    if "rest_penetration" not in evidence.codes:
         return None
     stuck = {
         part for each in evidence.errors if each.code == "rest_penetration" for part in each.parts
@@ -98,7 +98,7 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     blocked too soon to be ended there is changed and ended.
     """
     asset = evidence.asset
-    if asset is None or "sweep_penetration" not in evidence.codes:
+    if "sweep_penetration" not in evidence.codes:
         return None
     shares = {
         name: (until - measured.lower) / (measured.upper - measured.lower)

@@ -50,8 +50,6 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
 
 def freeze_small(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Return the small joints fixed to what carries them, if nothing else is wrong."""
-    if evidence.asset is None:
-        return None
     tree = evidence.asset.articulation
     spare = evidence.spare.joints - plan.frozen
     # Guesses are given up by who is less sure.
@@ -78,10 +76,8 @@ def freeze_small(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     )
 
 
-def _free_end(asset: Asset | None, name: str, clear_until: float) -> float | None:
+def _free_end(asset: Asset, name: str, clear_until: float) -> float | None:
     """Return where a joint still touches nothing, before it fails; ``None`` if that is nowhere."""
-    if asset is None:
-        return clear_until
     joint = asset.articulation.joint(name)
     for share in SHORTER:
         shorter = replace(joint, upper=joint.lower + share * (clear_until - joint.lower))

@@ -1,7 +1,5 @@
 """The way to the judge: no inspection is repeated, and two files of one asset make one report."""
 
-from dataclasses import replace
-
 import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet
 
@@ -30,10 +28,8 @@ def test_what_was_inspected_is_not_measured_again(tmp_path, monkeypatch):
     with Judge() as judge:
         inspected = inspect(bundle, judge, (), stages)
         verdict = validate(bundle, judge, (), inspected, stages)
-        assert examined == ["asset.urdf", "asset.xml"]
-        again = validate(bundle, judge, (), replace(inspected, examined=None), stages)
-    assert examined == ["asset.urdf", "asset.xml"] * 2
-    assert verdict.report.to_json() == again.report.to_json()
+    assert examined == ["asset.urdf", "asset.xml"]
+    assert verdict.report.measurements.keys() == {"asset.urdf", "asset.xml"}
 
 
 def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_path):
@@ -62,7 +58,7 @@ class Hurried:
     def examine(self, path):
         self.examined += 1
         late = Finding("check_timeout", Severity.ERROR, "no answer in 120 s")
-        return Examination(None, (late,) if self.examined == 1 else ())
+        return Examination((late,) if self.examined == 1 else ())
 
     def check(self, path, simulators, examined):
         self.checked += 1

@@ -10,7 +10,7 @@ from sliders import CONFIG, Sliders
 from asset_factory.sim_checks.checks.creep import check_creep
 from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.read.read import read_description
-from asset_factory.sim_checks.simulators.catalog import installed
+from asset_factory.sim_checks.simulators.catalog import installed, simulator
 from asset_factory.sim_checks.simulators.drive import sweep
 from asset_factory.sim_checks.simulators.hold import hold
 from asset_factory.sim_checks.simulators.observe import observe
@@ -49,7 +49,8 @@ def slide(friction, axis=(0.0, 0.0, 1.0)):
 def told(description, *holds, soft=False):
     motions = (JointMotion("j0", 1.0, 0.0, 0.0, 0.0, 1.0, finite=True, range=0.3),)
     observation = Observation(None, motions=motions, holds=holds)
-    return list(check_creep(description, "engine", observation, CheckConfig(), soft=soft).findings)
+    engine = simulator("newton" if soft else "pybullet")
+    return list(check_creep(description, engine, observation, CheckConfig()).findings)
 
 
 def held(moved, at=0.15, **changes):
@@ -159,6 +160,7 @@ def test_pybullet_holds_what_little_more_friction_than_weight_should(tmp_path):
     path = edited(urdf(button()), rubbing)(tmp_path)
     observation = observe("pybullet", path, CONFIG, ())
     assert [item.moved for item in observation.holds] == pytest.approx([0.0] * 3, abs=1e-6)
-    result = check_creep(read_description(path), "pybullet", observation, CheckConfig(), soft=False)
+    engine = simulator("pybullet")
+    result = check_creep(read_description(path), engine, observation, CheckConfig())
     assert result.findings == ()
     assert [row["load"] for row in result.measurements["hold"]] == pytest.approx([WEIGHT] * 3)

@@ -61,7 +61,7 @@ def test_a_simulator_is_not_asked_for_more_than_it_can_drive():
     work = 24 * 25
     assert undriven(description, "mujoco", replace(PLENTY, driven_links=work)) is None
     config = replace(CheckConfig(), work=replace(PLENTY, driven_links=work - 1))
-    (found,) = judge_in_simulator(description, "mujoco", config).findings
+    (found,) = judge_in_simulator(description, "mujoco", config, None).findings
     assert (found.code, found.simulator) == ("too_large_to_judge", "mujoco")
 
 

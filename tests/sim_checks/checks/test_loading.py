@@ -13,16 +13,12 @@ from asset_factory.sim_checks.checks.loading import check_loading
 from asset_factory.sim_checks.config import CheckConfig, ChildConfig, MotionConfig
 from asset_factory.sim_checks.description import LinkInertia, Mimic
 from asset_factory.sim_checks.geometry.kinematics import build_tree, sound_mimics, unit_axis
+from asset_factory.sim_checks.processes.isolation import WarmChild
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import UNJUDGED_CODES, Report, Severity
 from asset_factory.sim_checks.simulators.catalog import simulator
-from asset_factory.sim_checks.simulators.simulator import (
-    LoadedJoint,
-    LoadedLink,
-    LoadedModel,
-    Observation,
-    PoseSample,
-)
+from asset_factory.sim_checks.simulators.simulator import Observation, PoseSample
+from asset_factory.sim_checks.simulators.world import LoadedJoint, LoadedLink, LoadedModel
 
 NAN = float("nan")
 LIMIT = '<limit lower="0.0" upper="0.3" effort="50" velocity="2"/>'
@@ -48,13 +44,13 @@ def faithful(description):
         joints.append(LoadedJoint(line.name, line.kind, *numbers, (x, y, z), line.mimic))
     tree = build_tree(description)
     values = tree.completed({line.name: 0.1 for line in tree.free})
-    model = LoadedModel(tuple(links), tuple(joints), ())
+    model = LoadedModel(tuple(links), tuple(joints))
     return Observation(model, (PoseSample(values, tree.link_poses(values)),))
 
 
 def found(description, observation):
     """What the check says, in words that a report can hold."""
-    result = check_loading(description, "engine", observation, CheckConfig())
+    result = check_loading(description, observation, CheckConfig())
     assert Report("x", ("engine",), result.findings, {"engine": result.measurements}).to_json()
     return result.findings
 
@@ -246,7 +242,8 @@ def test_poses_are_compared_where_there_are_any(description, upper):
 
 def test_an_engine_that_is_not_installed_is_named_with_its_install_line(description, monkeypatch):
     monkeypatch.setattr(in_simulator, "installed", lambda name: False)
-    (finding,) = in_simulator.judge_in_simulator(description, "mujoco", CheckConfig()).findings
+    result = in_simulator.judge_in_simulator(description, "mujoco", CheckConfig(), None)
+    (finding,) = result.findings
     assert finding.code == "simulator_missing"
     assert "pip install 'asset-factory[mujoco]'" in finding.message
 
@@ -254,7 +251,9 @@ def test_an_engine_that_is_not_installed_is_named_with_its_install_line(descript
 def test_an_engine_that_does_not_answer_in_time_is_a_finding(description):
     pytest.importorskip("mujoco")
     config = CheckConfig(child=ChildConfig(wall_s=0.01))
-    (finding,) = in_simulator.judge_in_simulator(description, "mujoco", config).findings
+    with WarmChild() as child:
+        result = in_simulator.judge_in_simulator(description, "mujoco", config, child)
+    (finding,) = result.findings
     assert (finding.code, finding.severity) == ("simulator_timeout", Severity.ERROR)
     assert finding.code in UNJUDGED_CODES
 
@@ -274,7 +273,7 @@ def test_real_engines_agree_on_poses_and_tell_whether_they_couple_joints(tmp_pat
     pytest.importorskip(name)
     description = read_description(write_urdf(tmp_path, replace=MIMIC))
     observation = loaded(description, name)
-    result = check_loading(description, name, observation, CheckConfig())
+    result = check_loading(description, observation, CheckConfig())
     codes = {finding.code for finding in result.findings}
     assert not codes & {"pose_mismatch", "axis_mismatch", "limit_mismatch"}
     assert not codes & {"link_added", "joint_added", "mimic_mismatch"}

@@ -18,19 +18,18 @@ from asset_factory.sim_checks.simulators.simulator import (
     Fall,
     FallMotion,
     JointMotion,
-    LoadedModel,
     Observation,
     RestMotion,
-    Touch,
 )
+from asset_factory.sim_checks.simulators.world import LoadedModel, Touch
 
-NOTHING = LoadedModel((), (), ())
+NOTHING = LoadedModel((), ())
 
 
 def faults(observation):
     """What the check says of an engine that saw this, of a file that says nothing."""
     nothing = Description(Path("nothing.urdf"), "urdf", (), ())
-    return check_motion(nothing, "engine", observation, CheckConfig()).findings
+    return check_motion(nothing, observation, CheckConfig()).findings
 
 
 def only(world):

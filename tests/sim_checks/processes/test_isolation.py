@@ -143,20 +143,16 @@ def pid_in(note):
     return int(note.read_text())
 
 
-def abandoned(function, note):
-    """The outcome of a call whose child is abandoned as soon as it has noted a process."""
-    with WarmChild() as child, ThreadPoolExecutor(1) as pool:
-        outcome = pool.submit(child.call, function, str(note), limits=Limits(wall_s=60.0))
-        pid_in(note)
-        child.abandon()
-        return outcome.result()
-
-
 @pytest.mark.parametrize("function", [start_grandchild, nest])
 def test_whatever_a_killed_child_has_started_dies_too(function, tmp_path):
-    outcome = abandoned(function, tmp_path / "pid")
+    note = tmp_path / "pid"
+    with WarmChild() as child, ThreadPoolExecutor(1) as pool:
+        called = pool.submit(child.call, function, str(note), limits=Limits(wall_s=60.0))
+        pid = pid_in(note)
+        child.abandon()
+        outcome = called.result()
     assert (outcome.failure, outcome.tries) == ("crashed", 1)
-    wait_until_gone(pid_in(tmp_path / "pid"))
+    wait_until_gone(pid)
 
 
 def test_an_abandoned_child_is_not_asked_again():

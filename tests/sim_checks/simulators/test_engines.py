@@ -2,9 +2,11 @@
 
 from collections import defaultdict
 from contextlib import ExitStack
+from dataclasses import replace
 
 import pytest
-from small_cabinet import PARTS, codes, motion_of, write_mjcf, write_urdf
+from fault_corpus.things import box, with_body
+from small_cabinet import CABINET, LOOSE, codes, motion_of, write_mjcf, write_urdf
 
 from asset_factory.sim_checks import run_checks
 from asset_factory.sim_checks.checks.in_simulator import judge_in_simulator
@@ -64,9 +66,9 @@ def test_a_sound_cabinet_opens_and_closes_without_a_finding(tmp_path, judge, eng
 
 @of_engines("mujoco")
 def test_a_door_in_front_of_the_drawer_is_a_dependency_not_a_jam(tmp_path, judge, engine):
-    tall = (((-0.214, 0.0, 0.4), (0.018, 0.59, 0.78)),)
+    tall = with_body(CABINET, "door", pieces=(box((-0.214, 0.0, 0.4), (0.018, 0.59, 0.78)),))
     wide_open = {'upper="1.57"': 'upper="2.6"'}
-    result = judge(write_urdf(tmp_path, {**PARTS, "door": tall}, wide_open), engine)
+    result = judge(write_urdf(tmp_path, tall, wide_open), engine)
     assert codes(result) == []
     assert result.measurements["motion"]["dependencies"] == ["slide"]
 
@@ -81,7 +83,7 @@ def test_swapped_limits_are_lost_and_said_to_be(tmp_path, judge, engine):
 
 @of_engines("sapien")
 def test_two_roots_are_refused_in_the_loader_s_own_words(tmp_path, judge, engine):
-    result = judge(write_urdf(tmp_path, joints=False), engine)
+    result = judge(write_urdf(tmp_path, LOOSE), engine)
     assert codes(result) == ["load_failed"]
     assert "Links are not all connected" in result.findings[0].message
 
@@ -97,9 +99,10 @@ def test_a_mesh_that_vanishes_is_a_dropped_shape_or_does_not_load(tmp_path, judg
 
 @of_engines("sapien")
 def test_an_object_without_joints_loads_with_its_shapes(tmp_path, judge, engine):
-    result = judge(write_urdf(tmp_path, {"carcass": PARTS["carcass"]}), engine)
+    carcass = replace(LOOSE, bodies=LOOSE.bodies[:1])
+    result = judge(write_urdf(tmp_path, carcass), engine)
     assert result.findings == ()
-    assert result.measurements["loading"]["shapes"] == len(PARTS["carcass"])
+    assert result.measurements["loading"]["shapes"] == len(carcass.bodies[0].pieces)
 
 
 @of_engines("newton")
