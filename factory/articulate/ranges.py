@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import tau
 
 import numpy as np
 
@@ -13,9 +14,8 @@ from ..geometry.posing import moved
 from ..mesh import BoolArray, FloatArray, Mesh
 from .draft import Draft
 
-TURN = 2.0 * np.pi
 #: Limits may not lie further from zero than this [rad]: engines stop a little beyond.
-MOST_TURN = TURN - 0.02
+MOST_TURN = tau - 0.02
 #: A range below this is no motion [rad] or [m].
 NO_RANGE = 1e-6
 #: Zero within this share of the range from an end counts as at that end.
@@ -62,13 +62,13 @@ def sound_limits(
             f"joint {name!r}: lower limit above the upper one; "
             f"swapped to [{lower:.6g}, {upper:.6g}]"
         )
-    if known is JointKind.REVOLUTE and max(-lower, upper) > TURN * (1.0 + 1e-6):
+    if known is JointKind.REVOLUTE and max(-lower, upper) > tau * (1.0 + 1e-6):
         notes.append(
             f"joint {name!r}: turns to [{lower:.6g}, {upper:.6g}] rad, over a full turn: "
             "taken as continuous"
         )
         return JointKind.CONTINUOUS, -np.pi, np.pi, notes
-    if known is JointKind.REVOLUTE and upper - lower > TURN * (1.0 + 1e-6):
+    if known is JointKind.REVOLUTE and upper - lower > tau * (1.0 + 1e-6):
         notes.append(f"joint {name!r}: turns by {upper - lower:.4g} rad in all, over a full turn")
     if known is JointKind.REVOLUTE and max(-lower, upper) > MOST_TURN:
         lower = max(lower, -MOST_TURN)
