@@ -91,7 +91,7 @@ class Difference(Printed):
         """Print what differs."""
         found = diff(entries_of(self.before), entries_of(self.after))
         if self.json:
-            say(json.dumps(found.to_dict(), indent=2))
+            say(json.dumps(asdict(found), indent=2))
         else:
             print_diff(found)
         return Exit.REJECTED if self.strict and (found.newly_failed or found.gone) else Exit.OK
@@ -263,11 +263,9 @@ def print_diff(diff: Diff) -> None:
     """Print which assets are new, gone, better, worse or otherwise changed."""
     _lines("new", [_verdict(entry) for entry in diff.new])
     _lines("gone", [_verdict(entry) for entry in diff.gone])
-    _lines(
-        "newly passed", [f"{each.after.id}: was {_why(each.before)}" for each in diff.newly_passed]
-    )
-    _lines("newly failed", [f"{each.after.id}: {_why(each.after)}" for each in diff.newly_failed])
-    _lines("changed", [f"{each.after.id}: {_columns(each)}" for each in diff.changed])
+    _lines("newly passed", [f"{each.id}: was {_why(each.before)}" for each in diff.newly_passed])
+    _lines("newly failed", [f"{each.id}: {_why(each.after)}" for each in diff.newly_failed])
+    _lines("changed", [f"{each.id}: {_columns(each)}" for each in diff.changed])
     groups = ("new", "gone", "newly_passed", "newly_failed", "changed")
     counts = [f"{len(getattr(diff, name))} {name.replace('_', ' ')}" for name in groups]
     say(", ".join([*counts, f"{diff.same} the same"]))
