@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sqlite3
 from collections.abc import Iterator, Sequence
@@ -95,7 +94,7 @@ class Registry:
                 content = staging / "content"
                 content.mkdir()
             files = file_digests(content)
-            entry = _completed(entry, told, content)
+            entry = _lasting(entry)
             write_report(content, entry, told, files)
             sync_tree(content)
             with writing(self.root) as connection:
@@ -273,13 +272,8 @@ def read_manifest(folder: Path) -> Manifest | None:
         return None
 
 
-def _completed(entry: Entry, told: BuildReport, content: Path) -> Entry:
-    """Fill in an entry from its files. Raises RegistryError if it cannot be an entry."""
-    hard = told.report.errors
-    entry = replace(entry, message=entry.message or (hard[0].message if hard else ""))
-    if not entry.license and (content / MANIFEST).is_file():
-        stated = json.loads((content / MANIFEST).read_bytes()).get("license")
-        entry = replace(entry, license=stated or "")
+def _lasting(entry: Entry) -> Entry:
+    """Return an entry without what is noted of it. Raises RegistryError if it cannot be one."""
     try:
         return entry_from(lasting_data(entry))
     except ValueError as error:

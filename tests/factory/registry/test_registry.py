@@ -134,18 +134,6 @@ def test_without_an_exchanging_rename_two_do(registry, monkeypatch):
     assert list((registry.root / ".staging").iterdir()) == []
 
 
-def test_what_the_files_know_better_completes_the_entry(registry):
-    folder = publish(registry, entry=replace(PASSED, license=""))
-    (folder.parent / "gone").mkdir()
-    assert registry.entry(PASSED.id).license == ""
-    with registry.staging_folder() as staging:
-        (staging / "asset.json").write_text('{"license": "CC-BY-4.0"}')
-        registry.add(replace(PASSED, license=""), REPORT, staging)
-    assert registry.entry(PASSED.id).license == "CC-BY-4.0"
-    registry.add(replace(REJECTED, message=""), BAD_REPORT)
-    assert registry.entry(PASSED.id).message == "5 mm deep"
-
-
 def test_a_full_disk_is_no_damaged_database(registry, monkeypatch):
     def full(*arguments):
         error = sqlite3.OperationalError("database or disk is full")
