@@ -92,16 +92,9 @@ class VisualPiece:
 
 
 def write_visuals(
-    asset: Asset, folder: Path, textures: TextureFolder
-) -> tuple[tuple[VisualPiece, ...], ...]:
-    """Write OBJ, MTL and textures of every part below ``folder``; one tuple of pieces per part."""
-    parts = range(len(asset.articulation.parts))
-    return tuple(_write_part(asset, part, folder, textures) for part in parts)
-
-
-def _write_part(
     asset: Asset, part: int, folder: Path, textures: TextureFolder
 ) -> tuple[VisualPiece, ...]:
+    """Write OBJ, MTL and textures of a part below ``folder``."""
     articulation = asset.articulation
     name = articulation.parts[part].name
     origin = articulation.link_frame(part)
