@@ -10,6 +10,7 @@ from typing import Any, Literal
 from asset_factory.sim_checks import Status
 
 from ..errors import RegistryError
+from ..runtime.layout import ASSETS, REJECTED
 from ..runtime.store import digest_bytes
 
 Split = Literal["train", "test"]
@@ -71,6 +72,11 @@ class Entry:
         object.__setattr__(self, "status", Status(self.status))
         object.__setattr__(self, "split", split_of(self.id))
         object.__setattr__(self, "tags", tuple(sorted(set(self.tags))))
+
+    @property
+    def folder(self) -> str:
+        """Return where its files are, relative to the registry's folder."""
+        return f"{ASSETS if self.status is Status.PASSED else REJECTED}/{self.id}"
 
 
 #: What an asset's own folder says of it; the rest is noted beside it.

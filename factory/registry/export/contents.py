@@ -69,7 +69,7 @@ def _files(
         if found is None:
             continue
         entry, files = found
-        where = registry.folder(entry).relative_to(registry.root).as_posix()
+        where = entry.folder
         exported.append(entry)
         if layout == "huggingface":
             rows.append(described(entry, where, files.get(MANIFEST)))

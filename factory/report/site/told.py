@@ -25,7 +25,7 @@ from ...reasons import meaning_of
 from ...registry import Entry
 from ...registry.registry import read_manifest
 from ...registry.report_file import read_report
-from ...runtime.layout import ASSETS, MODEL, REJECTED, URDF
+from ...runtime.layout import MODEL, URDF
 from ..loading import Snippet, loading_snippets
 from .places import Places
 
@@ -147,8 +147,7 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
     Raises:
         RegistryError: its report cannot be read.
     """
-    place = ASSETS if entry.status is Status.PASSED else REJECTED
-    folder = root / place / entry.id
+    folder = root / entry.folder
     told = read_report(folder).told
     report = told.report
     page = AssetPage(
@@ -158,13 +157,13 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
         findings=_findings(report, None),
         hypotheses=tuple(f.message for f in report.findings if f.code == OTHER_HYPOTHESIS),
         repairs=told.repairs,
-        folder=f"../../../{place}/{entry.id}/",
+        folder=f"../../../{entry.folder}/",
         registry=root.absolute().name,
     )
     model = _model(folder)
     if not model:
         return page
-    edit = f"factory edit {page.registry}/{place}/{entry.id}"
+    edit = f"factory edit {page.registry}/{entry.folder}"
     return with_model(replace(page, edit=edit), model)
 
 
