@@ -44,9 +44,10 @@ class Rebuild(OfRegistry):
 
     def run(self) -> int:
         """Print how many rows there are now, and which folders have none."""
-        rebuilt = rebuild(self.output)
-        _lines("unreadable", rebuilt.unreadable)
-        say(f"{rebuilt.entries} entries; {len(rebuilt.unreadable)} folders could not be read")
+        unreadable = rebuild(self.output)
+        _lines("unreadable", unreadable)
+        entries = Registry(self.output).count()
+        say(f"{entries} entries; {len(unreadable)} folders could not be read")
         return Exit.OK
 
 

@@ -19,7 +19,7 @@ from . import rows
 from .claims import held_folder
 from .database import connected, writing
 from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
-from .folders import read_record
+from .folders import folders_of, read_record
 from .notes import fingerprint, note_path, read_note, write_note
 from .placing import place, remove, sync_tree
 from .rebuild import make_registry, open_registry
@@ -102,7 +102,7 @@ class Registry:
                 # always there.
                 if other.exists() or not _same(content, folder, files):
                     place(content, folder)
-                rows.insert(connection, (read_record(folder),))
+                rows.insert(connection, read_record(folder))
             remove(content)
             if other.exists():
                 os.rename(other, staging / "other")
@@ -138,12 +138,14 @@ class Registry:
                 noted = replace(noted, solved=solved, solved_files=tried)
             write_note(path, noted)
             record = read_record(folder)
-            rows.insert(connection, (record,))
+            rows.insert(connection, record)
         return record.entry
 
     def forget(self, asset_id: str, *, except_id: str = "") -> None:
         """Drop an entry and its files, if there is one and it is not ``except_id``."""
-        if asset_id == except_id or (self.find(asset_id) is None and not self._folders(asset_id)):
+        if asset_id == except_id or (
+            self.find(asset_id) is None and not folders_of(self.root, asset_id)
+        ):
             return
         with self.staging_folder() as staging, self.unlisted(asset_id) as folders:
             if folders is None:
@@ -163,12 +165,7 @@ class Registry:
             rows.delete(connection, asset_id)
         with writing(self.root) as connection:
             again = rows.find(connection, "id", asset_id) is not None
-            yield None if again else self._folders(asset_id)
-
-    def _folders(self, asset_id: str) -> list[Path]:
-        """Return where an asset lies, with those that passed, with the others, or with both."""
-        places = (self.assets / asset_id, self.rejected / asset_id)
-        return [place for place in places if os.path.lexists(place)]
+            yield None if again else folders_of(self.root, asset_id)
 
     def entries(
         self,
@@ -234,7 +231,7 @@ class Registry:
 
     def folder(self, entry: Entry) -> Path:
         """Return where an entry's files lie."""
-        return (self.assets if entry.status is Status.PASSED else self.rejected) / entry.id
+        return self.root / entry.folder
 
     def told(self, entry: Entry) -> BuildReport:
         """Return an entry's report and repairs. Raises RegistryError if they are gone."""
