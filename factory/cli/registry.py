@@ -177,7 +177,7 @@ class Import:
 
     def run(self) -> int:
         """Register the assets."""
-        from ..registry.imports import ImportLimits, import_export
+        from ..registry.imports import import_export
 
         if not self.max_gb > 0.0:
             raise ConfigError(f"--max-gb must be more than 0, not {self.max_gb:g}")
@@ -185,9 +185,12 @@ class Import:
             advice = "`factory registry export` writes one"
             raise ConfigError(f"{self.source}: no such file or folder; {advice}")
         registry = Registry(self.output, create=True)
-        limits = ImportLimits(total_bytes=int(self.max_gb * _GB))
         imported = import_export(
-            registry, self.source, replace=self.replace, trusted=self.trust, limits=limits
+            registry,
+            self.source,
+            replace=self.replace,
+            trusted=self.trust,
+            most_bytes=int(self.max_gb * _GB),
         )
         say(f"{len(imported.published)} assets imported, {len(imported.same)} were there already")
         return Exit.OK

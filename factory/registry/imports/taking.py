@@ -14,11 +14,11 @@ from ...runtime.layout import ASSETS, REJECTED
 from ...runtime.store import folder_digests
 from ..entry import Entry
 from ..export.contents import SUMS_NAME
-from ..folders import read_record
+from ..folders import folders_of, read_record
 from ..notes import note_path, read_note
 from ..registry import Registry
 from ..report_file import BuildReport, file_digests, read_report
-from .unpacking import ImportLimits, read_sums, unpack
+from .unpacking import MOST_BYTES, read_sums, unpack
 
 _NAMED = 5
 
@@ -44,7 +44,7 @@ def import_export(
     *,
     replace: bool = False,
     trusted: bool = False,
-    limits: ImportLimits | None = None,
+    most_bytes: int = MOST_BYTES,
 ) -> TakenIn:
     """Take an export's assets into a registry.
 
@@ -58,7 +58,7 @@ def import_export(
         replace: let its assets take the place of others with the same ids.
         trusted: believe what it says they were made from, so that builds of the same inputs are
             answered with them.
-        limits: on its size.
+        most_bytes: size of all its files together [bytes].
 
     Raises:
         RegistryError: it is no export, something in it is not what its digests say, or other assets
@@ -67,7 +67,7 @@ def import_export(
     with registry.staging_folder() as staging:
         content = staging / "content"
         content.mkdir()
-        unpack(source, content, limits or ImportLimits())
+        unpack(source, content, most_bytes)
         _require_digests(source, content)
         found = (each for name in (ASSETS, REJECTED) for each in (content / name).glob("*"))
         folders = sorted(found, key=lambda folder: folder.name)
@@ -132,9 +132,8 @@ def _is_there(registry: Registry, arrival: _Arrival) -> bool:
 
 
 def _require_no_others(registry: Registry, source: Path, arrivals: Sequence[_Arrival]) -> None:
-    places = (registry.assets, registry.rejected)
     ids = [arrival.entry.id for arrival in arrivals]
-    others = [each for each in ids if any((place / each).exists() for place in places)]
+    others = [each for each in ids if folders_of(registry.root, each)]
     if others:
         more = f" and {len(others) - _NAMED} more" if len(others) > _NAMED else ""
         named = ", ".join(others[:_NAMED]) + more

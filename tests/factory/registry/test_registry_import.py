@@ -13,7 +13,7 @@ from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.export import contents, write_export
 from asset_factory.factory.registry.export.contents import is_safe_path
-from asset_factory.factory.registry.imports import ImportLimits, import_export
+from asset_factory.factory.registry.imports import import_export, unpacking
 from asset_factory.factory.registry.rebuild import rebuild
 from asset_factory.factory.registry.verify import verify
 from asset_factory.factory.runtime.store import digest_bytes
@@ -213,12 +213,14 @@ def test_a_hostile_archive_is_refused(registry, other, tmp_path, kind):
     assert not (tmp_path / "etc").exists()
 
 
-def test_sizes_are_bounded_before_anything_is_written(registry, other, tmp_path):
-    for name in ("x", "x.tar", "x.tar.gz"):
-        source = export(registry, tmp_path / name)
-        refused(other, source, "more than 1e-06 GB", limits=ImportLimits(total_bytes=1000))
-        refused(other, source, "bytes, want at most 10", limits=ImportLimits(file_bytes=10))
-        refused(other, source, "more than 3 files", limits=ImportLimits(files=3))
+@pytest.mark.parametrize("name", ["x", "x.tar", "x.tar.gz"])
+def test_sizes_are_bounded_before_anything_is_written(registry, other, tmp_path, name, monkeypatch):
+    source = export(registry, tmp_path / name)
+    refused(other, source, "more than 1e-06 GB", most_bytes=1000)
+    monkeypatch.setattr(unpacking, "MOST_FILES", 3)
+    refused(other, source, "more than 3 files")
+    monkeypatch.setattr(unpacking, "MOST_FILE_BYTES", 10)
+    refused(other, source, "bytes, want at most 10")
 
 
 NO_ARCHIVE = "x.tar|SHA256SUMS"
