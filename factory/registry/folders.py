@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 from asset_factory.sim_checks import Status
@@ -54,7 +55,7 @@ def read_record(folder: Path) -> RegistryRow:
     try:
         files = stored.files
         noted = read_note(note_path(folder.parents[1], folder.name))
-        entry = entry_from(stored.entry, tags=noted.tags, solved=noted.solved_with(files))
+        entry = replace(entry_from(stored.entry), tags=noted.tags, solved=noted.solved_with(files))
         gpu_ready = stored.gpu_ready
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise RegistryError(f"{folder / REPORT}: {error}") from error

@@ -18,7 +18,7 @@ from ..runtime.layout import ASSETS, MANIFEST, REJECTED, REPORT, STAGING
 from . import rows
 from .claims import held_folder
 from .database import connected, writing
-from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
+from .entry import SOLVED, Entry, Solved, entry_from, lasting_data, require_tags
 from .folders import folders_of, read_record
 from .notes import fingerprint, note_path, read_note, write_note
 from .placing import place, remove, sync_tree
@@ -109,7 +109,7 @@ class Registry:
         return folder
 
     def note(
-        self, asset_id: str, *, tags: Sequence[str] | None = None, solved: str | None = None
+        self, asset_id: str, *, tags: Sequence[str] | None = None, solved: Solved | None = None
     ) -> Entry:
         """Note something of an asset; ``None`` leaves a field as it was.
 
@@ -132,7 +132,7 @@ class Registry:
             path = note_path(self.root, asset_id)
             noted = read_note(path)
             if tags is not None:
-                noted = replace(noted, tags=tuple(sorted(set(tags))))
+                noted = replace(noted, tags=tuple(tags))
             if solved is not None:
                 tried = fingerprint(read_report(folder).files) if solved else ""
                 noted = replace(noted, solved=solved, solved_files=tried)
