@@ -20,7 +20,6 @@ from .database import (
     create_indices,
     create_tables,
     damaged,
-    require_known,
     schema_version,
     writing,
 )
@@ -68,11 +67,9 @@ def open_registry(root: Path) -> None:
             raise RegistryError(f"{root}: no {DATABASE}; {advice}")
         advice = f"`factory build --output {root} ...` makes one"
         raise RegistryError(f"{root}: no registry here; {advice}")
-    with connected(root) as connection:
-        version = schema_version(connection)
+    version = schema_version(root)
     if version == 0:
         raise damaged(root, "it has no tables")
-    require_known(root, version)
     if version < SCHEMA_VERSION:
         rebuild(root)
 
@@ -101,9 +98,8 @@ def _usable(root: Path) -> bool:
     if not (root / DATABASE).is_file():
         return False
     try:
+        version = schema_version(root)
         with connected(root) as connection:
-            version = schema_version(connection)
-            require_known(root, version)
             tables = {row[0] for row in connection.execute("SELECT name FROM sqlite_master")}
             sound = connection.execute("PRAGMA quick_check(1)").fetchone() == ("ok",)
     except DamagedDatabaseError:
