@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from .manifest import (
     ManifestPlacement,
     ManifestProposal,
     ManifestProvenance,
-    ManifestSurface,
     ManifestTarget,
     Row,
 )
@@ -89,10 +88,11 @@ def hull_aspect(hull: Hull) -> float:
     return float(sides.max() / max(float(sides.min()), 1e-12))
 
 
-def _surface(surface: InnerSurface) -> ManifestSurface:
-    lengths = (surface.thickness_m, surface.depth_m)
-    told = (None if length is None else rounded(length) for length in lengths)
-    return ManifestSurface(surface.part, surface.kind, surface.rule, *told)
+def _surface(surface: InnerSurface) -> InnerSurface:
+    """Return a surface as it is written."""
+    lengths = {"thickness_m": surface.thickness_m, "depth_m": surface.depth_m}
+    told = {name: rounded(length) for name, length in lengths.items() if length is not None}
+    return replace(surface, **told)
 
 
 def _joint(layout: Layout, link: LinkLayout, joint: Joint) -> ManifestJoint:

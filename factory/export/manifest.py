@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from asset_factory.sim_checks.description import Mimic
 
 from ..articulation import JointKind, Weights
+from ..asset import InnerSurface
 from ..runtime.packing import from_json
 
 #: Raised when the meaning of a field changes.
@@ -146,17 +147,6 @@ class ManifestLink:
 
 
 @dataclass(frozen=True)
-class ManifestSurface:
-    """A surface that the input does not have, see :class:`~..asset.InnerSurface`."""
-
-    part: str
-    kind: str
-    rule: str
-    thickness_m: float | None
-    depth_m: float | None
-
-
-@dataclass(frozen=True)
 class ManifestProvenance:
     """The asset's origin, and assumptions about it; see :class:`~..intake.Provenance`."""
 
@@ -219,7 +209,7 @@ class Manifest:
     provenance: ManifestProvenance
     tools: dict[str, str | None]
     notes: tuple[str, ...]
-    invented: tuple[ManifestSurface, ...] = ()
+    invented: tuple[InnerSurface, ...] = ()
     proposers: tuple[str, ...] = ()
 
     @property
