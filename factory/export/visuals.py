@@ -105,7 +105,7 @@ def write_visuals(
         material = mesh.materials[0]
         texture = textures.file_name(material)
         file = VISUAL_FOLDER / f"{stem}.obj"
-        write_text(folder / file, visual_obj(mesh, origin, f"{stem}.mtl", stem))
+        write_text(folder / file, visual_obj(mesh, origin, stem))
         write_text(folder / file.with_suffix(".mtl"), material_mtl(material, stem, texture))
         name_shown = f"handle_{stem}" if is_handle else f"visual_{stem}"
         image = None if texture is None else VISUAL_FOLDER / texture
