@@ -3,11 +3,12 @@
 import io
 import shutil
 import tarfile
+from dataclasses import replace
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from registry_samples import REPORT, alter, dump, link, named, publish, remove
+from registry_samples import BAD_REPORT, REJECTED, REPORT, alter, dump, link, named, publish, remove
 
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Registry
@@ -39,6 +40,15 @@ def test_a_round_trip_changes_nothing(registry, other, tmp_path, name):
     assert list((other.root / ".staging").iterdir()) == []
     again = import_export(other, source)
     assert (again.published, again.same) == ((), ("cabinet-1", "chest-1", "fridge-1"))
+
+
+def test_what_was_rejected_arrives_with_its_model(registry, other, tmp_path):
+    with registry.staging_folder() as staging:
+        (staging / "view.glb").write_bytes(b"glTF")
+        registry.add(replace(REJECTED, id="chest-1"), BAD_REPORT, staging)
+    import_export(other, export(registry, tmp_path / "x"))
+    assert (other.rejected / "chest-1" / "view.glb").read_bytes() == b"glTF"
+    assert verify(other) == ()
 
 
 NAMES = st.text("abc_é .", min_size=1, max_size=8).filter(is_safe_path)
