@@ -8,7 +8,7 @@ from dataclasses import asdict, replace
 import pytest
 from registry_samples import PASSED, REJECTED, named, publish
 
-from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.factory.registry.diff import Diff, diff
 from asset_factory.factory.registry.export import contents, write_export
 from asset_factory.factory.registry.sources import entries_of
@@ -115,7 +115,7 @@ def test_urls(registry, tmp_path):
         assert system.cat(f"/bucket/folder/{name}") == (tmp_path / "folder" / name).read_bytes()
     with pytest.raises(RegistryError, match="is there already"):
         export(registry, "memory://bucket/folder")
-    with pytest.raises(RegistryError, match="nosuch"):
+    with pytest.raises(ConfigError, match="nosuch"):
         export(registry, "nosuch://bucket/x.tar")
 
 
