@@ -13,7 +13,7 @@ from ..manufacture.targets.standing import standing_place
 from ..mesh import FloatArray
 from ..runtime.keys import installed_version
 from ..runtime.layout import MJCF, URDF
-from ..runtime.numbers import magnitude, rounded
+from ..runtime.numbers import DECIMALS, magnitude, rounded
 from .links import Layout, LinkLayout
 from .manifest import (
     SCHEMA,
@@ -90,9 +90,12 @@ def hull_aspect(hull: Hull) -> float:
 
 def _surface(surface: InnerSurface) -> InnerSurface:
     """Return a surface as it is written."""
-    lengths = {"thickness_m": surface.thickness_m, "depth_m": surface.depth_m}
-    told = {name: rounded(length) for name, length in lengths.items() if length is not None}
-    return replace(surface, **told)
+    thickness = _rounded(surface.thickness_m)
+    return replace(surface, thickness_m=thickness, depth_m=_rounded(surface.depth_m))
+
+
+def _rounded(value: float | None, decimals: int = DECIMALS) -> float | None:
+    return None if value is None else rounded(value, decimals)
 
 
 def _joint(layout: Layout, link: LinkLayout, joint: Joint) -> ManifestJoint:
@@ -106,7 +109,7 @@ def _joint(layout: Layout, link: LinkLayout, joint: Joint) -> ManifestJoint:
         lower=rounded(joint.lower),
         upper=rounded(joint.upper),
         unit=joint.unit,
-        confidence=None if joint.confidence is None else rounded(joint.confidence, 4),
+        confidence=_rounded(joint.confidence, 4),
         inertia=magnitude(link.resistance.inertia),
         damping=magnitude(link.resistance.damping),
         friction=magnitude(link.resistance.friction),
@@ -157,7 +160,7 @@ def _placement(layout: Layout, joint: Joint) -> ManifestPlacement | None:
 def _link(link: LinkLayout, part: Part, body: PartBody) -> ManifestLink:
     return ManifestLink(
         name=link.name,
-        confidence=None if part.confidence is None else rounded(part.confidence, 4),
+        confidence=_rounded(part.confidence, 4),
         mass=magnitude(body.inertial.mass),
         hulls=len(body.hulls),
         max_hull_vertices=max((len(hull.vertices) for hull in body.hulls), default=0),
@@ -178,7 +181,7 @@ def _proposal(part: Part) -> ManifestProposal | None:
         id=source.id,
         proposer=source.proposer,
         kind=part.kind,
-        probability=None if source.probability is None else rounded(source.probability, 4),
+        probability=_rounded(source.probability, 4),
         signs={name: rounded(value, 4) for name, value in sorted(source.signs.items())},
     )
 
