@@ -7,7 +7,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from ..articulation import Joint, Part, Weights
-from ..asset import Handle, Hull, InnerSurface, PartBody, Target
+from ..asset import Handle, Hull, InnerSurface, PartBody, StandingPlace, Target
 from ..intake.intake import Provenance
 from ..manufacture.targets.standing import standing_place
 from ..mesh import FloatArray
@@ -21,7 +21,6 @@ from .manifest import (
     ManifestHandle,
     ManifestJoint,
     ManifestLink,
-    ManifestPlacement,
     ManifestProposal,
     ManifestProvenance,
     ManifestTarget,
@@ -148,13 +147,14 @@ def _target(layout: Layout, target: Target) -> ManifestTarget:
     )
 
 
-def _placement(layout: Layout, joint: Joint) -> ManifestPlacement | None:
+def _placement(layout: Layout, joint: Joint) -> StandingPlace | None:
     """Return where a robot's base may stand to open the joint at its best target."""
     target = next((each for each in layout.asset.targets if each.joint == joint.name), None)
     place = None if target is None else standing_place(layout.asset, joint, target)
     if place is None:
         return None
-    return ManifestPlacement(tuple(rounded(value) for value in place.position), rounded(place.yaw))
+    x, y = place.position
+    return StandingPlace((rounded(x), rounded(y)), rounded(place.yaw))
 
 
 def _link(link: LinkLayout, part: Part, body: PartBody) -> ManifestLink:

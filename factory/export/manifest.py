@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from asset_factory.sim_checks.description import Mimic
 
 from ..articulation import JointKind, Weights
-from ..asset import InnerSurface
+from ..asset import InnerSurface, StandingPlace
 from ..runtime.packing import from_json
 
 #: Raised when the meaning of a field changes.
@@ -34,14 +34,6 @@ class ManifestHandle:
     normal: Row
     pull: Row
     source: str
-
-
-@dataclass(frozen=True)
-class ManifestPlacement:
-    """Where a robot's base may stand: x, y [m] and yaw [rad], object frame."""
-
-    position: Row
-    yaw: float
 
 
 @dataclass(frozen=True)
@@ -77,7 +69,7 @@ class ManifestJoint:
     default_damping: bool
     default_friction: bool
     handle: ManifestHandle | None
-    placement: ManifestPlacement | None
+    placement: StandingPlace | None
     mimic: Mimic | None = None
 
     @property
