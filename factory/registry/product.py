@@ -50,6 +50,11 @@ class Product:
     reads: Reads = field(default_factory=dict)
     done: tuple[str, ...] = ()
 
+    @property
+    def entry(self) -> Entry:
+        """Return its row."""
+        return self.result.entry
+
 
 def finished(
     origin: Source,

@@ -29,7 +29,7 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
         OSError: the registry cannot be written; nothing is half-published.
     """
     started = perf_counter()
-    entry = product.result.entry
+    entry = product.entry
     # An earlier attempt may have ended before the input's own digest was known; it cannot have
     # passed.
     for earlier in product.unloaded_ids:

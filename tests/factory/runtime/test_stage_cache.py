@@ -46,7 +46,7 @@ def first(cabinet, judge, tmp_path_factory):
 
 def test_the_first_build_does_everything(first):
     product, _ = first
-    assert product.result.entry.status == "passed", product.told.report.findings
+    assert product.entry.status == "passed", product.told.report.findings
     assert product.done == ("articulate", "decompose", "finish", "inspect", "validate")
     assert product.result.reused == ()
     assert "cabinet.urdf" in product.reads
@@ -78,7 +78,7 @@ def test_a_change_redoes_its_stage_and_what_follows(what, first, cabinet, tmp_pa
     config, redone = CHANGES[what]
     with Judge(config.checks) as judge:
         product = make_asset(cabinet, tmp_path / "staging", config, cache, judge)
-    assert product.result.entry.status == "passed", product.told.report.findings
+    assert product.entry.status == "passed", product.told.report.findings
     assert product.done == redone
     stages = {"articulate", "decompose", "finish", "inspect", "validate"}
     assert set(product.result.reused) == stages - set(redone)
