@@ -23,7 +23,6 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.jobs import run_builds
 from asset_factory.factory.registry import Entry
 from asset_factory.factory.registry.report_file import read_report
-from asset_factory.factory.runtime.layout import ASSETS, REJECTED
 from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.measurements import penetrations
 from asset_factory.sim_checks.simulators.catalog import USUAL
@@ -107,8 +106,7 @@ def built(rows: Sequence[Outcome], options: argparse.Namespace) -> Iterator[Outc
 
 def outcome_of(row: Outcome, entry: Entry, output: Path) -> Outcome:
     """What a registry says of an object that was just built into it."""
-    place = ASSETS if entry.status is Status.PASSED else REJECTED
-    stored = read_report(output / place / entry.id)
+    stored = read_report(output / entry.folder)
     gaps = [
         -contact.depth_mm
         for measured in penetrations(stored.report.measurements)

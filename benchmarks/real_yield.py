@@ -132,8 +132,7 @@ def built(inputs: Sequence[Path], output: Path, kinds: str, workers: int) -> Ite
     config = replace(config, repair=replace(config.repair, kinds=kinds))
     before = core_seconds()
     for result in run_builds(inputs, output, config, workers):
-        place = ASSETS if result.entry.status is Status.PASSED else REJECTED
-        made = made_of(output / place / result.entry.id, result.seconds, Path(result.input))
+        made = made_of(output / result.entry.folder, result.seconds, Path(result.input))
         now = core_seconds()
         # A process that was killed takes its time with it: then it is not known.
         made = replace(made, core_s=max(0.0, now - before)) if workers == 1 else made

@@ -125,7 +125,7 @@ def rows_read(registry: Registry) -> int:
 def write_row(registry: Registry, entry: Entry) -> None:
     """One row, as publishing writes it."""
     with writing(registry.root) as connection:
-        insert(connection, (RegistryRow(entry, ""),))
+        insert(connection, RegistryRow(entry, ""))
 
 
 def main() -> None:
@@ -136,7 +136,8 @@ def main() -> None:
         started = time.perf_counter()
         root.mkdir()
         with new_database(root / "registry.db") as connection:
-            insert(connection, made_up(count))
+            for row in made_up(count):
+                insert(connection, row)
         filled = time.perf_counter() - started
         registry = Registry(root, create=True)
         answers = {name: milliseconds(ask) for name, ask in questions(registry).items()}

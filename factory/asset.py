@@ -152,6 +152,19 @@ class Target:
 
 
 @dataclass(frozen=True)
+class StandingPlace:
+    """A place for a robot's base.
+
+    Attributes:
+        position: x and y, object frame [m], shape [2].
+        yaw: about z, at which it faces the target with every joint closed [rad].
+    """
+
+    position: tuple[float, float]
+    yaw: float
+
+
+@dataclass(frozen=True)
 class PartBody:
     """What one part weighs, collides with, and is held by.
 

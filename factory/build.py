@@ -18,7 +18,7 @@ from .intake.intake import Intake
 from .intake.source import Source
 from .manufacture.stage import with_targets
 from .registry import Registry
-from .registry.product import Made, Product, finished, refused
+from .registry.product import Product, finished, refused
 from .registry.registration import register
 from .registry.result import Result
 from .runtime.layout import CACHE
@@ -70,8 +70,7 @@ def make_asset(
         bundle = with_manifest_of(draft.bundle, asset, intake.provenance)
         with stages.clock.stage("model"):
             write_model(asset, bundle.folder, draft.before)
-        made = Made(asset, bundle, verdict, draft.plan)
-        return finished(origin, intake, made, stages)
+        return finished(origin, intake, bundle, verdict, draft.plan.repairs, stages)
     except (InputRejected, Unjudged) as ended:
         shown = None if intake is None else write_input(intake.mesh, staging / "input")
         return refused(origin, ended, stages, shown)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from asset_factory.factory.registry.entry import Solved
 from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import write_json
 
@@ -56,7 +57,7 @@ class SolveRecord:
         """Return attempts at some joints."""
         return [row for row in self.rows if row["joint"] in joints]
 
-    def verdict(self, joints: Sequence[str]) -> str:
+    def verdict(self, joints: Sequence[str]) -> Solved:
         """Return ``yes`` if a joint was opened, ``no`` if all were tried in vain, or empty."""
         if any(row["solved"] for row in self.rows):
             return "yes"

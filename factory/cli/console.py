@@ -186,7 +186,7 @@ def print_results(summary: Summary, output: Path) -> None:
     where = f"Assets: {output / ASSETS}   reports of the others: {output / REJECTED}"
     console.print(where, soft_wrap=True, markup=False)
     rejected = [each for each in listed if each.entry.status is Status.REJECTED]
-    folders = [output / REJECTED / each.entry.id for each in rejected if is_mesh(Path(each.input))]
+    folders = [output / each.entry.folder for each in rejected if is_mesh(Path(each.input))]
     # Of a mesh that could not be read there is nothing to draw on.
     edited = next((folder for folder in folders if (folder / MODEL).is_file()), None)
     if edited is not None:

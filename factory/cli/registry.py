@@ -44,9 +44,10 @@ class Rebuild(OfRegistry):
 
     def run(self) -> int:
         """Print how many rows there are now, and which folders have none."""
-        rebuilt = rebuild(self.output)
-        _lines("unreadable", rebuilt.unreadable)
-        say(f"{rebuilt.entries} entries; {len(rebuilt.unreadable)} folders could not be read")
+        unreadable = rebuild(self.output)
+        _lines("unreadable", unreadable)
+        entries = Registry(self.output).count()
+        say(f"{entries} entries; {len(unreadable)} folders could not be read")
         return Exit.OK
 
 
@@ -91,7 +92,7 @@ class Difference(Printed):
         """Print what differs."""
         found = diff(entries_of(self.before), entries_of(self.after))
         if self.json:
-            say(json.dumps(found.to_dict(), indent=2))
+            say(json.dumps(asdict(found), indent=2))
         else:
             print_diff(found)
         return Exit.REJECTED if self.strict and (found.newly_failed or found.gone) else Exit.OK
@@ -176,7 +177,7 @@ class Import:
 
     def run(self) -> int:
         """Register the assets."""
-        from ..registry.imports import ImportLimits, import_export
+        from ..registry.imports import import_export
 
         if not self.max_gb > 0.0:
             raise ConfigError(f"--max-gb must be more than 0, not {self.max_gb:g}")
@@ -184,9 +185,12 @@ class Import:
             advice = "`factory registry export` writes one"
             raise ConfigError(f"{self.source}: no such file or folder; {advice}")
         registry = Registry(self.output, create=True)
-        limits = ImportLimits(total_bytes=int(self.max_gb * _GB))
         imported = import_export(
-            registry, self.source, replace=self.replace, trusted=self.trust, limits=limits
+            registry,
+            self.source,
+            replace=self.replace,
+            trusted=self.trust,
+            most_bytes=int(self.max_gb * _GB),
         )
         say(f"{len(imported.published)} assets imported, {len(imported.same)} were there already")
         return Exit.OK
@@ -263,11 +267,9 @@ def print_diff(diff: Diff) -> None:
     """Print which assets are new, gone, better, worse or otherwise changed."""
     _lines("new", [_verdict(entry) for entry in diff.new])
     _lines("gone", [_verdict(entry) for entry in diff.gone])
-    _lines(
-        "newly passed", [f"{each.after.id}: was {_why(each.before)}" for each in diff.newly_passed]
-    )
-    _lines("newly failed", [f"{each.after.id}: {_why(each.after)}" for each in diff.newly_failed])
-    _lines("changed", [f"{each.after.id}: {_columns(each)}" for each in diff.changed])
+    _lines("newly passed", [f"{each.id}: was {_why(each.before)}" for each in diff.newly_passed])
+    _lines("newly failed", [f"{each.id}: {_why(each.after)}" for each in diff.newly_failed])
+    _lines("changed", [f"{each.id}: {_columns(each)}" for each in diff.changed])
     groups = ("new", "gone", "newly_passed", "newly_failed", "changed")
     counts = [f"{len(getattr(diff, name))} {name.replace('_', ' ')}" for name in groups]
     say(", ".join([*counts, f"{diff.same} the same"]))

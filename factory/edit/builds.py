@@ -74,41 +74,29 @@ class BuildRun:
 
 
 class Builds:
-    """Runs ``factory build`` with the flags that a page was opened with; arguments as there."""
+    """Runs ``factory build`` with the flags that a page was opened with; arguments as there.
+
+    Attributes:
+        last: the last build; ``None`` before the first.
+    """
 
     def __init__(self, arguments: tuple[str, ...]) -> None:
+        self.last: BuildRun | None = None
         self._arguments = arguments
         self._lock = Lock()
-        self._run: BuildRun | None = None
-
-    @property
-    def running(self) -> bool:
-        """Tell whether the last build has no verdict yet."""
-        run = self._run
-        return run is not None and not (run.asset or run.said)
-
-    @property
-    def asset(self) -> str:
-        """Return the id of what the last build gave; empty if there is none."""
-        return self._run.asset if self._run is not None else ""
-
-    @property
-    def said(self) -> str:
-        """Return why the last build gave nothing; empty if it did."""
-        return self._run.said if self._run is not None else ""
 
     def start(self) -> None:
         """Begin a build; one that is under way is killed first."""
         with self._lock:
-            if self._run is not None:
-                self._run.stop()
-            self._run = BuildRun(self._arguments)
+            if self.last is not None:
+                self.last.stop()
+            self.last = BuildRun(self._arguments)
 
     def stop(self) -> None:
         """Kill the running build; finished assets are registered."""
         with self._lock:
-            if self._run is not None:
-                self._run.stop()
+            if self.last is not None:
+                self.last.stop()
 
 
 def _built(printed: str) -> str:

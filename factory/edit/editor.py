@@ -87,7 +87,7 @@ class Editor:
         self._slow = AskedChild(config, config.asset_wall_s)
         self._opened = self._quick.ask(work.open_mesh, subject.mesh, config, subject.asset)
         self._sides = {"-y": self._pictures("-y")}
-        self._verdict: work.ShownVerdict | None = None
+        self._verdict: work.ShownModel | None = None
         self._gets: dict[str, Callable[[], PageResponse]] = {
             "": self._page,
             "state": lambda: _json(self._state()),
@@ -183,7 +183,7 @@ class Editor:
             "text": text,
             "stated": values if isinstance(values, dict) else None,
             "sentence": sentence,
-            "found": self._opened.found,
+            "found": self._opened.told,
             "asset": self._subject.asset.name if self._subject.asset else "",
             "kinds": tuple(StatedKind),
             "hinges": tuple(Hinge),
@@ -211,19 +211,20 @@ class Editor:
         return _json({})
 
     def _told(self) -> dict[str, Any]:
-        if self._builds.running:
-            return {"state": "running"}
-        if self._builds.asset:
+        run = self._builds.last
+        if run is None:
+            return {"state": "none", "sentence": ""}
+        if run.asset:
             return {"state": "done", **self._shown().told}
-        return {"state": "failed" if self._builds.said else "none", "sentence": self._builds.said}
+        return {"state": "failed", "sentence": run.said} if run.said else {"state": "running"}
 
-    def _shown(self) -> work.ShownVerdict:
+    def _shown(self) -> work.ShownModel:
         """Return the last verdict. Raises ConfigError: there is none."""
-        if not self._builds.asset:
+        run = self._builds.last
+        if run is None or not run.asset:
             raise ConfigError("nothing was built yet")
         if self._verdict is None:
-            output = self._subject.output
-            self._verdict = self._slow.ask(work.verdict_of, output, self._builds.asset)
+            self._verdict = self._slow.ask(work.verdict_of, self._subject.output, run.asset)
         return self._verdict
 
 

@@ -40,34 +40,17 @@ SHOWN_DATA = ("excess", "ignored", "places", "start")
 
 
 @dataclass(frozen=True)
-class OpenedMesh:
-    """A mesh as the page shows it first.
-
-    Attributes:
-        model: GLB of it, nothing of which moves.
-        found: parts that were made of it before, as a statement's JSON data; empty if there are
-            none, or nobody can say where.
-    """
-
-    model: bytes
-    found: dict[str, Any]
-
-
-@dataclass(frozen=True)
-class ShownVerdict:
-    """What became of a build.
-
-    Attributes:
-        model: GLB of the asset; empty without.
-        told: for the page, JSON data.
-    """
+class ShownModel:
+    """A GLB for the page, empty without, and what is told of it, JSON data."""
 
     model: bytes
     told: dict[str, Any]
 
 
-def open_mesh(mesh: Path, config: BuildConfig, asset: Path | None) -> OpenedMesh:
-    """Load a mesh, and the asset made of it.
+def open_mesh(mesh: Path, config: BuildConfig, asset: Path | None) -> ShownModel:
+    """Load a mesh, and tell the parts that were made of it before, as a statement's JSON data.
+
+    Empty data if there are none, or nobody can say where.
 
     Args:
         mesh: its file.
@@ -79,7 +62,7 @@ def open_mesh(mesh: Path, config: BuildConfig, asset: Path | None) -> OpenedMesh
     """
     intake = _loaded(mesh, config)
     model = glb_of(scene_of_mesh(intake.name, intake.mesh))
-    return OpenedMesh(model, {} if asset is None else _found_in(asset, intake))
+    return ShownModel(model, {} if asset is None else _found_in(asset, intake))
 
 
 def pictures_of(mesh: Path, config: BuildConfig, front: str) -> tuple[SidePicture, ...]:
@@ -128,7 +111,7 @@ def guess(mesh: Path, config: BuildConfig) -> dict[str, Any]:
     return _plain(found_parts(intake.mesh, scene, kinds))
 
 
-def verdict_of(output: Path, asset_id: str) -> ShownVerdict:
+def verdict_of(output: Path, asset_id: str) -> ShownModel:
     """Return what the registry says of a build.
 
     Raises:
@@ -156,7 +139,7 @@ def verdict_of(output: Path, asset_id: str) -> ShownVerdict:
         "repairs": [repair.sentence for repair in page.repairs],
         "shown": {name: value for name, value in page.data.items() if name in SHOWN_DATA},
     }
-    return ShownVerdict(page.model, told)
+    return ShownModel(page.model, told)
 
 
 def _found_in(asset: Path, intake: Intake) -> dict[str, Any]:

@@ -2,33 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 
 from ..articulation import Joint, Part, Weights
-from ..asset import Hull, InnerSurface, Target
+from ..asset import Handle, Hull, InnerSurface, PartBody, StandingPlace, Target
 from ..intake.intake import Provenance
 from ..manufacture.targets.standing import standing_place
 from ..mesh import FloatArray
 from ..runtime.keys import installed_version
 from ..runtime.layout import MJCF, URDF
-from ..runtime.numbers import magnitude, rounded
-from .links import Layout
+from ..runtime.numbers import DECIMALS, magnitude, rounded
+from .links import Layout, LinkLayout
 from .manifest import (
     SCHEMA,
     Manifest,
     ManifestHandle,
     ManifestJoint,
     ManifestLink,
-    ManifestPlacement,
     ManifestProposal,
     ManifestProvenance,
-    ManifestSurface,
     ManifestTarget,
     Row,
 )
-from .resistance import Resistance
 
 #: Everything whose version can change an exported number.
 TOOLS = ("asset-factory", "coacd", "manifold3d", "numpy", "pillow", "scipy", "trimesh")
@@ -56,10 +53,9 @@ def manifest_of(layout: Layout, provenance: Provenance) -> Manifest:
         ground_offset=rounded(-min(rest[0, 2], closed[0, 2])),
         hulls=asset.hull_count,
         joints=tuple(
-            _joint(layout, joint, resistance)
-            for joint, resistance in zip(articulation.joints, layout.resistances, strict=True)
+            _joint(layout, link, link.joint) for link in layout.links if link.joint is not None
         ),
-        links=tuple(_link(layout, part) for part in range(len(layout.links))),
+        links=tuple(map(_link, layout.links, articulation.parts, asset.bodies)),
         targets=tuple(_target(layout, target) for target in asset.targets),
         excluded_pairs=layout.excluded_pairs,
         provenance=_provenance(provenance, articulation.weights),
@@ -91,43 +87,45 @@ def hull_aspect(hull: Hull) -> float:
     return float(sides.max() / max(float(sides.min()), 1e-12))
 
 
-def _surface(surface: InnerSurface) -> ManifestSurface:
-    lengths = (surface.thickness_m, surface.depth_m)
-    told = (None if length is None else rounded(length) for length in lengths)
-    return ManifestSurface(surface.part, surface.kind, surface.rule, *told)
+def _surface(surface: InnerSurface) -> InnerSurface:
+    """Return a surface as it is written."""
+    thickness = _rounded(surface.thickness_m)
+    return replace(surface, thickness_m=thickness, depth_m=_rounded(surface.depth_m))
 
 
-def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ManifestJoint:
+def _rounded(value: float | None, decimals: int = DECIMALS) -> float | None:
+    return None if value is None else rounded(value, decimals)
+
+
+def _joint(layout: Layout, link: LinkLayout, joint: Joint) -> ManifestJoint:
     return ManifestJoint(
         name=joint.name,
         kind=joint.kind,
         parent=layout.links[joint.parent].name,
-        child=layout.links[joint.child].name,
+        child=link.name,
         axis=_row(joint.axis),
         origin=_row(joint.origin),
         lower=rounded(joint.lower),
         upper=rounded(joint.upper),
         unit=joint.unit,
-        confidence=None if joint.confidence is None else rounded(joint.confidence, 4),
-        inertia=magnitude(resistance.inertia),
-        damping=magnitude(resistance.damping),
-        friction=magnitude(resistance.friction),
+        confidence=_rounded(joint.confidence, 4),
+        inertia=magnitude(link.resistance.inertia),
+        damping=magnitude(link.resistance.damping),
+        friction=magnitude(link.resistance.friction),
         default_damping=joint.movable and joint.damping is None,
         default_friction=joint.movable and joint.friction is None,
-        handle=_handle(layout, joint),
+        handle=_handle(link, layout.asset.bodies[joint.child].handle),
         placement=_placement(layout, joint),
         mimic=joint.mimic,
     )
 
 
-def _handle(layout: Layout, joint: Joint) -> ManifestHandle | None:
-    handle = layout.asset.bodies[joint.child].handle
+def _handle(link: LinkLayout, handle: Handle | None) -> ManifestHandle | None:
     if handle is None:
         return None
-    origin = layout.asset.articulation.link_frame(joint.child)
     return ManifestHandle(
-        frame=layout.links[joint.child].name,
-        point=_row(handle.point - origin),
+        frame=link.name,
+        point=_row(handle.point - link.origin),
         normal=_row(handle.normal),
         pull=_row(handle.pull),
         source=handle.source,
@@ -135,12 +133,12 @@ def _handle(layout: Layout, joint: Joint) -> ManifestHandle | None:
 
 
 def _target(layout: Layout, target: Target) -> ManifestTarget:
-    origin = layout.asset.articulation.link_frame(target.part)
+    link = layout.links[target.part]
     return ManifestTarget(
         joint=target.joint,
-        part=layout.links[target.part].name,
+        part=link.name,
         kind=target.kind,
-        point=_row(target.point - origin),
+        point=_row(target.point - link.origin),
         normal=_row(target.normal),
         pull=_row(target.pull),
         fingers=_row(target.fingers),
@@ -149,31 +147,28 @@ def _target(layout: Layout, target: Target) -> ManifestTarget:
     )
 
 
-def _placement(layout: Layout, joint: Joint) -> ManifestPlacement | None:
+def _placement(layout: Layout, joint: Joint) -> StandingPlace | None:
     """Return where a robot's base may stand to open the joint at its best target."""
     target = next((each for each in layout.asset.targets if each.joint == joint.name), None)
     place = None if target is None else standing_place(layout.asset, joint, target)
     if place is None:
         return None
-    return ManifestPlacement(tuple(rounded(value) for value in place.position), rounded(place.yaw))
+    x, y = place.position
+    return StandingPlace((rounded(x), rounded(y)), rounded(place.yaw))
 
 
-def _link(layout: Layout, part: int) -> ManifestLink:
-    body = layout.asset.bodies[part]
-    files = layout.links[part]
-    made = layout.asset.articulation.parts[part]
-    confidence = made.confidence
+def _link(link: LinkLayout, part: Part, body: PartBody) -> ManifestLink:
     return ManifestLink(
-        name=files.name,
-        confidence=None if confidence is None else rounded(confidence, 4),
+        name=link.name,
+        confidence=_rounded(part.confidence, 4),
         mass=magnitude(body.inertial.mass),
         hulls=len(body.hulls),
         max_hull_vertices=max((len(hull.vertices) for hull in body.hulls), default=0),
         max_hull_aspect=rounded(max((hull_aspect(hull) for hull in body.hulls), default=0.0), 3),
-        visuals=len(files.visuals),
+        visuals=len(link.visuals),
         decomposition=body.decomposition,
         degraded=body.degraded,
-        proposal=_proposal(made),
+        proposal=_proposal(part),
     )
 
 
@@ -186,7 +181,7 @@ def _proposal(part: Part) -> ManifestProposal | None:
         id=source.id,
         proposer=source.proposer,
         kind=part.kind,
-        probability=None if source.probability is None else rounded(source.probability, 4),
+        probability=_rounded(source.probability, 4),
         signs={name: rounded(value, 4) for name, value in sorted(source.signs.items())},
     )
 

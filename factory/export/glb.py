@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ..articulation import Articulation, Joint
+from ..articulation import Joint
 from ..display.gltf import Y_UP, Attribute, Buffer, gltf_materials, primitive
+from ..mesh import FloatArray
 from ..runtime.numbers import magnitude
-from .links import Layout, child_offset
+from .links import Layout, LinkLayout
 from .meshes import filled_normals
 
 #: From closed to open, a rest there, and back [s].
@@ -31,7 +32,7 @@ def write_glb_asset(layout: Layout, file: Path) -> None:
     buffer = Buffer()
     pieces = [piece for link in layout.links for piece in link.visuals]
     number = {piece.name: index for index, piece in enumerate(pieces)}
-    links = [_link(layout, part, buffer, number) for part in range(len(layout.links))]
+    links = [_link(link, buffer, number) for link in layout.links]
     # The first node turns the asset upright; those of the links come after it, in order.
     upright = [round(each, 9) + 0.0 for each in Rotation.from_matrix(Y_UP[:3, :3]).as_quat()]
     nodes: list[dict[str, Any]] = [
@@ -55,23 +56,21 @@ def write_glb_asset(layout: Layout, file: Path) -> None:
         "meshes": meshes,
         **gltf_materials(buffer, tuple(piece.material for piece in pieces), images),
     }
-    animations = _animations(layout.asset.articulation, buffer)
+    animations = _animations(layout, buffer)
     if animations:
         document["animations"] = animations
     file.write_bytes(buffer.glb({key: value for key, value in document.items() if value}))
 
 
-def _link(layout: Layout, part: int, buffer: Buffer, number: dict[str, int]) -> dict[str, Any]:
-    articulation = layout.asset.articulation
-    origin = articulation.link_frame(part)
+def _link(link: LinkLayout, buffer: Buffer, number: dict[str, int]) -> dict[str, Any]:
     primitives = []
-    for piece in layout.links[part].visuals:
-        mesh = replace(piece.mesh, vertices=piece.mesh.vertices - origin)
+    for piece in link.visuals:
+        mesh = replace(piece.mesh, vertices=piece.mesh.vertices - link.origin)
         faces = np.arange(len(mesh.faces))
         made = primitive(buffer, mesh, faces, filled_normals(mesh))
         primitives.append({**made, "material": number[piece.name]})
-    extras: dict[str, Any] = {"mass_kg": magnitude(layout.asset.bodies[part].inertial.mass)}
-    joint = articulation.parent_joint(part)
+    extras: dict[str, Any] = {"mass_kg": magnitude(link.inertial.mass)}
+    joint = link.joint
     if joint is not None:
         extras["joint"] = {
             "name": joint.name,
@@ -82,16 +81,16 @@ def _link(layout: Layout, part: int, buffer: Buffer, number: dict[str, int]) -> 
             "unit": joint.unit,
         }
     return {
-        "name": layout.links[part].name,
-        "translation": child_offset(articulation, part).tolist(),
+        "name": link.name,
+        "translation": link.offset.tolist(),
         "extras": extras,
         "primitives": primitives,
     }
 
 
-def _animations(articulation: Articulation, buffer: Buffer) -> list[dict[str, Any]]:
-    movable = articulation.movable_joints
-    motions = [(joint, *_keys(articulation, joint, buffer)) for joint in movable]
+def _animations(layout: Layout, buffer: Buffer) -> list[dict[str, Any]]:
+    moved = ((link.joint, link.offset) for link in layout.links if link.joint is not None)
+    motions = [(joint, *_keys(joint, offset, buffer)) for joint, offset in moved if joint.movable]
     groups = [("open everything", motions)] if len(motions) > 1 else []
     groups += [(f"open {motion[0].name}", [motion]) for motion in motions]
     return [
@@ -113,7 +112,7 @@ def _animations(articulation: Articulation, buffer: Buffer) -> list[dict[str, An
     ]
 
 
-def _keys(articulation: Articulation, joint: Joint, buffer: Buffer) -> tuple[int, int]:
+def _keys(joint: Joint, offset: FloatArray, buffer: Buffer) -> tuple[int, int]:
     """Add a joint's way to its upper limit and back; return accessors of times and of poses."""
     steps = int(np.ceil((joint.upper - joint.lower) / KEY_STEP)) if joint.turns else 1
     share = np.linspace(0.0, 1.0, max(steps, 1) + 1)
@@ -124,6 +123,5 @@ def _keys(articulation: Articulation, joint: Joint, buffer: Buffer) -> tuple[int
         half = values[:, None] / 2.0
         rows = np.hstack([np.sin(half) * joint.axis, np.cos(half)]).astype(np.float32)
     else:
-        offset = child_offset(articulation, joint.child)
         rows = (offset + values[:, None] * joint.axis).astype(np.float32)
     return buffer.keys(times.astype(np.float32)), buffer.keys(rows)

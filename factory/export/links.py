@@ -1,4 +1,4 @@
-"""What all formats agree on: link names, frames, inertias and the drives' limits."""
+"""What all formats agree on: links with their frames, inertias and joints, and drives' limits."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ..articulation import Articulation
+from ..articulation import Joint
 from ..asset import Asset, Inertial
 from ..mesh import FloatArray
 from ..runtime.numbers import DIGITS
 from .meshes import hull_obj
-from .resistance import Resistance, joint_resistances, resistance_notes
+from .resistance import NO_RESISTANCE, Resistance, joint_resistances, resistance_notes
 from .text import write_text
 from .visuals import VISUAL_FOLDER, TextureFolder, VisualPiece, write_visuals
 
@@ -36,16 +36,26 @@ INERTIA_CELLS = {
 
 
 @dataclass(frozen=True)
-class LinkFiles:
-    """Everything that one link's elements say, besides the asset itself.
+class LinkLayout:
+    """Everything that the elements of one link and of its joint say.
 
     Attributes:
         name: of the link, the same in URDF, MJCF and manifest.
+        joint: that holds it; ``None`` for the root.
+        resistance: of that joint.
+        origin: of its frame at rest [m], object frame, shape [3]; the axes are parallel.
+        offset: the same in its parent's frame.
+        inertial: in its own frame, its tensor as :func:`safe_tensor` has it.
         visuals: see :class:`VisualPiece`.
         collisions: OBJ files, one per hull, relative to the bundle.
     """
 
     name: str
+    joint: Joint | None
+    resistance: Resistance
+    origin: FloatArray
+    offset: FloatArray
+    inertial: Inertial
     visuals: tuple[VisualPiece, ...]
     collisions: tuple[Path, ...]
 
@@ -57,14 +67,12 @@ class Layout:
     Attributes:
         asset: to describe.
         links: one per part.
-        resistances: one per joint.
         excluded_pairs: names of links whose contacts MuJoCo is told to ignore.
         notes: losses and changes on the way, one sentence each.
     """
 
     asset: Asset
-    links: tuple[LinkFiles, ...]
-    resistances: tuple[Resistance, ...]
+    links: tuple[LinkLayout, ...]
     excluded_pairs: tuple[tuple[str, str], ...]
     notes: tuple[str, ...]
 
@@ -78,19 +86,33 @@ def lay_out(asset: Asset, folder: Path, excluded_pairs: tuple[tuple[str, str], .
     for subfolder in (VISUAL_FOLDER, COLLISION_FOLDER):
         (folder / subfolder).mkdir(parents=True)
     textures = TextureFolder(folder / VISUAL_FOLDER)
-    visuals = write_visuals(asset, folder, textures)
-    names = tuple(part.name for part in asset.articulation.parts)
-    hulls = (_write_hulls(asset, part, folder) for part in range(len(names)))
-    links = tuple(map(LinkFiles, names, visuals, hulls))
     resistances = joint_resistances(asset)
+    links = tuple(
+        _lay_out_link(asset, part, resistance, folder, textures)
+        for part, resistance in enumerate((NO_RESISTANCE, *resistances))
+    )
+    names = tuple(link.name for link in links)
     notes = (*textures.notes, *resistance_notes(asset, resistances))
-    return Layout(asset, links, resistances, _sorted(excluded_pairs, names), notes)
+    return Layout(asset, links, _sorted(excluded_pairs, names), notes)
 
 
-def child_offset(articulation: Articulation, part: int) -> FloatArray:
-    """Return a link frame's origin in its parent's at rest [m], shape [3]; axes are parallel."""
+def _lay_out_link(
+    asset: Asset, part: int, resistance: Resistance, folder: Path, textures: TextureFolder
+) -> LinkLayout:
+    articulation = asset.articulation
     joint = articulation.parent_joint(part)
-    return np.zeros(3) if joint is None else joint.origin - articulation.link_frame(joint.parent)
+    origin = articulation.link_frame(part)
+    inertial = asset.bodies[part].inertial
+    return LinkLayout(
+        name=articulation.parts[part].name,
+        joint=joint,
+        resistance=resistance,
+        origin=origin,
+        offset=origin if joint is None else origin - articulation.link_frame(joint.parent),
+        inertial=Inertial(inertial.mass, inertial.center - origin, safe_tensor(inertial)),
+        visuals=write_visuals(asset, part, folder, textures),
+        collisions=_write_hulls(asset, part, folder),
+    )
 
 
 def safe_tensor(inertial: Inertial) -> FloatArray:

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from asset_factory.sim_checks.description import Mimic
 
 from ..articulation import JointKind, Weights
+from ..asset import InnerSurface, StandingPlace
 from ..runtime.packing import from_json
 
 #: Raised when the meaning of a field changes.
@@ -33,14 +34,6 @@ class ManifestHandle:
     normal: Row
     pull: Row
     source: str
-
-
-@dataclass(frozen=True)
-class ManifestPlacement:
-    """Where a robot's base may stand: x, y [m] and yaw [rad], object frame."""
-
-    position: Row
-    yaw: float
 
 
 @dataclass(frozen=True)
@@ -76,7 +69,7 @@ class ManifestJoint:
     default_damping: bool
     default_friction: bool
     handle: ManifestHandle | None
-    placement: ManifestPlacement | None
+    placement: StandingPlace | None
     mimic: Mimic | None = None
 
     @property
@@ -146,17 +139,6 @@ class ManifestLink:
 
 
 @dataclass(frozen=True)
-class ManifestSurface:
-    """A surface that the input does not have, see :class:`~..asset.InnerSurface`."""
-
-    part: str
-    kind: str
-    rule: str
-    thickness_m: float | None
-    depth_m: float | None
-
-
-@dataclass(frozen=True)
 class ManifestProvenance:
     """The asset's origin, and assumptions about it; see :class:`~..intake.Provenance`."""
 
@@ -219,7 +201,7 @@ class Manifest:
     provenance: ManifestProvenance
     tools: dict[str, str | None]
     notes: tuple[str, ...]
-    invented: tuple[ManifestSurface, ...] = ()
+    invented: tuple[InnerSurface, ...] = ()
     proposers: tuple[str, ...] = ()
 
     @property

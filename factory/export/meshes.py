@@ -20,14 +20,13 @@ def hull_obj(hull: Hull, origin: FloatArray) -> str:
     return _lines([*vectors("v", hull.vertices - origin), *_faces(hull.faces, None, None)])
 
 
-def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> str:
+def visual_obj(mesh: Mesh, origin: FloatArray, material: str) -> str:
     """Return a mesh of one material as OBJ, with its texture coordinates and normals.
 
     Args:
         mesh: in the object frame at rest [m].
         origin: the link frame's origin [m], object frame, shape [3].
-        library: file name of the MTL beside the OBJ.
-        material: name of the material in it.
+        material: its name, in an MTL of that name beside the OBJ.
     """
     vertices = mesh.vertices - origin
     if 0 < len(vertices) < FEWEST_VERTICES:
@@ -38,7 +37,7 @@ def visual_obj(mesh: Mesh, origin: FloatArray, library: str, material: str) -> s
     rows = [*vectors("v", vertices), *vectors("vt", uv, DECIMALS_UNIT)]
     rows += vectors("vn", normals, DECIMALS_UNIT)
     faces = _faces(mesh.faces, uv_index, normal_index)
-    return _lines([f"mtllib {library}", *rows, f"usemtl {material}", *faces])
+    return _lines([f"mtllib {material}.mtl", *rows, f"usemtl {material}", *faces])
 
 
 def material_mtl(material: Material, name: str, texture: str | None) -> str:

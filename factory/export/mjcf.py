@@ -16,12 +16,12 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ..articulation import Joint, JointKind
 from ..geometry.colors import srgb_of
-from .links import Layout, LinkFiles, child_offset, safe_tensor
+from ..runtime.layout import MESHES
+from .links import Layout, LinkLayout
 from .resistance import Resistance
 from .text import DECIMALS_UNIT, number, scientific, vector, xml_text
 from .visuals import VisualPiece
 
-MESH_FOLDER = "meshes"
 #: Impedance of joint friction: ``dmin dmax width``, here the same at any violation, and the most
 #: that MuJoCo takes. Measured in 2 s at steps of 1/240 s, on a vertical slide and on a hinge with
 #: its centre of mass 0.3 m out, friction 1.2 times the load: MuJoCo's default of 0.9 lets them
@@ -38,15 +38,15 @@ def mjcf_text(layout: Layout) -> str:
     """Return the whole document; file names are relative to the bundle's folder."""
     root = Element("mujoco", model=layout.asset.name)
     compiler = SubElement(root, "compiler", angle="radian", autolimits="true")
-    compiler.attrib |= {"meshdir": MESH_FOLDER, "texturedir": MESH_FOLDER}
+    compiler.attrib |= {"meshdir": MESHES, "texturedir": MESHES}
     root.append(_defaults())
     looks = _looks(layout)
     root.append(_assets(layout, looks))
     world = SubElement(root, "worldbody")
-    bodies = [_body(layout, part, looks) for part in range(len(layout.links))]
-    world.append(bodies[0])
-    for joint in layout.asset.articulation.joints:
-        bodies[joint.parent].append(bodies[joint.child])
+    bodies: list[ElementTree.Element] = []
+    for link in layout.links:
+        bodies.append(_body(link, looks))
+        (world if link.joint is None else bodies[link.joint.parent]).append(bodies[-1])
     if layout.excluded_pairs:
         contact = SubElement(root, "contact")
         for first, second in layout.excluded_pairs:
@@ -91,7 +91,7 @@ def _look(piece: VisualPiece) -> Look:
 
 
 def _inside(path: Path) -> str:
-    return path.as_posix().removeprefix(f"{MESH_FOLDER}/")
+    return path.as_posix().removeprefix(f"{MESHES}/")
 
 
 def _assets(layout: Layout, looks: dict[Look, str]) -> ElementTree.Element:
@@ -116,36 +116,28 @@ def _mesh_asset(assets: ElementTree.Element, kind: str, file: str) -> None:
     SubElement(assets, "mesh", {"name": file.removesuffix(".obj"), "class": kind, "file": file})
 
 
-def _body(layout: Layout, part: int, looks: dict[Look, str]) -> ElementTree.Element:
-    articulation = layout.asset.articulation
-    files = layout.links[part]
-    body = Element("body", name=files.name, pos=vector(child_offset(articulation, part)))
-    inertial = layout.asset.bodies[part].inertial
-    tensor = safe_tensor(inertial)
+def _body(link: LinkLayout, looks: dict[Look, str]) -> ElementTree.Element:
+    body = Element("body", name=link.name, pos=vector(link.offset))
+    inertial = link.inertial
     cells = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
     SubElement(
         body,
         "inertial",
-        pos=vector(inertial.center - articulation.link_frame(part)),
+        pos=vector(inertial.center),
         mass=scientific([inertial.mass]),
-        fullinertia=scientific([tensor[cell] for cell in cells]),
+        fullinertia=scientific([inertial.tensor[cell] for cell in cells]),
     )
-    joint = articulation.parent_joint(part)
-    if joint is not None and joint.movable:
-        body.append(_joint(joint, layout.resistances[part - 1]))
-    _geoms(body, files, looks)
-    return body
-
-
-def _geoms(body: ElementTree.Element, files: LinkFiles, looks: dict[Look, str]) -> None:
-    for piece in files.visuals:
+    if link.joint is not None and link.joint.movable:
+        body.append(_joint(link.joint, link.resistance))
+    for piece in link.visuals:
         mesh = _inside(piece.file).removesuffix(".obj")
         words = {"name": piece.name, "class": "visual", "mesh": mesh}
         SubElement(body, "geom", {**words, "material": looks[_look(piece)]})
-    for file in files.collisions:
+    for file in link.collisions:
         mesh = _inside(file).removesuffix(".obj")
         words = {"name": f"collision_{file.stem}", "class": "collision", "mesh": mesh}
         SubElement(body, "geom", words)
+    return body
 
 
 def _joint(joint: Joint, resistance: Resistance) -> ElementTree.Element:

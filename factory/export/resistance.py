@@ -81,6 +81,10 @@ class Resistance:
         return ARMATURE_SHARE * self.inertia
 
 
+#: Of a fixed joint.
+NO_RESISTANCE = Resistance(0.0, 0.0, 0.0)
+
+
 def joint_resistances(asset: Asset) -> tuple[Resistance, ...]:
     """Return one per joint; stated values win if engines bear them, 0 for fixed joints."""
     articulation = asset.articulation
@@ -105,7 +109,7 @@ def resistance_notes(asset: Asset, resistances: tuple[Resistance, ...]) -> tuple
 
 def _resistance(asset: Asset, joint: Joint, closed: FloatArray) -> Resistance:
     if not joint.movable:
-        return Resistance(0.0, 0.0, 0.0)
+        return NO_RESISTANCE
     carried = asset.articulation.carried(joint.child)
     mass = sum(asset.bodies[part].inertial.mass for part in carried)
     weight = WEIGHT_SHARE * mass * GRAVITY

@@ -12,8 +12,7 @@ from xml.etree.ElementTree import Element, SubElement
 from ..articulation import Joint, JointKind
 from ..geometry.colors import srgb_of
 from ..runtime.numbers import magnitude
-from .links import EFFORT, INERTIA_CELLS, VELOCITY, Layout, child_offset, safe_tensor
-from .resistance import Resistance
+from .links import EFFORT, INERTIA_CELLS, VELOCITY, Layout, LinkLayout
 from .text import DECIMALS_UNIT, number, vector, xml_text
 from .visuals import VisualPiece
 
@@ -31,10 +30,9 @@ def sdf_text(layout: Layout) -> str:
     world = SubElement(model, "joint", name="world_joint", type="fixed")
     SubElement(world, "parent").text = "world"
     SubElement(world, "child").text = layout.links[0].name
-    for part in range(len(layout.links)):
-        model.append(_link(layout, part))
-    for joint, resistance in zip(layout.asset.articulation.joints, layout.resistances, strict=True):
-        model.append(_joint(layout, joint, resistance))
+    model.extend(_link(layout, link) for link in layout.links)
+    joints = (_joint(layout, link, link.joint) for link in layout.links if link.joint is not None)
+    model.extend(joints)
     for first, second in layout.excluded_pairs:
         group = SubElement(model, "drake:collision_filter_group", name=f"{first} {second}")
         for member in (first, second):
@@ -43,23 +41,25 @@ def sdf_text(layout: Layout) -> str:
     return xml_text(root)
 
 
-def _link(layout: Layout, part: int) -> ElementTree.Element:
-    articulation = layout.asset.articulation
-    files = layout.links[part]
-    link = Element("link", name=files.name)
-    joint = articulation.parent_joint(part)
-    if joint is not None:
-        pose = SubElement(link, "pose", relative_to=layout.links[joint.parent].name)
-        pose.text = f"{vector(child_offset(articulation, part))} 0 0 0"
-    link.append(_inertial(layout, part))
-    for piece in files.visuals:
-        visual = SubElement(link, "visual", name=piece.name)
+def _link(layout: Layout, link: LinkLayout) -> ElementTree.Element:
+    element = Element("link", name=link.name)
+    if link.joint is not None:
+        pose = SubElement(element, "pose", relative_to=layout.links[link.joint.parent].name)
+        pose.text = f"{vector(link.offset)} 0 0 0"
+    inertial = SubElement(element, "inertial")
+    SubElement(inertial, "pose").text = f"{vector(link.inertial.center)} 0 0 0"
+    SubElement(inertial, "mass").text = repr(magnitude(link.inertial.mass))
+    inertia = SubElement(inertial, "inertia")
+    for name, cell in INERTIA_CELLS.items():
+        SubElement(inertia, name).text = repr(magnitude(link.inertial.tensor[cell]))
+    for piece in link.visuals:
+        visual = SubElement(element, "visual", name=piece.name)
         _mesh(visual, piece.file.as_posix())
         visual.append(_material(piece))
-    for file in files.collisions:
-        mesh = _mesh(SubElement(link, "collision", name=file.stem), file.as_posix())
+    for file in link.collisions:
+        mesh = _mesh(SubElement(element, "collision", name=file.stem), file.as_posix())
         SubElement(mesh, "drake:declare_convex")
-    return link
+    return element
 
 
 def _mesh(parent: ElementTree.Element, file: str) -> ElementTree.Element:
@@ -83,23 +83,10 @@ def _material(piece: VisualPiece) -> ElementTree.Element:
     return material
 
 
-def _inertial(layout: Layout, part: int) -> ElementTree.Element:
-    inertial = layout.asset.bodies[part].inertial
-    tensor = safe_tensor(inertial)
-    element = Element("inertial")
-    center = inertial.center - layout.asset.articulation.link_frame(part)
-    SubElement(element, "pose").text = f"{vector(center)} 0 0 0"
-    SubElement(element, "mass").text = repr(magnitude(inertial.mass))
-    inertia = SubElement(element, "inertia")
-    for name, cell in INERTIA_CELLS.items():
-        SubElement(inertia, name).text = repr(magnitude(tensor[cell]))
-    return element
-
-
-def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ElementTree.Element:
+def _joint(layout: Layout, link: LinkLayout, joint: Joint) -> ElementTree.Element:
     element = Element("joint", name=joint.name, type=str(joint.kind))
     SubElement(element, "parent").text = layout.links[joint.parent].name
-    SubElement(element, "child").text = layout.links[joint.child].name
+    SubElement(element, "child").text = link.name
     if not joint.movable:
         return element
     axis = SubElement(element, "axis")
@@ -111,8 +98,8 @@ def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ElementTree.
     SubElement(limit, "effort").text = number(EFFORT[joint.turns])
     SubElement(limit, "velocity").text = number(VELOCITY[joint.turns])
     dynamics = SubElement(axis, "dynamics")
-    SubElement(dynamics, "damping").text = repr(magnitude(resistance.damping))
-    SubElement(dynamics, "friction").text = repr(magnitude(resistance.friction))
+    SubElement(dynamics, "damping").text = repr(magnitude(link.resistance.damping))
+    SubElement(dynamics, "friction").text = repr(magnitude(link.resistance.friction))
     if joint.mimic is not None:
         ratio = repr(magnitude(joint.mimic.multiplier))
         mimic = SubElement(axis, "mimic", joint=joint.mimic.leader)

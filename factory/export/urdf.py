@@ -17,53 +17,42 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ..articulation import Joint, JointKind
 from ..runtime.numbers import magnitude
-from .links import EFFORT, INERTIA_CELLS, VELOCITY, Layout, child_offset, safe_tensor
-from .resistance import Resistance
+from .links import EFFORT, INERTIA_CELLS, VELOCITY, Layout, LinkLayout
 from .text import number, vector, xml_text
 
 
 def urdf_text(layout: Layout) -> str:
     """Return the whole document; file names are relative to the bundle's folder."""
     root = Element("robot", name=layout.asset.name)
-    for part in range(len(layout.links)):
-        root.append(_link(layout, part))
-    for joint, resistance in zip(layout.asset.articulation.joints, layout.resistances, strict=True):
-        root.append(_joint(layout, joint, resistance))
+    root.extend(map(_link, layout.links))
+    root.extend(_joint(layout, link, link.joint) for link in layout.links if link.joint is not None)
     return xml_text(root)
 
 
-def _link(layout: Layout, part: int) -> ElementTree.Element:
-    files = layout.links[part]
-    link = Element("link", name=files.name)
-    link.append(_inertial(layout, part))
-    for piece in files.visuals:
-        _mesh(SubElement(link, "visual", name=piece.name), piece.file.as_posix())
-    for file in files.collisions:
-        _mesh(SubElement(link, "collision", name=file.stem), file.as_posix())
-    return link
+def _link(link: LinkLayout) -> ElementTree.Element:
+    element = Element("link", name=link.name)
+    inertial = SubElement(element, "inertial")
+    SubElement(inertial, "origin", xyz=vector(link.inertial.center))
+    SubElement(inertial, "mass", value=repr(magnitude(link.inertial.mass)))
+    tensor = link.inertial.tensor
+    cells = {name: repr(magnitude(tensor[cell])) for name, cell in INERTIA_CELLS.items()}
+    SubElement(inertial, "inertia", cells)
+    for piece in link.visuals:
+        _mesh(SubElement(element, "visual", name=piece.name), piece.file.as_posix())
+    for file in link.collisions:
+        _mesh(SubElement(element, "collision", name=file.stem), file.as_posix())
+    return element
 
 
 def _mesh(parent: ElementTree.Element, file: str) -> None:
     SubElement(SubElement(parent, "geometry"), "mesh", filename=file)
 
 
-def _inertial(layout: Layout, part: int) -> ElementTree.Element:
-    inertial = layout.asset.bodies[part].inertial
-    tensor = safe_tensor(inertial)
-    element = Element("inertial")
-    center = inertial.center - layout.asset.articulation.link_frame(part)
-    SubElement(element, "origin", xyz=vector(center))
-    SubElement(element, "mass", value=repr(magnitude(inertial.mass)))
-    cells = {name: repr(magnitude(tensor[cell])) for name, cell in INERTIA_CELLS.items()}
-    SubElement(element, "inertia", cells)
-    return element
-
-
-def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ElementTree.Element:
+def _joint(layout: Layout, link: LinkLayout, joint: Joint) -> ElementTree.Element:
     element = Element("joint", name=joint.name, type=str(joint.kind))
     SubElement(element, "parent", link=layout.links[joint.parent].name)
-    SubElement(element, "child", link=layout.links[joint.child].name)
-    SubElement(element, "origin", xyz=vector(child_offset(layout.asset.articulation, joint.child)))
+    SubElement(element, "child", link=link.name)
+    SubElement(element, "origin", xyz=vector(link.offset))
     if not joint.movable:
         return element
     SubElement(element, "axis", xyz=vector(joint.axis))
@@ -71,8 +60,8 @@ def _joint(layout: Layout, joint: Joint, resistance: Resistance) -> ElementTree.
     if joint.kind is not JointKind.CONTINUOUS:
         limit = {"lower": number(joint.lower), "upper": number(joint.upper), **limit}
     SubElement(element, "limit", limit)
-    damping = repr(magnitude(resistance.damping))
-    friction = repr(magnitude(resistance.friction))
+    damping = repr(magnitude(link.resistance.damping))
+    friction = repr(magnitude(link.resistance.friction))
     SubElement(element, "dynamics", damping=damping, friction=friction)
     if joint.mimic is not None:
         ratio = repr(magnitude(joint.mimic.multiplier))

@@ -18,10 +18,10 @@ from pxr import Gf, Kind, Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdShade, Vt  # noq
 from scipy.spatial.transform import Rotation
 
 from ..articulation import Joint, JointKind
+from ..asset import Hull, Inertial
 from ..mesh import FloatArray, IntArray
-from .links import Layout, safe_tensor
+from .links import Layout, LinkLayout
 from .meshes import filled_normals
-from .resistance import Resistance
 from .visuals import VisualPiece
 
 X_AXIS = np.array([1.0, 0.0, 0.0])
@@ -44,30 +44,35 @@ def write_usd(layout: Layout, file: Path) -> None:
     UsdPhysics.ArticulationRootAPI.Apply(root)
     looks = _Looks(stage, f"/{name}/looks")
     paths = (f"/{name}/{Tf.MakeValidIdentifier(files.name)}" for files in layout.links)
-    links = [_link(stage, path, layout, part, looks) for part, path in enumerate(paths)]
+    links = [
+        _link(stage, path, link, body.hulls, looks)
+        for path, link, body in zip(paths, layout.links, layout.asset.bodies, strict=True)
+    ]
     _filter(layout, links)
     UsdGeom.Scope.Define(stage, f"/{name}/joints")
     held = UsdPhysics.FixedJoint.Define(stage, f"/{name}/joints/world_joint")
     held.CreateBody1Rel().SetTargets([links[0].GetPath()])
-    for joint, resistance in zip(layout.asset.articulation.joints, layout.resistances, strict=True):
-        path = f"/{name}/joints/{Tf.MakeValidIdentifier(joint.name)}"
-        _joint(stage, path, layout, joint, resistance, links)
+    for link in layout.links:
+        if link.joint is not None:
+            path = f"/{name}/joints/{Tf.MakeValidIdentifier(link.joint.name)}"
+            _joint(stage, path, layout, link, link.joint, links)
     stage.GetRootLayer().Export(str(file))
 
 
-def _link(stage: Usd.Stage, path: str, layout: Layout, part: int, looks: _Looks) -> Usd.Prim:
-    origin = layout.asset.articulation.link_frame(part)
-    link = UsdGeom.Xform.Define(stage, path)
-    link.AddTranslateOp().Set(Gf.Vec3d(*origin.tolist()))
-    prim = link.GetPrim()
+def _link(
+    stage: Usd.Stage, path: str, link: LinkLayout, hulls: tuple[Hull, ...], looks: _Looks
+) -> Usd.Prim:
+    origin = link.origin
+    form = UsdGeom.Xform.Define(stage, path)
+    form.AddTranslateOp().Set(Gf.Vec3d(*origin.tolist()))
+    prim = form.GetPrim()
     UsdPhysics.RigidBodyAPI.Apply(prim)
-    _mass(prim, layout, part)
+    _mass(prim, link.inertial)
     UsdGeom.Scope.Define(stage, f"{path}/visuals")
-    for piece in layout.links[part].visuals:
+    for piece in link.visuals:
         _visual(stage, f"{path}/visuals/{piece.name}", piece, origin, looks)
     UsdGeom.Scope.Define(stage, f"{path}/collisions")
-    hulls = layout.asset.bodies[part].hulls
-    for file, hull in zip(layout.links[part].collisions, hulls, strict=True):
+    for file, hull in zip(link.collisions, hulls, strict=True):
         mesh = _mesh(stage, f"{path}/collisions/{file.stem}", hull.vertices - origin, hull.faces)
         mesh.CreatePurposeAttr(UsdGeom.Tokens.guide)
         UsdPhysics.CollisionAPI.Apply(mesh.GetPrim())
@@ -76,17 +81,15 @@ def _link(stage: Usd.Stage, path: str, layout: Layout, part: int, looks: _Looks)
     return prim
 
 
-def _mass(prim: Usd.Prim, layout: Layout, part: int) -> None:
-    inertial = layout.asset.bodies[part].inertial
-    moments, axes = np.linalg.eigh(safe_tensor(inertial))
+def _mass(prim: Usd.Prim, inertial: Inertial) -> None:
+    moments, axes = np.linalg.eigh(inertial.tensor)
     # Eigenvectors come with any sign; as written they turn right-handed, and least.
     axes = axes * np.where(axes[np.abs(axes).argmax(axis=0), range(3)] < 0.0, -1.0, 1.0)
     if np.linalg.det(axes) < 0.0:
         axes[:, 2] *= -1.0
-    center = inertial.center - layout.asset.articulation.link_frame(part)
     api = UsdPhysics.MassAPI.Apply(prim)
     api.CreateMassAttr(inertial.mass)
-    api.CreateCenterOfMassAttr(Gf.Vec3f(*center.tolist()))
+    api.CreateCenterOfMassAttr(Gf.Vec3f(*inertial.center.tolist()))
     api.CreateDiagonalInertiaAttr(Gf.Vec3f(*moments.tolist()))
     api.CreatePrincipalAxesAttr(_quaternion(Rotation.from_matrix(axes)))
 
@@ -136,8 +139,8 @@ def _joint(
     stage: Usd.Stage,
     path: str,
     layout: Layout,
+    link: LinkLayout,
     joint: Joint,
-    resistance: Resistance,
     links: list[Usd.Prim],
 ) -> None:
     """Write a joint along or about the x axis of its own frame; value 0 is the rest pose."""
@@ -149,8 +152,7 @@ def _joint(
         made = UsdPhysics.PrismaticJoint.Define(stage, path)
     made.CreateBody0Rel().SetTargets([links[joint.parent].GetPath()])
     made.CreateBody1Rel().SetTargets([links[joint.child].GetPath()])
-    place = joint.origin - layout.asset.articulation.link_frame(joint.parent)
-    made.CreateLocalPos0Attr(Gf.Vec3f(*place.tolist()))
+    made.CreateLocalPos0Attr(Gf.Vec3f(*link.offset.tolist()))
     made.CreateLocalPos1Attr(Gf.Vec3f(0.0))
     if not joint.movable:
         return
@@ -165,10 +167,10 @@ def _joint(
     drive = UsdPhysics.DriveAPI.Apply(made.GetPrim(), "angular" if joint.turns else "linear")
     drive.CreateTypeAttr("force")
     drive.CreateStiffnessAttr(0.0)
-    drive.CreateDampingAttr(resistance.damping / per_unit)
-    for name, value in (("friction", resistance.friction), ("armature", resistance.armature)):
+    drive.CreateDampingAttr(link.resistance.damping / per_unit)
+    for name in ("friction", "armature"):
         attribute = made.GetPrim().CreateAttribute(f"newton:{name}", Sdf.ValueTypeNames.Float)
-        attribute.Set(value)
+        attribute.Set(getattr(link.resistance, name))
     if joint.mimic is not None:
         leader = layout.asset.articulation.joint(joint.mimic.leader)
         ratio = joint.mimic.multiplier * per_unit / _per_unit(leader)

@@ -92,16 +92,9 @@ class VisualPiece:
 
 
 def write_visuals(
-    asset: Asset, folder: Path, textures: TextureFolder
-) -> tuple[tuple[VisualPiece, ...], ...]:
-    """Write OBJ, MTL and textures of every part below ``folder``; one tuple of pieces per part."""
-    parts = range(len(asset.articulation.parts))
-    return tuple(_write_part(asset, part, folder, textures) for part in parts)
-
-
-def _write_part(
     asset: Asset, part: int, folder: Path, textures: TextureFolder
 ) -> tuple[VisualPiece, ...]:
+    """Write OBJ, MTL and textures of a part below ``folder``."""
     articulation = asset.articulation
     name = articulation.parts[part].name
     origin = articulation.link_frame(part)
@@ -112,7 +105,7 @@ def _write_part(
         material = mesh.materials[0]
         texture = textures.file_name(material)
         file = VISUAL_FOLDER / f"{stem}.obj"
-        write_text(folder / file, visual_obj(mesh, origin, f"{stem}.mtl", stem))
+        write_text(folder / file, visual_obj(mesh, origin, stem))
         write_text(folder / file.with_suffix(".mtl"), material_mtl(material, stem, texture))
         name_shown = f"handle_{stem}" if is_handle else f"visual_{stem}"
         image = None if texture is None else VISUAL_FOLDER / texture

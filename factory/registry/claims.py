@@ -64,15 +64,12 @@ def alone(folder: Path, name: str) -> Iterator[None]:
         held.release()
 
 
-def drop_abandoned(folder: Path) -> int:
-    """Remove the claims of processes that were killed; how many there were."""
-    count = 0
+def drop_abandoned(folder: Path) -> None:
+    """Remove the claims of processes that were killed."""
     for path in folder.iterdir() if folder.is_dir() else ():
         held = claim(folder, path.name)
         if held is not None:
             held.release()
-            count += 1
-    return count
 
 
 @contextmanager

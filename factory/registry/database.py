@@ -147,20 +147,21 @@ def index_name(columns: tuple[str, ...]) -> str:
     return f"assets_by_{'_'.join(columns)}"
 
 
-def schema_version(connection: sqlite3.Connection) -> int:
-    """Return which version of the tables there is; 0 for none."""
-    return int(connection.execute("PRAGMA user_version").fetchone()[0])
-
-
 def damaged(root: Path, why: str) -> DamagedDatabaseError:
     """Return what to say, and to do, about a database that cannot be read."""
     remedy = f"`factory registry rebuild --output {root}` makes it anew from the folders"
     return DamagedDatabaseError(f"{root / DATABASE}: damaged ({why}); {remedy}")
 
 
-def require_known(root: Path, version: int) -> None:
-    """Raise RegistryError for a database that a newer program made."""
+def schema_version(root: Path) -> int:
+    """Return which version of the tables there is; 0 for none.
+
+    Raises RegistryError for a database that a newer program made.
+    """
+    with connected(root) as connection:
+        version = int(connection.execute("PRAGMA user_version").fetchone()[0])
     if version > SCHEMA_VERSION:
         known = f"version {version}, this program knows up to {SCHEMA_VERSION}"
         advice = "use the asset-factory that made it, or a newer one"
         raise RegistryError(f"{root / DATABASE}: {known}; {advice}")
+    return version

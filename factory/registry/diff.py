@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, fields
-from typing import Any
+from dataclasses import dataclass, fields
 
 from asset_factory.sim_checks import Status
 
@@ -16,16 +15,12 @@ IGNORED = ("key",)
 
 @dataclass(frozen=True)
 class EntryChange:
-    """One asset, before and after."""
+    """One asset, before and after; ``columns`` are those that differ."""
 
+    id: str
+    columns: tuple[str, ...]
     before: Entry
     after: Entry
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """Return what differs."""
-        names = (f.name for f in fields(Entry) if f.name not in IGNORED)
-        return tuple(n for n in names if getattr(self.before, n) != getattr(self.after, n))
 
 
 @dataclass(frozen=True)
@@ -48,21 +43,11 @@ class Diff:
     changed: tuple[EntryChange, ...] = ()
     same: int = 0
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return JSON data."""
-        names = ("newly_passed", "newly_failed", "changed")
-        return {
-            "new": [asdict(entry) for entry in self.new],
-            "gone": [asdict(entry) for entry in self.gone],
-            **{name: [_change_data(change) for change in getattr(self, name)] for name in names},
-            "same": self.same,
-        }
-
 
 def diff(before: Iterable[Entry], after: Iterable[Entry]) -> Diff:
     """Compare two lists of entries by id."""
     old, new = ({entry.id: entry for entry in entries} for entries in (before, after))
-    both = [EntryChange(old[each], new[each]) for each in sorted(old.keys() & new.keys())]
+    both = [_change(old[each], new[each]) for each in sorted(old.keys() & new.keys())]
     differing = [change for change in both if change.columns]
     passed = [
         (change, change.before.status is Status.PASSED, change.after.status is Status.PASSED)
@@ -78,10 +63,7 @@ def diff(before: Iterable[Entry], after: Iterable[Entry]) -> Diff:
     )
 
 
-def _change_data(change: EntryChange) -> dict[str, Any]:
-    return {
-        "id": change.after.id,
-        "columns": list(change.columns),
-        "before": asdict(change.before),
-        "after": asdict(change.after),
-    }
+def _change(before: Entry, after: Entry) -> EntryChange:
+    names = (each.name for each in fields(Entry) if each.name not in IGNORED)
+    columns = tuple(name for name in names if getattr(before, name) != getattr(after, name))
+    return EntryChange(after.id, columns, before, after)

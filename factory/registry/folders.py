@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 from asset_factory.sim_checks import Status
 
 from ..errors import RegistryError
 from ..runtime.layout import ASSETS, REJECTED, REPORT
+from .database import connected
 from .entry import entry_from, is_id
 from .notes import note_path, read_note
 from .report_file import read_report
@@ -26,16 +28,21 @@ def all_ids(root: Path) -> list[str]:
     return sorted(found)
 
 
-def current_folder(root: Path, asset_id: str) -> Path:
+def known_ids(root: Path) -> list[str]:
+    """Return the ids of everything that has a row or a folder, sorted."""
+    with connected(root) as connection:
+        listed = {str(row[0]) for row in connection.execute("SELECT id FROM assets")}
+    return sorted(listed.union(all_ids(root)))
+
+
+def folders_of(root: Path, asset_id: str) -> list[Path]:
     """Return where an asset lies: with those that passed, or with the others.
 
     It lies in both only if a process died between putting it in one and taking it out of the other:
-    the newer counts, and in doubt the rejection.
+    the newer is the first, and counts; in doubt the rejection.
     """
-    passed, rejected = (root / place / asset_id for place in (ASSETS, REJECTED))
-    if not rejected.is_dir():
-        return passed
-    return passed if _written(passed) > _written(rejected) else rejected
+    places = (root / place / asset_id for place in (REJECTED, ASSETS))
+    return sorted(filter(os.path.lexists, places), key=_written, reverse=True)
 
 
 def read_record(folder: Path) -> RegistryRow:
@@ -48,7 +55,7 @@ def read_record(folder: Path) -> RegistryRow:
     try:
         files = stored.files
         noted = read_note(note_path(folder.parents[1], folder.name))
-        entry = entry_from(stored.entry, tags=noted.tags, solved=noted.solved_with(files))
+        entry = replace(entry_from(stored.entry), tags=noted.tags, solved=noted.solved_with(files))
         gpu_ready = stored.gpu_ready
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise RegistryError(f"{folder / REPORT}: {error}") from error

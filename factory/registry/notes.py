@@ -6,20 +6,17 @@ It lies beside the assets, one file each, because an asset's own folder never ch
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated
 
-from ..errors import RegistryError
+import msgspec
+
 from ..runtime.layout import NOTES
 from ..runtime.store import digest_bytes, write_json
-from .entry import SOLVED, require_tags
+from .entry import TAG, Solved
 
 _MAX_BYTES = 1_000_000
-_UNREADABLE = (
-    *(OSError, RegistryError, RecursionError),
-    *(ValueError, KeyError, TypeError, AttributeError),
-)
 
 
 @dataclass(frozen=True)
@@ -33,11 +30,14 @@ class Note:
             been tried.
     """
 
-    tags: tuple[str, ...] = ()
-    solved: str = ""
+    tags: tuple[Annotated[str, msgspec.Meta(pattern=TAG)], ...] = ()
+    solved: Solved = ""
     solved_files: str = ""
 
-    def solved_with(self, files: dict[str, str]) -> str:
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "tags", tuple(sorted(set(self.tags))))
+
+    def solved_with(self, files: dict[str, str]) -> Solved:
         """Return ``solved``, if it was found with these files."""
         return self.solved if self.solved and self.solved_files == fingerprint(files) else ""
 
@@ -57,13 +57,9 @@ def read_note(path: Path) -> Note:
     try:
         if path.stat().st_size > _MAX_BYTES:
             return Note()
-        data: dict[str, Any] = json.loads(path.read_bytes())
-        tags = tuple(sorted({str(tag) for tag in data["tags"]}))
-        note = Note(tags, str(data.get("solved", "")), str(data.get("solved_files", "")))
-        require_tags(note.tags)
-    except _UNREADABLE:
+        return msgspec.json.decode(path.read_bytes(), type=Note)
+    except (OSError, ValueError, RecursionError):
         return Note()
-    return note if note.solved in SOLVED else Note(note.tags)
 
 
 def write_note(path: Path, note: Note) -> None:
@@ -72,5 +68,4 @@ def write_note(path: Path, note: Note) -> None:
         path.unlink(missing_ok=True)
         return
     path.parent.mkdir(exist_ok=True)
-    data = {"tags": list(note.tags), "solved": note.solved, "solved_files": note.solved_files}
-    write_json(path, data, lasting=True)
+    write_json(path, asdict(note), lasting=True)

@@ -8,14 +8,13 @@ from pathlib import Path
 
 from asset_factory.sim_checks import Finding, Report, Status
 
-from ..asset import Asset
 from ..errors import InputRejected, Unjudged
 from ..export.bundle import Bundle
 from ..intake.intake import Intake
 from ..intake.naming import safe_name, well_formed
 from ..intake.reads import Reads
 from ..intake.source import Source
-from ..manufacture.plan import Plan
+from ..manufacture.repair import Repair
 from ..runtime.layout import MANIFEST, MODEL
 from ..runtime.stages import Stages
 from ..verify.validate import Verdict
@@ -29,21 +28,10 @@ SHOWN = frozenset({MANIFEST, MODEL})
 
 
 @dataclass(frozen=True)
-class Made:
-    """One round's product and its verdict."""
-
-    asset: Asset
-    bundle: Bundle
-    verdict: Verdict
-    plan: Plan
-
-
-@dataclass(frozen=True)
 class Product:
     """The end of one build: its result, a report, and the folder that it is in.
 
     Attributes:
-        source: the input, as given.
         result: its row, and how long it took.
         told: its report.
         bundle: the finished bundle's folder, in the staging folder that was given; of a rejected
@@ -55,7 +43,6 @@ class Product:
         done: stages that were not answered from the cache.
     """
 
-    source: Path
     result: Result
     told: BuildReport
     bundle: Path | None = None
@@ -69,10 +56,16 @@ class Product:
         return self.result.entry
 
 
-def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Product:
+def finished(
+    origin: Source,
+    intake: Intake,
+    bundle: Bundle,
+    verdict: Verdict,
+    repairs: tuple[Repair, ...],
+    stages: Stages,
+) -> Product:
     """Return the product of an input that became an asset, good or bad."""
-    asset = made.asset
-    verdict = made.verdict
+    asset = bundle.layout.asset
     entry = Entry(
         id=origin.id,
         name=intake.name,
@@ -86,11 +79,10 @@ def finished(origin: Source, intake: Intake, made: Made, stages: Stages) -> Prod
         message=verdict.reason.message if verdict.reason else "",
         license=intake.provenance.license or "",
     )
-    told = BuildReport(verdict.report, made.plan.repairs)
-    bundle = made.bundle.folder
     if verdict.report.status is not Status.PASSED:
-        _keep_shown(bundle)
-    return _product(origin, entry, told, bundle, stages)
+        _keep_shown(bundle.folder)
+    told = BuildReport(verdict.report, repairs)
+    return _product(origin, entry, told, bundle.folder, stages)
 
 
 def _keep_shown(bundle: Path) -> None:
@@ -142,7 +134,6 @@ def _product(
 ) -> Product:
     clock = stages.clock
     return Product(
-        source=origin.place,
         result=Result(
             input=str(origin.place),
             entry=entry,

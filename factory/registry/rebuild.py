@@ -6,7 +6,6 @@ import os
 import sqlite3
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import RegistryError
@@ -21,13 +20,12 @@ from .database import (
     create_indices,
     create_tables,
     damaged,
-    require_known,
     schema_version,
     writing,
 )
-from .folders import all_ids, current_folder, read_record
+from .folders import all_ids, folders_of, known_ids, read_record
 from .placing import remove, sync_tree
-from .rows import delete, insert, select
+from .rows import delete, insert
 
 #: What SQLite keeps beside a database.
 _COMPANIONS = ("-wal", "-shm", "-journal")
@@ -69,33 +67,20 @@ def open_registry(root: Path) -> None:
             raise RegistryError(f"{root}: no {DATABASE}; {advice}")
         advice = f"`factory build --output {root} ...` makes one"
         raise RegistryError(f"{root}: no registry here; {advice}")
-    with connected(root) as connection:
-        version = schema_version(connection)
+    version = schema_version(root)
     if version == 0:
         raise damaged(root, "it has no tables")
-    require_known(root, version)
     if version < SCHEMA_VERSION:
         rebuild(root)
 
 
-@dataclass(frozen=True)
-class Rebuilt:
-    """The rows found.
-
-    Attributes:
-        entries: how many rows were written.
-        unreadable: a sentence for each folder that is none of an asset; left where it is.
-    """
-
-    entries: int
-    unreadable: tuple[str, ...] = ()
-
-
-def rebuild(root: Path) -> Rebuilt:
+def rebuild(root: Path) -> list[str]:
     """Write every row anew from the folders and notes; half-done moves of dead processes finish.
 
     Others may go on reading and writing: rows are never missing in between, and corrected a few at
     a time. A database that cannot be read is replaced by a whole new one.
+
+    Returns a sentence for each folder that is none of an asset; it is left where it is.
 
     Raises:
         RegistryError: no registry there, or its database is a newer program's.
@@ -105,10 +90,7 @@ def rebuild(root: Path) -> Rebuilt:
     with alone(root / CLAIMS, "database"):
         if not _usable(root):
             return _replace_database(root)
-    ids = all_ids(root)
-    rebuilt = write_rows(root, ids)
-    _drop_rows_without_folders(root, frozenset(ids))
-    return rebuilt
+    return write_rows(root, known_ids(root))
 
 
 def _usable(root: Path) -> bool:
@@ -116,9 +98,8 @@ def _usable(root: Path) -> bool:
     if not (root / DATABASE).is_file():
         return False
     try:
+        version = schema_version(root)
         with connected(root) as connection:
-            version = schema_version(connection)
-            require_known(root, version)
             tables = {row[0] for row in connection.execute("SELECT name FROM sqlite_master")}
             sound = connection.execute("PRAGMA quick_check(1)").fetchone() == ("ok",)
     except DamagedDatabaseError:
@@ -126,17 +107,16 @@ def _usable(root: Path) -> bool:
     return sound and "assets" in tables and version == SCHEMA_VERSION
 
 
-def _replace_database(root: Path) -> Rebuilt:
+def _replace_database(root: Path) -> list[str]:
     path = root / DATABASE
-    ids = all_ids(root)
     with held_folder(root / STAGING) as staging:
         with new_database(staging / DATABASE) as connection:
-            unreadable = _write_rows(connection, root, ids)
+            unreadable = _write_rows(connection, root, all_ids(root))
         for companion in _COMPANIONS:
             remove(path.with_name(path.name + companion))
         os.replace(staging / DATABASE, path)
     sync_folder(root)
-    return Rebuilt(len(ids) - len(unreadable), tuple(unreadable))
+    return unreadable
 
 
 @contextmanager
@@ -159,48 +139,34 @@ def new_database(path: Path) -> Iterator[sqlite3.Connection]:
     sync_tree(path.parent)
 
 
-def write_rows(root: Path, ids: Sequence[str]) -> Rebuilt:
-    """Bring the rows of some ids in line with their folders; one without a folder has none."""
+def write_rows(root: Path, ids: Sequence[str]) -> list[str]:
+    """Bring the rows of some ids in line with their folders; one without a folder has none.
+
+    Returns a sentence for each folder that is none of an asset.
+    """
     unreadable: list[str] = []
     for start in range(0, len(ids), _CHUNK):
         # Folders are put in place under the same lock, so that what is read here is what is there.
         with writing(root) as connection:
             unreadable += _write_rows(connection, root, ids[start : start + _CHUNK])
-    return Rebuilt(len(ids) - len(unreadable), tuple(unreadable))
-
-
-def _write_rows(connection: sqlite3.Connection, root: Path, ids: Sequence[str]) -> list[str]:
-    """Do so; returns a sentence for each folder that is none of an asset."""
-    unreadable = []
-    for asset_id in ids:
-        try:
-            found = read_record(current_folder(root, asset_id))
-        except RegistryError as error:
-            delete(connection, asset_id)
-            unreadable.append(str(error))
-            continue
-        insert(connection, (found,))
-        _clear_other_place(root, asset_id)
     return unreadable
 
 
-def _drop_rows_without_folders(root: Path, ids: frozenset[str]) -> None:
-    after = ""
-    while True:
-        with writing(root) as connection:
-            page = select(connection, (), limit=_CHUNK, after=after)
-            for entry in page:
-                if entry.id not in ids and not current_folder(root, entry.id).is_dir():
-                    delete(connection, entry.id)
-        if not page:
-            return
-        after = page[-1].id
-
-
-def _clear_other_place(root: Path, asset_id: str) -> None:
-    """Finish what a process that died had begun: an asset lies in one place only."""
-    kept = current_folder(root, asset_id)
-    other = root / (REJECTED if kept.parent.name == ASSETS else ASSETS) / asset_id
-    if other.exists():
-        with held_folder(root / STAGING) as staging:
-            os.rename(other, staging / asset_id)
+def _write_rows(connection: sqlite3.Connection, root: Path, ids: Sequence[str]) -> list[str]:
+    unreadable = []
+    for asset_id in ids:
+        folders = folders_of(root, asset_id)
+        try:
+            found = read_record(folders[0]) if folders else None
+        except RegistryError as error:
+            found = None
+            unreadable.append(str(error))
+        if found is None:
+            delete(connection, asset_id)
+            continue
+        insert(connection, found)
+        # A process that died had begun to take it out of there.
+        for other in folders[1:]:
+            with held_folder(root / STAGING) as staging:
+                os.rename(other, staging / asset_id)
+    return unreadable

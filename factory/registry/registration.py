@@ -36,9 +36,10 @@ def register(registry: Registry, product: Product, attempts: int = 1) -> Result:
         if (registry.rejected / earlier).exists():
             registry.forget(earlier, except_id=entry.id)
     registry.add(entry, product.told, product.bundle)
-    digest = product.reads.get(product.source.name, "")
+    source = Path(product.result.input)
+    digest = product.reads.get(source.name, "")
     judged = digest and entry.status is not Status.UNJUDGED
-    now = (InputNow(product.source, digest, entry.id),) if judged else ()
+    now = (InputNow(source, digest, entry.id),) if judged else ()
     replaced = keep_current(registry, now)
     seconds = perf_counter() - started
     result = product.result

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sqlite3
 from collections.abc import Iterator, Sequence
@@ -19,8 +18,8 @@ from ..runtime.layout import ASSETS, MANIFEST, REJECTED, REPORT, STAGING
 from . import rows
 from .claims import held_folder
 from .database import connected, writing
-from .entry import SOLVED, Entry, entry_from, lasting_data, require_tags
-from .folders import read_record
+from .entry import SOLVED, Entry, Solved, entry_from, lasting_data, require_tags
+from .folders import folders_of, read_record
 from .notes import fingerprint, note_path, read_note, write_note
 from .placing import place, remove, sync_tree
 from .rebuild import make_registry, open_registry
@@ -95,7 +94,7 @@ class Registry:
                 content = staging / "content"
                 content.mkdir()
             files = file_digests(content)
-            entry = _completed(entry, told, content)
+            entry = _lasting(entry)
             write_report(content, entry, told, files)
             sync_tree(content)
             with writing(self.root) as connection:
@@ -103,14 +102,14 @@ class Registry:
                 # always there.
                 if other.exists() or not _same(content, folder, files):
                     place(content, folder)
-                rows.insert(connection, (read_record(folder),))
+                rows.insert(connection, read_record(folder))
             remove(content)
             if other.exists():
                 os.rename(other, staging / "other")
         return folder
 
     def note(
-        self, asset_id: str, *, tags: Sequence[str] | None = None, solved: str | None = None
+        self, asset_id: str, *, tags: Sequence[str] | None = None, solved: Solved | None = None
     ) -> Entry:
         """Note something of an asset; ``None`` leaves a field as it was.
 
@@ -133,18 +132,20 @@ class Registry:
             path = note_path(self.root, asset_id)
             noted = read_note(path)
             if tags is not None:
-                noted = replace(noted, tags=tuple(sorted(set(tags))))
+                noted = replace(noted, tags=tuple(tags))
             if solved is not None:
                 tried = fingerprint(read_report(folder).files) if solved else ""
                 noted = replace(noted, solved=solved, solved_files=tried)
             write_note(path, noted)
             record = read_record(folder)
-            rows.insert(connection, (record,))
+            rows.insert(connection, record)
         return record.entry
 
     def forget(self, asset_id: str, *, except_id: str = "") -> None:
         """Drop an entry and its files, if there is one and it is not ``except_id``."""
-        if asset_id == except_id or (self.find(asset_id) is None and not self._folders(asset_id)):
+        if asset_id == except_id or (
+            self.find(asset_id) is None and not folders_of(self.root, asset_id)
+        ):
             return
         with self.staging_folder() as staging, self.unlisted(asset_id) as folders:
             if folders is None:
@@ -164,12 +165,7 @@ class Registry:
             rows.delete(connection, asset_id)
         with writing(self.root) as connection:
             again = rows.find(connection, "id", asset_id) is not None
-            yield None if again else self._folders(asset_id)
-
-    def _folders(self, asset_id: str) -> list[Path]:
-        """Return where an asset lies, with those that passed, with the others, or with both."""
-        places = (self.assets / asset_id, self.rejected / asset_id)
-        return [place for place in places if os.path.lexists(place)]
+            yield None if again else folders_of(self.root, asset_id)
 
     def entries(
         self,
@@ -235,7 +231,7 @@ class Registry:
 
     def folder(self, entry: Entry) -> Path:
         """Return where an entry's files lie."""
-        return (self.assets if entry.status is Status.PASSED else self.rejected) / entry.id
+        return self.root / entry.folder
 
     def told(self, entry: Entry) -> BuildReport:
         """Return an entry's report and repairs. Raises RegistryError if they are gone."""
@@ -273,13 +269,8 @@ def read_manifest(folder: Path) -> Manifest | None:
         return None
 
 
-def _completed(entry: Entry, told: BuildReport, content: Path) -> Entry:
-    """Fill in an entry from its files. Raises RegistryError if it cannot be an entry."""
-    hard = told.report.errors
-    entry = replace(entry, message=entry.message or (hard[0].message if hard else ""))
-    if not entry.license and (content / MANIFEST).is_file():
-        stated = json.loads((content / MANIFEST).read_bytes()).get("license")
-        entry = replace(entry, license=stated or "")
+def _lasting(entry: Entry) -> Entry:
+    """Return an entry without what is noted of it. Raises RegistryError if it cannot be one."""
     try:
         return entry_from(lasting_data(entry))
     except ValueError as error:

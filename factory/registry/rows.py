@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .database import COLUMNS, COUNTED, ENTRY_COLUMNS, INDICES, index_name
@@ -83,15 +83,14 @@ def _walked(equal: frozenset[str]) -> str:
     return "assets NOT INDEXED" if equal else "assets"
 
 
-def insert(connection: sqlite3.Connection, records: Iterable[RegistryRow]) -> None:
-    """Write rows, over those of the same ids."""
-    for record in records:
-        entry = record.entry
-        own = (getattr(entry, name) for name in ENTRY_COLUMNS)
-        connection.execute(_INSERT, [*own, record.gpu_ready, record.digest])
-        connection.execute("DELETE FROM tags WHERE id = ?", (entry.id,))
-        tags = [(tag, entry.id) for tag in entry.tags]
-        connection.executemany("INSERT INTO tags (tag, id) VALUES (?, ?)", tags)
+def insert(connection: sqlite3.Connection, record: RegistryRow) -> None:
+    """Write a row, over that of the same id."""
+    entry = record.entry
+    own = (getattr(entry, name) for name in ENTRY_COLUMNS)
+    connection.execute(_INSERT, [*own, record.gpu_ready, record.digest])
+    connection.execute("DELETE FROM tags WHERE id = ?", (entry.id,))
+    tags = [(tag, entry.id) for tag in entry.tags]
+    connection.executemany("INSERT INTO tags (tag, id) VALUES (?, ?)", tags)
 
 
 def delete(connection: sqlite3.Connection, asset_id: str) -> None:

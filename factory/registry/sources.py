@@ -9,7 +9,7 @@ from typing import IO
 
 from ..errors import RegistryError
 from ..runtime.layout import DATABASE
-from .entry import SOLVED, Entry, entry_from
+from .entry import Entry, entry_from
 from .export.contents import ENTRIES_NAME
 from .registry import Registry
 
@@ -55,12 +55,7 @@ def _parsed(path: Path, stream: IO[bytes]) -> tuple[Entry, ...]:
         try:
             if len(line) > _MAX_LINE:
                 raise ValueError("too long")
-            data = json.loads(line)
-            tags = tuple(map(str, data.get("tags", ())))
-            solved = data.get("solved", "")
-            if solved not in SOLVED:
-                raise ValueError(f"solved is {solved!r}")
-            entries.append(entry_from(data, tags=tags, solved=solved))
-        except (ValueError, TypeError, AttributeError, RecursionError) as error:
+            entries.append(entry_from(json.loads(line)))
+        except (ValueError, RecursionError) as error:
             raise RegistryError(f"{path}: entry {number} cannot be read ({error})") from error
     return tuple(sorted(entries, key=lambda entry: entry.id))

@@ -92,17 +92,11 @@ class _Sync:
             try:
                 for name, data in files:
                     named.add(name)
-                    if PurePosixPath(name).parts[0] not in _BEFORE_INDEX:
-                        # Nothing is named before it is there.
-                        self._counted(under_way)
-                        under_way = set()
-                        self._counted({pool.submit(self._sent, name, data)})
-                        continue
+                    # Nothing is named before it is there.
+                    is_index = PurePosixPath(name).parts[0] not in _BEFORE_INDEX
+                    under_way = self._left(under_way, 0 if is_index else 2 * AT_ONCE - 1)
                     under_way.add(pool.submit(self._sent, name, data))
-                    if len(under_way) >= 2 * AT_ONCE:
-                        done, under_way = wait(under_way, return_when=FIRST_COMPLETED)
-                        self._counted(done)
-                self._counted(under_way)
+                self._left(under_way, 0)
             except BaseException:
                 pool.shutdown(cancel_futures=True)
                 raise
@@ -112,12 +106,16 @@ class _Sync:
                 self.synced.removed += 1
         return self.synced
 
-    def _counted(self, sent: set[Future[int]]) -> None:
-        for each in sent:
-            size = each.result()
-            self.synced.files += 1
-            self.synced.sent += size >= 0
-            self.synced.bytes += max(size, 0)
+    def _left(self, under_way: set[Future[int]], most: int) -> set[Future[int]]:
+        """Wait until so many are left, and count the others; returns those."""
+        while len(under_way) > most:
+            done, under_way = wait(under_way, return_when=FIRST_COMPLETED)
+            for each in done:
+                size = each.result()
+                self.synced.files += 1
+                self.synced.sent += size >= 0
+                self.synced.bytes += max(size, 0)
+        return under_way
 
     def _sent(self, name: str, data: bytes) -> int:
         """Have one file there; its size if it had to be sent [bytes], else -1."""

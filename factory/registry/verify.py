@@ -15,7 +15,7 @@ from ..runtime.layout import ASSETS, REJECTED, REPORT, WITHDRAWN
 from . import rows
 from .aside import set_aside, set_asset_aside
 from .database import connected, writing
-from .folders import all_ids, current_folder, read_record
+from .folders import folders_of, known_ids, read_record
 from .rebuild import write_rows
 from .registry import Registry
 from .report_file import file_digests, read_report
@@ -45,6 +45,9 @@ _SENTENCES = {
     ProblemKind.MISSING: "is gone since it was published",
     ProblemKind.EXTRA: "was not published with the asset",
     ProblemKind.ALTERED: "is not what was published (SHA-256)",
+    ProblemKind.TWICE: f"lies in both {ASSETS} and {REJECTED}",
+    ProblemKind.UNLISTED: "a folder without a row",
+    ProblemKind.STALE: "its row is not what its folder says",
 }
 
 
@@ -85,9 +88,8 @@ def verify(registry: Registry, ids: Iterable[str] | None = None) -> tuple[Proble
         Faults, by id. ``factory registry rebuild`` mends rows; a file that is not as
         published is built again.
     """
-    if ids is None:
-        ids = chain((entry.id for entry in registry.walk()), all_ids(registry.root))
-    found = (_confirmed(registry, asset_id) for asset_id in sorted(set(ids)))
+    wanted = known_ids(registry.root) if ids is None else sorted(set(ids))
+    found = (_confirmed(registry, asset_id) for asset_id in wanted)
     return tuple(chain.from_iterable(found))
 
 
@@ -107,38 +109,24 @@ def _problems(registry: Registry, asset_id: str) -> Iterator[Problem]:
     with connected(root) as connection:
         entry = rows.find(connection, "id", asset_id)
         digest = rows.report_digest(connection, asset_id)
-    folders = [root / place / asset_id for place in (ASSETS, REJECTED)]
-    there = sum(folder.is_dir() for folder in folders)
-    folder = current_folder(root, asset_id)
+    folders = folders_of(root, asset_id)
+    folder = folders[0] if folders else root / ASSETS / asset_id
     where = folder.relative_to(root).as_posix()
 
-    def problem(kind: ProblemKind, sentence: str) -> Problem:
-        return Problem(asset_id, kind, where, f"{asset_id}: {sentence}")
+    def problem(kind: ProblemKind, name: str = "", sentence: str = "") -> Problem:
+        path = f"{where}/{name}" if name else where
+        said = sentence or f"{path if name else asset_id}: {_SENTENCES[kind]}"
+        return Problem(asset_id, kind, path, said)
 
-    if not there:
+    if not folders:
         if entry is not None:
-            yield problem(ProblemKind.LOST, f"listed as {entry.status}, without a folder")
+            sentence = f"{asset_id}: listed as {entry.status}, without a folder"
+            yield problem(ProblemKind.LOST, sentence=sentence)
         return
-    if there > 1:
-        yield problem(ProblemKind.TWICE, f"lies in both {ASSETS} and {REJECTED}")
+    if len(folders) > 1:
+        yield problem(ProblemKind.TWICE)
     if entry is None:
-        yield problem(ProblemKind.UNLISTED, "a folder without a row")
-    yield from _problems_of_files(folder, where, digest)
-    if entry is not None:
-        try:
-            told = read_record(folder).entry
-        except RegistryError as error:
-            yield Problem(asset_id, ProblemKind.UNREADABLE, f"{where}/{REPORT}", str(error))
-            return
-        if told != entry:
-            yield problem(ProblemKind.STALE, "its row is not what its folder says")
-
-
-def _problems_of_files(folder: Path, where: str, digest: str) -> Iterator[Problem]:
-    def problem(kind: ProblemKind, name: str, sentence: str = "") -> Problem:
-        path = f"{where}/{name}"
-        return Problem(folder.name, kind, path, sentence or f"{path}: {_SENTENCES[kind]}")
-
+        yield problem(ProblemKind.UNLISTED)
     try:
         stored = read_report(folder)
         registered = stored.files
@@ -149,12 +137,18 @@ def _problems_of_files(folder: Path, where: str, digest: str) -> Iterator[Proble
     if digest and digest != stored.digest:
         yield problem(ProblemKind.ALTERED, REPORT)
     for name in sorted(registered.keys() | found.keys()):
-        if name not in found:
-            yield problem(ProblemKind.MISSING, name)
-        elif name not in registered:
-            yield problem(ProblemKind.EXTRA, name)
-        elif registered[name] != found[name]:
-            yield problem(ProblemKind.ALTERED, name)
+        if registered.get(name) != found.get(name):
+            there = ProblemKind.ALTERED if name in registered else ProblemKind.EXTRA
+            yield problem(there if name in found else ProblemKind.MISSING, name)
+    if entry is None:
+        return
+    try:
+        told = read_record(folder).entry
+    except RegistryError as error:
+        yield problem(ProblemKind.UNREADABLE, REPORT, str(error))
+        return
+    if told != entry:
+        yield problem(ProblemKind.STALE)
 
 
 def mend_rows(registry: Registry, problems: Iterable[Problem]) -> None:

@@ -26,33 +26,33 @@ _LISTED = 12
 
 
 def wanted(registry: Registry, text: str, **defaults: str) -> tuple[Condition, ...]:
-    """Return what :func:`parse_where` does; a value that no asset has is told on stderr.
+    """Return the conditions that a text asks for: joined by ``and``, each given once.
+
+    A value that no asset has is told on stderr.
+
+    Args:
+        registry: the one to choose from.
+        text: such as ``status = rejected and hulls >= 32``; values with blanks in quotes; empty
+            for all.
+        defaults: columns that are asked for unless the text speaks of them.
 
     Raises:
-        ConfigError: it cannot be read, or asks for what no asset can be.
+        ConfigError: it cannot be read, or asks for what no asset can be; what would be right.
     """
-    conditions = parse_where(text, **defaults)
-    for each in conditions:
+    found = _parsed(text)
+    for each in found:
         if each.operator == "=" and each.column in TEXTS:
             there = registry.values(each.column)
             if each.value not in there:
                 meant = _meant(str(each.value), there)
                 complain(f"factory: --where: no asset has {each.column} {each.value!r}; {meant}")
                 break
-    return conditions
+    spoken = {condition.column for condition in found}
+    usual = {name: value for name, value in defaults.items() if name not in spoken}
+    return (*having(**usual), *found)
 
 
-def parse_where(text: str, **defaults: str) -> tuple[Condition, ...]:
-    """Return the conditions that a text asks for: joined by ``and``, each given once.
-
-    Args:
-        text: such as ``status = rejected and hulls >= 32``; values with blanks in quotes; empty
-            for all.
-        defaults: columns that are asked for unless the text speaks of them.
-
-    Raises:
-        ConfigError: it cannot be read; what would be right.
-    """
+def _parsed(text: str) -> list[Condition]:
     found: list[Condition] = []
     equal: set[str] = set()
     rest = text
@@ -69,9 +69,7 @@ def parse_where(text: str, **defaults: str) -> tuple[Condition, ...]:
         found.append(condition)
         last = said[4]
         rest = rest[said.end() :]
-    spoken = {condition.column for condition in found}
-    usual = {name: value for name, value in defaults.items() if name not in spoken}
-    return (*having(**usual), *found)
+    return found
 
 
 def _checked(column: str, operator: str, value: str) -> Condition:

@@ -73,7 +73,7 @@ def pretend(
     bundle = staging if status == "passed" else None
     result = Result(str(source), entry)
     told = BuildReport(Report(""))
-    return Product(source, result, told, bundle, (entry.id,), origin.reads)
+    return Product(result, told, bundle, (entry.id,), origin.reads)
 
 
 def note(source: Path) -> None:

@@ -11,7 +11,7 @@ from asset_factory.factory.manufacture.repair import Repair, RepairKind
 from asset_factory.factory.part import PartKind, PartSource, Proposer
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.report_file import BuildReport
-from asset_factory.factory.report.site.site import stale, write_asset, write_index
+from asset_factory.factory.report.site.site import index_of, stale, write_asset, write_index
 from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.measurements import MeasuredJoint, MeasuredPair, MeasuredPenetration
 
@@ -77,7 +77,8 @@ def draw(registry):
     """Draw every page that is not up to date; returns the first one."""
     for entry in stale(registry):
         write_asset(registry.root, entry)
-    return write_index(registry)
+    write_index(registry)
+    return index_of(registry.root)
 
 
 def _rejected(asset_id, finding):

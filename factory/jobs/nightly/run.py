@@ -215,23 +215,19 @@ def _compared(report: NightlyReport, nights: Path, config: NightConfig) -> Night
     earlier = [other for other in others if other.started <= night.started]
     before = next((other for other in reversed(earlier) if other.attempted), None)
     then = read_table(nights / before.name / files.TABLE) if before else ()
-    changes = compare(then, report.attempts)
     told = [files.read_sources(nights / other.name) for other in earlier]
     roots = [mirror_of(place, config.output) for place in config.inputs]
-    sources = source_yields(report.attempts, roots, told, config.failure.source)
-    not_allowed = len(report.not_allowed)
-    found = tuple(concerns(night, before, changes, config.failure, not_allowed, sources))
-    night = replace(night, exit_code=exit_code(found))
-    return replace(
+    report = replace(
         report,
-        night=night,
         before=before,
-        sources=sources,
-        changes=changes,
-        attention=tuple(concern.sentence for concern in found),
+        sources=source_yields(report.attempts, roots, told, config.failure.source),
+        changes=compare(then, report.attempts),
         allowed=config.licenses.names,
-        trend=(*earlier, night),
     )
+    found = tuple(concerns(report, config.failure))
+    night = replace(night, exit_code=exit_code(found))
+    attention = tuple(concern.sentence for concern in found)
+    return replace(report, night=night, attention=attention, trend=(*earlier, night))
 
 
 def _row_changes(before: Sequence[Entry], now: Sequence[Entry]) -> dict[str, int]:

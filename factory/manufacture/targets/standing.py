@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...articulation import Joint
-from ...asset import Asset, Target
+from ...asset import Asset, StandingPlace, Target
 from ...mesh import FloatArray
 from ..poses import closed_values
 from .shape import middle_of
@@ -25,19 +23,6 @@ TURNS = np.radians(np.arange(-90.0, 91.0, 15.0))
 TURN_COST = 0.15
 #: Joint values at which the moving parts are looked at.
 STATIONS = 9
-
-
-@dataclass(frozen=True)
-class StandingPlace:
-    """A place for a robot's base.
-
-    Attributes:
-        position: x and y, object frame [m], shape [2].
-        yaw: about z, at which it faces the target with every joint closed [rad].
-    """
-
-    position: tuple[float, float]
-    yaw: float
 
 
 def standing_place(asset: Asset, joint: Joint, target: Target) -> StandingPlace | None:

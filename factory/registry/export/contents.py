@@ -69,12 +69,11 @@ def _files(
         if found is None:
             continue
         entry, files = found
-        where = registry.folder(entry).relative_to(registry.root).as_posix()
         exported.append(entry)
         if layout == "huggingface":
-            rows.append(described(entry, where, files.get(MANIFEST)))
-        for name in sorted(files):
-            yield f"{where}/{name}", files[name]
+            rows.append(described(entry, files.get(MANIFEST)))
+        for name, data in files.items():
+            yield f"{entry.folder}/{name}", data
         note = note_path(registry.root, entry.id)
         if note.is_file():
             yield f"{NOTES}/{note.name}", note.read_bytes()
@@ -86,7 +85,7 @@ def _files(
 
 
 def _asset(registry: Registry, listed: Entry) -> tuple[Entry, dict[str, bytes]] | None:
-    """Return the entry as its folder has it, and the content of each of its files."""
+    """Return the entry as its folder has it, and the content of each of its files, by name."""
     for attempt in range(_TRIES):
         folder = registry.folder(listed)
         if not folder.is_dir():
@@ -103,18 +102,15 @@ def _asset(registry: Registry, listed: Entry) -> tuple[Entry, dict[str, bytes]] 
 def _whole(folder: Path) -> dict[str, bytes]:
     stored = read_report(folder)
     registered = {**stored.files, REPORT: stored.digest}
-    files = {name: _content(folder, name) for name in registered}
-    altered = sorted(name for name in files if digest_bytes(files[name]) != registered[name])
-    if altered:
-        raise RegistryError(f"{folder / altered[0]}: is not what was published (SHA-256)")
+    files = {}
+    for name, digest in sorted(registered.items()):
+        path = folder / name
+        if not is_safe_path(name) or path.is_symlink():
+            raise RegistryError(f"{path}: is no file of this asset")
+        files[name] = path.read_bytes()
+        if digest_bytes(files[name]) != digest:
+            raise RegistryError(f"{path}: is not what was published (SHA-256)")
     return files
-
-
-def _content(folder: Path, name: str) -> bytes:
-    path = folder / name
-    if not is_safe_path(name) or path.is_symlink():
-        raise RegistryError(f"{path}: is no file of this asset")
-    return path.read_bytes()
 
 
 def is_safe_path(name: str) -> bool:
@@ -132,8 +128,9 @@ def is_safe_path(name: str) -> bool:
     )
 
 
-def described(entry: Entry, folder: str, manifest: bytes | None) -> dict[str, Any]:
+def described(entry: Entry, manifest: bytes | None) -> dict[str, Any]:
     """Return one row: the entry, where its files are in the export, and its manifest's physics."""
+    folder = entry.folder
     data: dict[str, Any] = json.loads(manifest) if manifest is not None else {}
     lower, upper = data.get("closed_bounds") or ([0.0] * 3, [0.0] * 3)
     moving = [joint["kind"] for joint in data.get("joints", ()) if joint["kind"] != "fixed"]

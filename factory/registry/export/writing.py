@@ -9,12 +9,12 @@ import shutil
 import tarfile
 import tempfile
 from collections.abc import Iterable, Iterator
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, cast
 
-from ...errors import ConfigError, RegistryError
+from ...errors import RegistryError
 from ...runtime.remote import is_url, located, shown, told
 from ...runtime.store import WRITING_PREFIX, writing
 
@@ -40,18 +40,17 @@ def write_export(files: Iterable[tuple[str, bytes]], target: str) -> Written:
             takes the place of an older one.
 
     Raises:
-        RegistryError: the target cannot be written, or fsspec is needed and not installed.
+        RegistryError: the target cannot be written.
+        ConfigError: what fsspec needs is not installed.
     """
     sizes: list[int] = []
     files = _counted(files, sizes)
     try:
-        if is_url(target):
-            _write_url(files, target)
-        elif target.endswith(TAR_ENDINGS):
-            file = Path(target)
-            file.parent.mkdir(parents=True, exist_ok=True)
-            with writing(file) as stream:
+        if target.endswith(TAR_ENDINGS):
+            with _opened(target) as stream:
                 write_archive(files, stream, compressed=not target.endswith(".tar"))
+        elif is_url(target):
+            _write_url(files, target)
         else:
             _write_folder(files, Path(target))
     except OSError as error:
@@ -65,6 +64,16 @@ def _counted(files: Iterable[tuple[str, bytes]], sizes: list[int]) -> Iterator[t
     for name, data in files:
         sizes.append(len(data))
         yield name, data
+
+
+def _opened(target: str) -> AbstractContextManager[IO[bytes]]:
+    if is_url(target):
+        system, path = located(target)
+        opened: AbstractContextManager[IO[bytes]] = system.open(path, "wb")
+        return opened
+    file = Path(target)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    return writing(file)
 
 
 def write_archive(
@@ -106,14 +115,7 @@ def _write_folder(files: Iterable[tuple[str, bytes]], target: Path) -> None:
 
 
 def _write_url(files: Iterable[tuple[str, bytes]], target: str) -> None:
-    try:
-        system, path = located(target)
-    except ConfigError as error:
-        raise RegistryError(str(error)) from None
-    if target.endswith(TAR_ENDINGS):
-        with system.open(path, "wb") as stream:
-            write_archive(files, stream, compressed=not target.endswith(".tar"))
-        return
+    system, path = located(target)
     if system.exists(path) and system.ls(path):
         raise RegistryError(f"{shown(target)}: is there already; name a folder that is not")
     for name, data in files:

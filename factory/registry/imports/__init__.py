@@ -4,6 +4,5 @@ Nothing of them is trusted, and all of one is checked before any of it is publis
 """
 
 from .taking import TakenIn, import_export
-from .unpacking import ImportLimits
 
-__all__ = ["ImportLimits", "TakenIn", "import_export"]
+__all__ = ["TakenIn", "import_export"]

@@ -10,7 +10,6 @@ import stat
 import struct
 import tarfile
 import zlib
-from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
 
@@ -29,52 +28,35 @@ _HEADERS = (tarfile.XHDTYPE, tarfile.GNUTYPE_LONGNAME)
 #: A line of the list of digests, as ``sha256sum`` writes and checks it.
 _LINE = re.compile(r"([0-9a-f]{64})  ([^\n]+)")
 _MAX_SUMS = 2_000_000_000
-
-
-@dataclass(frozen=True)
-class ImportLimits:
-    """At most so much.
-
-    Attributes:
-        total_bytes: of all files together [bytes].
-        file_bytes: of one file [bytes].
-        files: how many.
-    """
-
-    total_bytes: int = 200_000_000_000
-    file_bytes: int = 4_000_000_000
-    files: int = 5_000_000
-
-
-def _too_much(source: str, limits: ImportLimits) -> RegistryError:
-    most = f"{limits.total_bytes / 1e9:g} GB"
-    return RegistryError(f"{source}: more than {most}; --max-gb allows more")
+#: Size of one file [bytes], and how many there are.
+MOST_FILE_BYTES = 4_000_000_000
+MOST_FILES = 5_000_000
+#: Size of all files together, unless somebody allows more [bytes].
+MOST_BYTES = 200_000_000_000
 
 
 class Tally:
-    """Counts files against limits; ``bytes`` is the size of all so far."""
+    """Counts files against limits; ``bytes`` is the size of all so far, at most ``most_bytes``."""
 
-    def __init__(self, source: str, limits: ImportLimits) -> None:
+    def __init__(self, source: Path, most_bytes: int) -> None:
         self._source = source
-        self._limits = limits
+        self._most_bytes = most_bytes
         self._files = self.bytes = 0
 
     def add(self, name: str, size: int) -> None:
         """Count one more file. Raises RegistryError if it is too large, or one too many."""
-        limits = self._limits
         self._files += 1
         self.bytes += size
-        if not 0 <= size <= limits.file_bytes:
-            most = f"want at most {limits.file_bytes}"
+        if not 0 <= size <= MOST_FILE_BYTES:
+            most = f"want at most {MOST_FILE_BYTES}"
             raise RegistryError(f"{self._source}: {name!r} has {size} bytes, {most}")
-        if self._files > limits.files:
-            raise RegistryError(f"{self._source}: more than {limits.files} files")
-        if self.bytes > limits.total_bytes:
-            raise _too_much(self._source, limits)
+        if self._files > MOST_FILES:
+            raise RegistryError(f"{self._source}: more than {MOST_FILES} files")
+        _require_within(self._source, self.bytes, self._most_bytes)
 
 
-def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
-    """Copy an export's files.
+def unpack(source: Path, target: Path, most_bytes: int) -> None:
+    """Copy an export's files, of so many bytes together at most.
 
     ``source`` is a folder, or a .tar or .tar.gz file; ``target`` an empty folder.
 
@@ -84,9 +66,9 @@ def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
     """
     try:
         if source.is_dir():
-            _copy_folder(source, target, limits)
+            _copy_folder(source, target, most_bytes)
         elif source.is_file():
-            _unpack_archive(source, target, limits)
+            _unpack_archive(source, target, most_bytes)
         else:
             advice = "`factory registry export` writes one"
             raise RegistryError(f"{source}: no such file or folder; {advice}")
@@ -94,12 +76,12 @@ def unpack(source: Path, target: Path, limits: ImportLimits) -> None:
         raise RegistryError(f"{source}: cannot be unpacked ({error})") from error
 
 
-def _copy_folder(source: Path, target: Path, limits: ImportLimits) -> None:
+def _copy_folder(source: Path, target: Path, most_bytes: int) -> None:
     """Copy what the list of digests names; whatever else lies there is not part of the export."""
-    tally = Tally(str(source), limits)
+    tally = Tally(source, most_bytes)
     root = source.resolve()
     for name in (*read_sums(source / SUMS_NAME), SUMS_NAME):
-        _require_safe(str(source), name)
+        _require_safe(source, name)
         path = source / name
         if not path.resolve().is_relative_to(root) or not stat.S_ISREG(path.lstat().st_mode):
             raise RegistryError(f"{source}: {name!r} is no file but a link or a device")
@@ -109,19 +91,19 @@ def _copy_folder(source: Path, target: Path, limits: ImportLimits) -> None:
             _write(target / name, stream, path.stat().st_size)
 
 
-def _unpack_archive(source: Path, target: Path, limits: ImportLimits) -> None:
+def _unpack_archive(source: Path, target: Path, most_bytes: int) -> None:
     plain = source
     with source.open("rb") as stream:
         compressed = stream.read(2) == b"\x1f\x8b"
     if compressed:
         plain = target.with_name(f"{target.name}.tar")
-        _decompress(source, plain, limits)
+        _decompress(source, plain, most_bytes)
     with plain.open("rb") as stream:
-        _require_room(target, _scan(source, stream, limits))
+        _require_room(target, _scan(source, stream, most_bytes))
         stream.seek(0)
         # The reader may put together other sizes from several headers than the scan saw: counted
         # again.
-        _extract(source, stream, target, Tally(str(source), limits))
+        _extract(source, stream, target, Tally(source, most_bytes))
     if compressed:
         plain.unlink()
 
@@ -130,7 +112,7 @@ def _extract(source: Path, stream: IO[bytes], target: Path, tally: Tally) -> Non
     with tarfile.open(fileobj=stream, mode="r:") as opened:
         archive: Any = opened
         while (member := archive.next()) is not None:
-            _require_safe(str(source), member.name)
+            _require_safe(source, member.name)
             if member.type in _FILES and not member.issparse():
                 tally.add(member.name, member.size)
                 with archive.extractfile(member) as content:
@@ -141,9 +123,9 @@ def _extract(source: Path, stream: IO[bytes], target: Path, tally: Tally) -> Non
             archive.members = []
 
 
-def _scan(source: Path, stream: IO[bytes], limits: ImportLimits) -> int:
+def _scan(source: Path, stream: IO[bytes], most_bytes: int) -> int:
     """Check every header of an archive before extraction; returns the size of its files [bytes]."""
-    tally = Tally(str(source), limits)
+    tally = Tally(source, most_bytes)
     end = os.fstat(stream.fileno()).st_size
     while block := stream.read(_BLOCK):
         if block.count(0) == _BLOCK:
@@ -166,17 +148,21 @@ def _scan(source: Path, stream: IO[bytes], limits: ImportLimits) -> int:
     return tally.bytes
 
 
-def _decompress(source: Path, target: Path, limits: ImportLimits) -> None:
+def _decompress(source: Path, target: Path, most_bytes: int) -> None:
     written = 0
     with gzip.open(source, "rb") as stream, target.open("xb") as output:
         while chunk := stream.read(_CHUNK):
             written += len(chunk)
-            if written > limits.total_bytes:
-                raise _too_much(str(source), limits)
+            _require_within(source, written, most_bytes)
             output.write(chunk)
 
 
-def _require_safe(source: str, name: str) -> None:
+def _require_within(source: Path, size: int, most_bytes: int) -> None:
+    if size > most_bytes:
+        raise RegistryError(f"{source}: more than {most_bytes / 1e9:g} GB; --max-gb allows more")
+
+
+def _require_safe(source: Path, name: str) -> None:
     if not is_safe_path(name.rstrip("/")) or name.split("/", maxsplit=1)[0] not in TOP_NAMES:
         raise RegistryError(f"{source}: {name[:100]!r} is no path in an export")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 from statistics import median
 
@@ -229,4 +229,4 @@ def _against(
     usual = median(recent)
     # Rounded: a fall of exactly what is allowed is allowed, whatever binary fractions say.
     fell = now.tried >= rules.least and round(usual - now.yielded, 9) > rules.drop
-    return SourceYield(now.source, now.passed, now.tried, usual, len(recent), fell)
+    return replace(now, usual=usual, nights=len(recent), fell=fell)

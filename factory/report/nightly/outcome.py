@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from ...errors import Exit
 from ..summary import JobState
-from .figures import Changes, SourceRules, SourceYield
+from .figures import SourceRules, SourceYield
 from .formats import counted, percent
 from .night import Night, share
+from .report import NightlyReport
 
 DAMAGED = 4
 YIELD_FELL = 5
@@ -42,33 +43,24 @@ def exit_code(concerns: Iterable[Concern]) -> int:
     return next((item.exit_code for item in concerns if item.exit_code != Exit.OK), Exit.OK)
 
 
-def concerns(
-    night: Night,
-    before: Night | None,
-    changes: Changes,
-    failure: FailureRules,
-    not_allowed: int = 0,
-    sources: Sequence[SourceYield] = (),
-) -> Iterator[Concern]:
-    """Yield what somebody should look at, the worst first; nothing when all is well.
-
-    ``not_allowed`` counts registered assets under a license that is not allowed; ``sources`` are
-    the yields by source.
-    """
+def concerns(report: NightlyReport, failure: FailureRules) -> Iterator[Concern]:
+    """Yield what somebody should look at, the worst first; nothing when all is well."""
+    night = report.night
+    before = report.before
     if night.state == JobState.INTERRUPTED:
         sentence = "The night was interrupted; the next run goes on with it."
         yield Concern(sentence, Exit.INTERRUPTED)
     if night.damaged:
         lasting = failure.damage and night.damaged > night.mended
         yield Concern(_damage(night), DAMAGED if lasting else Exit.OK)
-    fall = _fall(night, before, changes, failure.over)
+    fall = _fall(report, failure.over)
     # Rounded: a fall of exactly what is allowed is allowed, whatever binary fractions say.
     if before and round(fall, 9) > failure.yield_drop:
         over = " of the inputs that both nights had" if failure.over == SHARED_INPUTS else ""
         fell = f"fell by {100 * fall:.1f} points against night {before.name}"
         allowed = f"{100 * failure.yield_drop:g} are allowed"
         yield Concern(f"The yield{over} {fell}; {allowed}.", YIELD_FELL)
-    for source in sources:
+    for source in report.sources:
         if source.fell:
             yield Concern(_drift(source, failure.source), YIELD_FELL)
     if anew := night.unjudged - night.crashed:
@@ -77,11 +69,12 @@ def concerns(
     if night.crashed:
         inputs = counted(night.crashed, "input")
         yield Concern(f"Known to crash: {inputs}; another version of anything tries them again.")
-    if ours := sum(change.same_content for change in changes.failing):
+    if ours := sum(change.same_content for change in report.changes.failing):
         inputs = counted(ours, "unchanged input")
         yield Concern(f"{inputs} passed the night before and not now.")
-    if not_allowed:
-        yield Concern(f"License not allowed: {counted(not_allowed, 'registered asset')}.")
+    if report.not_allowed:
+        assets = counted(len(report.not_allowed), "registered asset")
+        yield Concern(f"License not allowed: {assets}.")
     if night.waiting:
         inputs = counted(night.waiting, "input")
         yield Concern(f"Not begun: {inputs}; the next night takes them up.")
@@ -100,10 +93,11 @@ def _drift(source: SourceYield, rules: SourceRules) -> str:
     return f"The yield of {source.source} is {percent(source.yielded)}; {usual}, {allowed}."
 
 
-def _fall(night: Night, before: Night | None, changes: Changes, over: str) -> float:
+def _fall(report: NightlyReport, over: str) -> float:
     """Return by how much the share that passed fell; 0 where one of the nights has none."""
-    old = before.yielded if before else None
-    new = night.yielded
+    changes = report.changes
+    old = report.before.yielded if report.before else None
+    new = report.night.yielded
     if over == SHARED_INPUTS:
         old = share(changes.passed_before, changes.shared)
         new = share(changes.passed_now, changes.shared)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
 from http import HTTPStatus
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
@@ -14,6 +13,7 @@ from asset_factory.sim_checks import Status
 
 from ...display.described import scene_of_file
 from ...display.glb import glb_of, read_model, scene_from
+from ...display.pictures import Fault
 from ...errors import AssetFactoryError, ConfigError, InputRejected
 from ...intake.discover import find_inputs
 from ...intake.naming import safe_name, well_formed
@@ -21,7 +21,7 @@ from ...registry import Entry
 from ...runtime.layout import MODEL, URDF
 from .render import alone_html
 from .server import NOT_FOUND, PageRequest, PageResponse
-from .told import AssetPage, with_model
+from .told import AssetPage
 
 
 def page_of_file(path: Path, live: bool = False) -> str:
@@ -46,10 +46,9 @@ def page_of_file(path: Path, live: bool = False) -> str:
         joints=len(scene.movable),
         hulls=len(scene.hulls),
     )
-    page = with_model(AssetPage(entry), model)
     # Only our own assets are closed at lower: another file is shown as it is.
-    start = {"values": dict.fromkeys(scene.completed({}), 0.0), "point": None}
-    return alone_html(replace(page, data={**page.data, "start": start}), live)
+    start = Fault(dict.fromkeys(scene.completed({}), 0.0))
+    return alone_html(AssetPage(entry, model=model, start=start), live)
 
 
 def _model(path: Path) -> bytes:

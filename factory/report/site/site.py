@@ -10,8 +10,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from asset_factory.sim_checks import Status
-
 from ...display.pictures import pictures_of
 from ...display.sheet import MOST, SheetCell, contact_sheet
 from ...errors import RegistryError
@@ -19,7 +17,7 @@ from ...registry import Entry, Registry
 from ...registry.entry import is_id
 from ...registry.logged import logged_build
 from ...runtime.keys import installed_version
-from ...runtime.layout import ASSETS, PAGES, REJECTED, REPORT, SOLVING
+from ...runtime.layout import PAGES, REPORT, SOLVING
 from ...runtime.store import digest_bytes, digest_file, stage_key, write_json, write_whole
 from .render import STATIC, STATIC_FILES, asset_html, grid_html, list_html, packed
 from .told import AssetPage, asset_page
@@ -57,9 +55,8 @@ def stale(registry: Registry) -> Iterator[Entry]:
 
 def page_key(root: Path, entry: Entry, films: Sequence[str]) -> str:
     """Return what a page follows from: the entry, its report and films, and the code."""
-    place = ASSETS if entry.status is Status.PASSED else REJECTED
     try:
-        told = digest_file(root / place / entry.id / REPORT)
+        told = digest_file(root / entry.folder / REPORT)
     except OSError:
         told = "unreadable"
     return stage_key("page", repr(entry), told, *films, _code())

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from itertools import groupby
 from pathlib import Path, PurePath
 from typing import Any
@@ -25,7 +25,7 @@ from ...reasons import meaning_of
 from ...registry import Entry
 from ...registry.registry import read_manifest
 from ...registry.report_file import read_report
-from ...runtime.layout import ASSETS, MODEL, REJECTED, URDF
+from ...runtime.layout import MODEL, URDF
 from ..loading import Snippet, loading_snippets
 from .places import Places
 
@@ -37,10 +37,11 @@ _MESSAGE = 240
 
 @dataclass(frozen=True)
 class FindingTold:
-    """A finding, and the index of its place on the page; -1 without one."""
+    """A finding, where it is if that is known, and the place's number on the page, else -1."""
 
     finding: Finding
-    place: int = -1
+    fault: Fault | None
+    place: int
 
 
 @dataclass(frozen=True)
@@ -67,34 +68,97 @@ class AssetPage:
     Attributes:
         entry: its row; of a file that is only viewed, one made for it.
         report: what the validator said.
-        scene: what is shown; ``None`` where there is no model.
-        manifest: ``asset.json``; ``None`` where there is none that can be read.
-        findings: errors first.
-        hypotheses: sentences on other hypotheses of the input.
         repairs: what was changed.
-        data: for the page's script, JSON data.
-        folder: link to the asset's own folder; empty without one.
-        registry: name of its registry's folder.
-        edit: command with which somebody says what opens; empty for what is only viewed.
-        clearance: the smallest gap that was measured, negative for a depth [mm].
-        fault: what the picture points at; ``None`` for one that passed.
-        model: GLB of the scene.
+        manifest: ``asset.json``; ``None`` where there is none that can be read.
+        registry: name of its registry's folder; empty for a file that is only viewed.
+        model: GLB of ours; empty where there is none.
+        start: what is shown first; by default where the first error is.
     """
 
     entry: Entry
     report: Report = field(default_factory=lambda: Report(""))
-    scene: SceneGraph | None = None
-    manifest: Manifest | None = None
-    findings: tuple[FindingTold, ...] = ()
-    hypotheses: tuple[str, ...] = ()
     repairs: tuple[Repair, ...] = ()
-    data: Mapping[str, Any] = field(default_factory=dict)
-    folder: str = ""
+    manifest: Manifest | None = None
     registry: str = ""
-    edit: str = ""
-    clearance: float | None = None
-    fault: Fault | None = None
     model: bytes = field(default=b"", repr=False)
+    start: Fault | None = None
+
+    @cached_property
+    def scene(self) -> SceneGraph | None:
+        """Return what is shown; ``None`` where there is no model."""
+        return scene_from(self.model) if self.model else None
+
+    @property
+    def folder(self) -> str:
+        """Return a link to the asset's own folder; empty for a file that is only viewed."""
+        return f"../../../{self.entry.folder}/" if self.registry else ""
+
+    @property
+    def edit(self) -> str:
+        """Return the command with which somebody says what opens; empty where nothing is shown."""
+        known = self.registry and self.model
+        return f"factory edit {self.registry}/{self.entry.folder}" if known else ""
+
+    @property
+    def hypotheses(self) -> tuple[str, ...]:
+        """Return sentences on other hypotheses of the input."""
+        return tuple(f.message for f in self.report.findings if f.code == OTHER_HYPOTHESIS)
+
+    @cached_property
+    def _places(self) -> Places | None:
+        return None if self.scene is None else Places(self.scene, self.report.measurements)
+
+    @cached_property
+    def findings(self) -> tuple[FindingTold, ...]:
+        """Return what was found, errors first."""
+        told = []
+        number = 0
+        # The validator says the same of the URDF and of the MJCF.
+        once = {told_once(each): each for each in reversed(self.report.findings)}
+        findings = (each for each in self.report.findings if each is once[told_once(each)])
+        ordered = [each for group in group_findings(tuple(findings)) for each in group]
+        for finding in ordered[:_MAX_FINDINGS]:
+            if finding.code == OTHER_HYPOTHESIS:
+                continue
+            fault = None if self._places is None else self._places.of(finding)
+            told.append(FindingTold(finding, fault, -1 if fault is None else number))
+            number += fault is not None
+        return tuple(told)
+
+    @property
+    def _first_error(self) -> Fault | None:
+        """Return where it is; ``None`` where that is not known, or of an asset that passed."""
+        if self.entry.status is Status.PASSED:
+            return None
+        errors = (told for told in self.findings if told.finding.severity is Severity.ERROR)
+        return next((told.fault for told in errors if told.fault is not None), None)
+
+    @property
+    def fault(self) -> Fault | None:
+        """Return what the picture points at; ``None`` for one that passed."""
+        return None if self.entry.status is Status.PASSED else self._first_error or Fault({})
+
+    @property
+    def clearance(self) -> float | None:
+        """Return the smallest gap that was measured, negative for a depth [mm]."""
+        return None if self._places is None else self._places.clearance()
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Return what the page's script needs, JSON data; empty where nothing is shown."""
+        places = self._places
+        if self.scene is None or places is None:
+            return {}
+        excluded = self.manifest.excluded_pairs if self.manifest else ()
+        return {
+            "name": self.entry.id,
+            "view": [round(float(x), 4) for x in Viewpoint(self.scene).axes[2]],
+            "excess": PenetrationConfig().excess_m,
+            "ignored": [*places.ignored(), *excluded],
+            "places": [_plain(told.fault) for told in self.findings if told.fault is not None],
+            "sweeps": {name: asdict(told) for name, told in places.sweeps().items()},
+            "start": _plain(self.start or self._first_error),
+        }
 
     @property
     def groups(self) -> tuple[FindingGroup, ...]:
@@ -147,73 +211,16 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
     Raises:
         RegistryError: its report cannot be read.
     """
-    place = ASSETS if entry.status is Status.PASSED else REJECTED
-    folder = root / place / entry.id
+    folder = root / entry.folder
     told = read_report(folder).told
-    report = told.report
-    page = AssetPage(
+    return AssetPage(
         entry,
-        report,
+        told.report,
+        told.repairs,
         manifest=read_manifest(folder),
-        findings=_findings(report, None),
-        hypotheses=tuple(f.message for f in report.findings if f.code == OTHER_HYPOTHESIS),
-        repairs=told.repairs,
-        folder=f"../../../{place}/{entry.id}/",
         registry=root.absolute().name,
+        model=_model(folder),
     )
-    model = _model(folder)
-    if not model:
-        return page
-    edit = f"factory edit {page.registry}/{place}/{entry.id}"
-    return with_model(replace(page, edit=edit), model)
-
-
-def with_model(page: AssetPage, model: bytes) -> AssetPage:
-    """Return a page with a model: findings lead to poses, and the script has its data.
-
-    ``model`` is a GLB of ours. Raises ValueError for another.
-    """
-    scene = scene_from(model)
-    places = Places(scene, page.report.measurements)
-    found = _findings(page.report, places)
-    faults = [places.of(told.finding) for told in found if told.place >= 0]
-    failed = page.entry.status is not Status.PASSED
-    hard = [told.place for told in found if told.finding.severity is Severity.ERROR]
-    first = next((faults[place] for place in hard if place >= 0), None) if failed else None
-    data = {
-        "name": page.entry.id,
-        "view": [round(float(x), 4) for x in Viewpoint(scene).axes[2]],
-        "excess": PenetrationConfig().excess_m,
-        "ignored": places.ignored() + list(page.manifest.excluded_pairs if page.manifest else ()),
-        "places": [_plain(fault) for fault in faults if fault is not None],
-        "sweeps": {name: asdict(told) for name, told in places.sweeps().items()},
-        "start": _plain(first),
-    }
-    return replace(
-        page,
-        scene=scene,
-        findings=found,
-        data=data,
-        clearance=places.clearance(),
-        fault=first or (Fault({}) if failed else None),
-        model=model,
-    )
-
-
-def _findings(report: Report, places: Places | None) -> tuple[FindingTold, ...]:
-    told = []
-    number = 0
-    # The validator says the same of the URDF and of the MJCF.
-    once = {told_once(each): each for each in reversed(report.findings)}
-    findings = (each for each in report.findings if each is once[told_once(each)])
-    ordered = [each for group in group_findings(tuple(findings)) for each in group]
-    for finding in ordered[:_MAX_FINDINGS]:
-        if finding.code == OTHER_HYPOTHESIS:
-            continue
-        found = places is not None and places.of(finding) is not None
-        told.append(FindingTold(finding, number if found else -1))
-        number += found
-    return tuple(told)
 
 
 def _plain(fault: Fault | None) -> dict[str, Any] | None:

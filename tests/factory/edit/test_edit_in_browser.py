@@ -5,6 +5,7 @@ Slow, and it needs Chromium: ``make site-test``.
 
 import json
 from contextlib import contextmanager
+from types import SimpleNamespace
 
 import pytest
 from browser import CONTRAST, LAPTOP, PHONE, until
@@ -153,11 +154,8 @@ def refuse_and_undo(page, flap):
 
 def test_what_fails_shows_where_it_hits(browser, tmp_path):
     class Done(Builds):
-        running = False
-        asset = "hitting-2"
-
         def start(self):
-            pass
+            self.last = SimpleNamespace(asset="hitting-2", stop=lambda: None)
 
     registry = make_registry(tmp_path / "out")
     subject = Subject(write_oven(tmp_path), registry.root)

@@ -40,7 +40,7 @@ def test_an_exported_hull_has_the_same_corners_and_volume():
 
 
 def test_welded_vertices_stay_welded_and_a_box_keeps_its_sharp_edges():
-    text = visual_obj(box([0, 0, 0], [1, 1, 1]), np.zeros(3), "x.mtl", "x")
+    text = visual_obj(box([0, 0, 0], [1, 1, 1]), np.zeros(3), "x")
     assert text.count("\nv ") == 8
     assert text.count("\nvn ") == 6
     assert text.count("\nf ") == 12
@@ -50,7 +50,7 @@ def test_a_missing_texture_coordinate_does_not_reach_the_file():
     mesh = box([0, 0, 0], [1, 1, 1])
     uv = np.full((12, 3, 2), np.nan)
     uv[:6] = 0.25
-    text = visual_obj(replace(mesh, corner_uv=uv), np.zeros(3), "m", "m")
+    text = visual_obj(replace(mesh, corner_uv=uv), np.zeros(3), "m")
     assert "nan" not in text
     texels = [line for line in text.splitlines() if line.startswith("vt")]
     assert texels == ["vt 0 0", "vt 0.25 0.25"]
@@ -60,7 +60,7 @@ def test_given_normals_are_kept_and_missing_ones_are_the_faces_own():
     mesh = Mesh.from_triangles([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     normals = np.full((1, 3, 3), np.nan)
     normals[0, 0] = [1.0, 0.0, 0.0]
-    text = visual_obj(replace(mesh, corner_normals=normals), np.zeros(3), "m", "m")
+    text = visual_obj(replace(mesh, corner_normals=normals), np.zeros(3), "m")
     assert [line for line in text.splitlines() if line.startswith("vn")] == ["vn 0 0 1", "vn 1 0 0"]
     assert text.splitlines()[-1] == "f 1//2 2//1 3//1"
     # A lone triangle is padded to the four vertices that MuJoCo wants.

@@ -11,9 +11,8 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.display.glb import scene_from
 from asset_factory.factory.export.bundle import export_bundle, write_input, write_model
 from asset_factory.factory.intake.source import Source
-from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.registry import Registry
-from asset_factory.factory.registry.product import SHOWN, Made, finished
+from asset_factory.factory.registry.product import SHOWN, finished
 from asset_factory.factory.registry.registration import register
 from asset_factory.factory.registry.verify import verify
 from asset_factory.factory.runtime.stages import Stages
@@ -41,9 +40,8 @@ def test_what_was_rejected_keeps_what_is_shown_and_no_asset(tmp_path):
         verdict = Verdict(Report("asset.urdf", findings=(bad,)))
         config = BuildConfig()
         origin = Source(source, config)
-        made = Made(asset, bundle, verdict, Plan())
         intake = SimpleNamespace(name="cabinet", provenance=PROVENANCE)
-        product = finished(origin, intake, made, Stages(config, None))
+        product = finished(origin, intake, bundle, verdict, (), Stages(config, None))
         result = register(registry, product)
     kept = {path.name for path in registry.folder(result.entry).iterdir()}
     assert kept == {*SHOWN, "report.json"}

@@ -3,12 +3,12 @@
 import json
 import subprocess
 import tarfile
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import pytest
 from registry_samples import PASSED, REJECTED, named, publish
 
-from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.factory.registry.diff import Diff, diff
 from asset_factory.factory.registry.export import contents, write_export
 from asset_factory.factory.registry.sources import entries_of
@@ -115,7 +115,7 @@ def test_urls(registry, tmp_path):
         assert system.cat(f"/bucket/folder/{name}") == (tmp_path / "folder" / name).read_bytes()
     with pytest.raises(RegistryError, match="is there already"):
         export(registry, "memory://bucket/folder")
-    with pytest.raises(RegistryError, match="nosuch"):
+    with pytest.raises(ConfigError, match="nosuch"):
         export(registry, "nosuch://bucket/x.tar")
 
 
@@ -129,12 +129,13 @@ def test_each_change_has_its_group():
     found = diff(before, reversed(after))
     assert [entry.id for entry in found.new] == ["new"]
     assert [entry.id for entry in found.gone] == ["gone"]
-    assert [change.after.id for change in found.newly_passed] == ["b"]
-    failed = [(change.after.id, change.after.reason) for change in found.newly_failed]
+    assert [change.id for change in found.newly_passed] == ["b"]
+    failed = [(change.id, change.after.reason) for change in found.newly_failed]
     assert failed == [("c", "rest_penetration")]
-    assert [(change.after.id, change.columns) for change in found.changed] == [("d", ("joints",))]
+    assert [(change.id, change.columns) for change in found.changed] == [("d", ("joints",))]
     assert found.same == 2
-    assert found.to_dict()["newly_failed"][0]["after"]["message"] == "5 mm deep"
+    told = json.loads(json.dumps(asdict(found)))["newly_failed"][0]
+    assert (told["id"], told["after"]["message"]) == ("c", "5 mm deep")
     assert diff((PASSED,), (PASSED,)) == Diff(same=1)
 
 

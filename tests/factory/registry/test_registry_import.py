@@ -3,17 +3,18 @@
 import io
 import shutil
 import tarfile
+from dataclasses import replace
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from registry_samples import REPORT, alter, dump, link, named, publish, remove
+from registry_samples import BAD_REPORT, REJECTED, REPORT, alter, dump, link, named, publish, remove
 
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.export import contents, write_export
 from asset_factory.factory.registry.export.contents import is_safe_path
-from asset_factory.factory.registry.imports import ImportLimits, import_export
+from asset_factory.factory.registry.imports import import_export, unpacking
 from asset_factory.factory.registry.rebuild import rebuild
 from asset_factory.factory.registry.verify import verify
 from asset_factory.factory.runtime.store import digest_bytes
@@ -39,6 +40,15 @@ def test_a_round_trip_changes_nothing(registry, other, tmp_path, name):
     assert list((other.root / ".staging").iterdir()) == []
     again = import_export(other, source)
     assert (again.published, again.same) == ((), ("cabinet-1", "chest-1", "fridge-1"))
+
+
+def test_what_was_rejected_arrives_with_its_model(registry, other, tmp_path):
+    with registry.staging_folder() as staging:
+        (staging / "view.glb").write_bytes(b"glTF")
+        registry.add(replace(REJECTED, id="chest-1"), BAD_REPORT, staging)
+    import_export(other, export(registry, tmp_path / "x"))
+    assert (other.rejected / "chest-1" / "view.glb").read_bytes() == b"glTF"
+    assert verify(other) == ()
 
 
 NAMES = st.text("abc_é .", min_size=1, max_size=8).filter(is_safe_path)
@@ -213,12 +223,14 @@ def test_a_hostile_archive_is_refused(registry, other, tmp_path, kind):
     assert not (tmp_path / "etc").exists()
 
 
-def test_sizes_are_bounded_before_anything_is_written(registry, other, tmp_path):
-    for name in ("x", "x.tar", "x.tar.gz"):
-        source = export(registry, tmp_path / name)
-        refused(other, source, "more than 1e-06 GB", limits=ImportLimits(total_bytes=1000))
-        refused(other, source, "bytes, want at most 10", limits=ImportLimits(file_bytes=10))
-        refused(other, source, "more than 3 files", limits=ImportLimits(files=3))
+@pytest.mark.parametrize("name", ["x", "x.tar", "x.tar.gz"])
+def test_sizes_are_bounded_before_anything_is_written(registry, other, tmp_path, name, monkeypatch):
+    source = export(registry, tmp_path / name)
+    refused(other, source, "more than 1e-06 GB", most_bytes=1000)
+    monkeypatch.setattr(unpacking, "MOST_FILES", 3)
+    refused(other, source, "more than 3 files")
+    monkeypatch.setattr(unpacking, "MOST_FILE_BYTES", 10)
+    refused(other, source, "bytes, want at most 10")
 
 
 NO_ARCHIVE = "x.tar|SHA256SUMS"

@@ -1,11 +1,12 @@
 """The folders are the truth: the database comes back from them, and from older ones."""
 
+import os
 import shutil
 import sqlite3
 from contextlib import closing
 
 import pytest
-from registry_samples import dump
+from registry_samples import BAD_REPORT, REJECTED, dump
 
 from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry import Registry
@@ -32,7 +33,7 @@ def lose(registry, how):
 def test_rows_come_back_byte_for_byte(registry, how):
     before = dump(registry)
     lose(registry, how)
-    assert rebuild(registry.root).entries == 3
+    assert rebuild(registry.root) == []
     assert dump(Registry(registry.root)) == before
     assert registry.entry("fridge-1").tags == ("blue",)
     assert verify(registry) == ()
@@ -55,10 +56,21 @@ def test_a_lost_database_says_what_brings_it_back(registry, how, message):
 def test_rows_without_a_folder_go_and_folders_without_a_row_come(registry):
     shutil.rmtree(registry.assets / "cabinet-1")
     shutil.copytree(registry.assets / "fridge-1", registry.assets / "fridge-2")
-    found = rebuild(registry.root)
-    assert "fridge-2" in found.unreadable[0]
-    assert "is of 'fridge-1'" in found.unreadable[0]
+    (unreadable,) = rebuild(registry.root)
+    assert "fridge-2" in unreadable
+    assert "is of 'fridge-1'" in unreadable
     assert [entry.id for entry in registry.entries()] == ["chest-1", "fridge-1"]
+
+
+@pytest.mark.parametrize("newer", ["assets", "rejected"])
+def test_of_an_asset_in_two_places_the_newer_counts_and_the_other_goes(registry, newer):
+    shutil.copytree(registry.assets / "cabinet-1", registry.root / "kept")
+    registry.add(REJECTED, BAD_REPORT)
+    shutil.move(registry.root / "kept", registry.assets / "cabinet-1")
+    os.utime(registry.root / newer / "cabinet-1" / "report.json", (2.0e9, 2.0e9))
+    assert rebuild(registry.root) == []
+    assert registry.entry("cabinet-1").folder == f"{newer}/cabinet-1"
+    assert verify(registry) == ()
 
 
 @pytest.mark.parametrize(
@@ -67,9 +79,9 @@ def test_rows_without_a_folder_go_and_folders_without_a_row_come(registry):
 )
 def test_a_report_that_is_none_is_named_and_left(registry, content):
     (registry.assets / "cabinet-1" / "report.json").write_text(content)
-    found = rebuild(registry.root)
-    assert found.entries == 2
-    assert "cabinet-1" in found.unreadable[0]
+    (unreadable,) = rebuild(registry.root)
+    assert "cabinet-1" in unreadable
+    assert registry.count() == 2
     assert (registry.assets / "cabinet-1" / "meshes" / "a.obj").is_file()
 
 

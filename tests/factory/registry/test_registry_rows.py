@@ -182,17 +182,17 @@ def test_counts_are_true_after_any_changes(registry, made):
             if isinstance(change, int):
                 delete(connection, f"thing-{change}")
             else:
-                insert(connection, (RegistryRow(change, ""),))
+                insert(connection, RegistryRow(change, ""))
         require_true_counts(connection)
         connection.execute("ROLLBACK")
 
 
 def test_a_database_written_at_once_counts_too_and_what_is_undone_is(tmp_path):
-    found = [RegistryRow(replace(PASSED, id=f"thing-{number}"), "") for number in range(7)]
     registry = Registry(tmp_path / "out", create=True)
     (tmp_path / "new").mkdir()
     with new_database(tmp_path / "new" / "registry.db") as connection:
-        insert(connection, found)
+        for number in range(7):
+            insert(connection, RegistryRow(replace(PASSED, id=f"thing-{number}"), ""))
     (tmp_path / "new" / "registry.db").replace(registry.root / "registry.db")
     assert registry.count() == 7
     with writing(registry.root) as connection:

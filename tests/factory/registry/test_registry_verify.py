@@ -65,7 +65,7 @@ def test_rows_and_folders_that_do_not_match_are_named_and_rows_made_anew(registr
     before = registry.entries()
     with writing(registry.root) as connection:
         delete(connection, "cabinet-1")
-        insert(connection, (RegistryRow(replace(registry.entry("fridge-1"), hulls=99), ""),))
+        insert(connection, RegistryRow(replace(registry.entry("fridge-1"), hulls=99), ""))
     shutil.copytree(registry.rejected / "chest-1", registry.assets / "chest-1")
     kinds = {problem.id: problem.kind for problem in reversed(verify(registry))}
     assert kinds == {"cabinet-1": "unlisted", "chest-1": "twice", "fridge-1": "stale"}

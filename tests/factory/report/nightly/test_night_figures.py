@@ -26,8 +26,8 @@ from asset_factory.factory.report.nightly.report import NightlyReport, message, 
 
 def codes(now, before, rules, **more):
     """The exit code of a night after another one, and that of each of its concerns."""
-    figures = night("2", now, **more)
-    found = list(concerns(figures, night("1", before), compare(before, now), rules))
+    report = NightlyReport(night("2", now, **more), night("1", before))
+    found = list(concerns(replace(report, changes=compare(before, now)), rules))
     return exit_code(found), [concern.exit_code for concern in found]
 
 
@@ -105,7 +105,8 @@ def test_the_first_night_has_nothing_to_compare_with():
     changes = compare([], OF_TEN)
     assert len(changes.fresh) == 10
     assert not changes.failing
-    assert list(concerns(night("1", OF_TEN[:9]), None, changes, FailureRules())) == []
+    report = NightlyReport(night("1", OF_TEN[:9]), changes=changes)
+    assert list(concerns(report, FailureRules())) == []
 
 
 WELL = [*OF_TEN[:8], attempt("d"), attempt("e")]
@@ -143,8 +144,8 @@ def test_the_worst_concern_is_the_exit_code_and_the_first(now, more, failure, co
 
 
 def test_what_does_not_ring_is_said_too():
-    figures = night("1", [*WELL, KNOWN_TO_CRASH], damaged=2, mended=2, withdrawn=0)
-    assert [item.sentence for item in concerns(figures, None, Changes(), FailureRules())] == [
+    report = NightlyReport(night("1", [*WELL, KNOWN_TO_CRASH], damaged=2, mended=2, withdrawn=0))
+    assert [item.sentence for item in concerns(report, FailureRules())] == [
         "Damaged: 2 registered assets; the files were not what was registered: 2 made whole again.",
         "Known to crash: 1 input; another version of anything tries them again.",
     ]
