@@ -62,7 +62,7 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
     refuse_multiplied(path.name, models)
     # Before they are compiled: whoever changes them after this is found out by the digest.
     digests = tuple(log.digest(file) for file in (path, *files))
-    model = _compiled(path)
+    model = read_apart(partial(compile_model, lenient=True), path)
     visuals = _visuals(model)
     notes = list(_notes(model))
     images = _images(model, InputFiles(path.parent, config, log), path.parent)
@@ -90,10 +90,6 @@ def _referenced_files(models: list[MujocoModel], name: str) -> list[Path]:
             raise DescriptionError("missing_file", message, named.places)
         found |= dict.fromkeys(named.files)
     return list(found)
-
-
-def _compiled(path: Path) -> CompiledModel:
-    return read_apart(partial(compile_model, lenient=True), path)
 
 
 def _world_poses(model: CompiledModel) -> list[FloatArray]:

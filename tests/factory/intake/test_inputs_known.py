@@ -204,15 +204,15 @@ def test_a_mesh_changed_while_an_mjcf_is_compiled_is_compiled_again(tmp_path, mo
     (tmp_path / "robot.xml").write_text(inline)
     write_box(1.0)
     sizes = []
-    compiled = mjcf._compiled
+    read = mjcf.read_apart
 
-    def meddled(path):
-        model = compiled(path)
+    def meddled(compiled, path):
+        model = read(compiled, path)
         sizes.append(model.meshes[0].vertices.max())
         write_box(2.0)
         return model
 
-    monkeypatch.setattr(mjcf, "_compiled", meddled)
+    monkeypatch.setattr(mjcf, "read_apart", meddled)
     source = loaded(tmp_path / "robot.xml")
     assert sizes == pytest.approx([0.5, 1.0])
     assert source.reads["cube.stl"] == digest_file(tmp_path / "cube.stl")
