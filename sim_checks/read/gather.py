@@ -14,7 +14,7 @@ from urllib.parse import unquote
 
 from ..description import DescriptionError
 from ..report import Finding, Severity
-from .document import find_file, is_file, parse_document
+from .document import find_file, parse_document
 from .meshes import MAX_MESH_BYTES
 from .references import (
     DOCUMENTS,
@@ -81,7 +81,7 @@ def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
         _copy_urdf(path, document, copies, target)
         # One that somebody names may lie anywhere.
         srdf = options.srdf or path.with_name(target.name).with_suffix(SRDF)
-        if is_file(srdf):
+        if os.path.isfile(srdf):
             target.with_suffix(SRDF).write_bytes(copies.read(srdf))
     told = Finding("read_by_xacro", Severity.NOTE, f"{path.name} was expanded by xacro")
     findings = (*([told] if made else []), *([_told(path, roots)] if strays else []))
@@ -192,7 +192,8 @@ class Copies:
             place.write_bytes(data)
             for name in named_in_mesh(original, data):
                 beside = [original.parent / name, original.parent / unquote(name)]
-                waiting += [p.resolve() for p in beside if self.roots.allows(p) and is_file(p)]
+                within = filter(self.roots.allows, beside)
+                waiting += [place.resolve() for place in within if os.path.isfile(place)]
         return self._copied[file]
 
     def read(self, file: Path) -> bytes:

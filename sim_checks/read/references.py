@@ -5,6 +5,7 @@ This is known before any is opened.
 
 from __future__ import annotations
 
+import os
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator, Mapping
@@ -14,15 +15,7 @@ from itertools import chain
 from pathlib import Path
 
 from ..description import DescriptionError
-from .document import (
-    inside,
-    is_file,
-    is_there,
-    locate,
-    outside_error,
-    parse_document,
-    refuse_address,
-)
+from .document import inside, locate, outside_error, parse_document, refuse_address
 from .meshes import MAX_MESH_BYTES
 from .regular import read_regular
 
@@ -187,10 +180,10 @@ class _ModelWalk:
         outside = [place for place in places if not self._allows(place)]
         # Which rule it goes by depends on its version: a place it might look at counts where
         # something lies there.
-        if places[0] in outside or any(is_there(place) for place in outside):
+        if places[0] in outside or any(os.path.exists(place) for place in outside):
             raise outside_error(reference, outside)
         within = tuple(place for place in places if place not in outside)
-        files = tuple(dict.fromkeys(place.resolve() for place in within if is_file(place)))
+        files = tuple(dict.fromkeys(place.resolve() for place in within if os.path.isfile(place)))
         model.named.append(NamedFile(element, key, within, files))
         return files
 

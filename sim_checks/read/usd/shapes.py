@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...description import DescriptionError, FloatArray, IntArray
+from ...geometry.placing import placed
 from .. import primitives
 from ..meshes import fan_polygons
 
@@ -62,7 +63,7 @@ def read_triangles(prim: Any, place: FloatArray) -> tuple[FloatArray, IntArray] 
     vertices, faces = found
     if np.linalg.det(place[:3, :3]) < 0.0:
         faces = faces[:, [0, 2, 1]]
-    return vertices @ place[:3, :3].T + place[:3, 3], faces
+    return placed(vertices, place), faces
 
 
 def _value(attribute: Any) -> Any:
