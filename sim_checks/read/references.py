@@ -146,7 +146,7 @@ class _ModelWalk:
         self._include(model, path, document, above)
         for at, root in model.documents:
             for element in root.iter():
-                # What is included was noted on the way.
+                # Included documents were noted on the way.
                 keys = element.attrib if element.tag != "include" else ()
                 for key in filter(lambda key: key.startswith("file"), keys):
                     self._note(model, element, key, at)

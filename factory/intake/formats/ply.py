@@ -73,7 +73,7 @@ class PlyTable:
 
 
 def _table(element: PlyElement, columns: list[list[Any]]) -> PlyTable:
-    """Return what was read row by row: of each property its numbers, or the arrays of its lists."""
+    """Return columns that were read row by row: a property's numbers, or arrays of its lists."""
     table = PlyTable()
     for (name, _, length), values in zip(element.properties, columns, strict=True):
         if length is None:

@@ -24,7 +24,7 @@ CIRCLE = {
     "b.xml": '<x><mesh file="door.stl"/></x>',
 }
 OVEN = {"r.urdf": ROBOT.format("package://r/meshes/oven.obj")}
-#: What lies in a folder, documents and other files, and what of it is an input, in order.
+#: Documents and other files of a folder, and those of them that are inputs, in order.
 FOLDERS = {
     "sorted": ({}, "b/y.OBJ a/x.glb z.ply a/readme.txt a/x.mtl", "z.ply a/x.glb b/y.OBJ"),
     "a folder of a URDF's meshes": (OVEN, "meshes/oven.obj meshes/spare/other.obj", "r.urdf"),
