@@ -119,6 +119,5 @@ def _there(name: str, folder: Path, root: Path) -> Iterator[Path]:
     # Packages are looked for nowhere: their paths begin with names that may be no folders.
     for start in range(len(parts) if "://" in name else 1):
         path = Path(os.path.normpath(folder / "/".join(parts[start:])))
-        with suppress(OSError, ValueError):
-            if path.is_relative_to(root) and (path.is_file() or path.is_symlink()):
-                yield path
+        if path.is_relative_to(root) and (os.path.isfile(path) or os.path.islink(path)):
+            yield path

@@ -6,7 +6,7 @@ import os
 import re
 from pathlib import Path
 
-from asset_factory.sim_checks.read.document import inside, is_there
+from asset_factory.sim_checks.read.document import inside
 from asset_factory.sim_checks.read.regular import open_regular
 
 from ..config import IntakeConfig
@@ -63,7 +63,7 @@ class InputFiles:
         """
         if path in self._cache:
             return self._cache[path]
-        if not is_there(path):
+        if not os.path.exists(path):
             self.log.note(path, ABSENT)
             raise FileNotFoundError(path.name)
         if not path.is_file():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -56,16 +56,22 @@ def read_sidecar(path: Path, files: InputFiles) -> Sidecar:
         InputRejected: ``bad_sidecar``, with what it may contain; ``external_reference`` for its
             annotation.
     """
-    for candidate in sidecar_paths(path):
-        if candidate.is_file():
-            return _parse(candidate, files)
-        files.log.note(candidate, ABSENT)
-    return Sidecar()
+    found = find_beside(sidecar_paths(path), files)
+    return Sidecar() if found is None else _parse(found, files)
 
 
 def sidecar_paths(path: Path) -> tuple[Path, Path]:
     """Return where the sidecar of mesh file ``path`` may lie, the one that wins first."""
     return path.with_name(path.name + ".toml"), path.with_name(path.stem + ".toml")
+
+
+def find_beside(paths: Iterable[Path], files: InputFiles) -> Path | None:
+    """Return the first of some files that is there; those that are missed are noted."""
+    for path in paths:
+        if path.is_file():
+            return path
+        files.log.note(path, ABSENT)
+    return None
 
 
 def read_beside(path: Path, files: InputFiles, most_bytes: int) -> bytes:

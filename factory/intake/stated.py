@@ -23,8 +23,7 @@ from ..errors import ConfigError
 from ..part import PartKind
 from ..views.raster import Side
 from .files import InputFiles
-from .reads import ABSENT
-from .sidecar import bad_sidecar, read_beside
+from .sidecar import bad_sidecar, find_beside, read_beside
 
 MOST_BYTES = 256 * 1024
 MOST_PARTS = 128
@@ -219,11 +218,8 @@ def read_stated(path: Path, files: InputFiles) -> Stated | None:
     Raises:
         InputRejected: ``bad_sidecar``, with the place and what it may contain.
     """
-    for candidate in stated_paths(path):
-        if candidate.is_file():
-            return _parse(candidate, files)
-        files.log.note(candidate, ABSENT)
-    return None
+    found = find_beside(stated_paths(path), files)
+    return None if found is None else _parse(found, files)
 
 
 def stated_paths(path: Path) -> tuple[Path, ...]:

@@ -18,7 +18,7 @@ from ..geometry.depth import contact_region
 from ..geometry.gaps import visible_gap
 from ..geometry.loose import Sides, strayed
 from ..geometry.path import JointAxis
-from ..geometry.placing import joined
+from ..geometry.placing import box_around, grow_box, joined
 from ..geometry.surfaces import PosedSurface, SurfaceMeeting, VisibleSurface
 from .cause import MOST_OF_THE_RANGE, Way, shown_cause
 from .joint_sweep import JointCourse, clear_until
@@ -182,10 +182,10 @@ class Diagnosis:
         overlap = a.stand(b)
         margin = self.rest.config.clearance_m
         region = contact_region(a.hull, b.hull)
-        low = region.min(axis=0) if len(region) else np.maximum(a.bounds[0], b.bounds[0]) - margin
-        high = region.max(axis=0) if len(region) else np.minimum(a.bounds[1], b.bounds[1]) + margin
-        low, high = np.minimum(low, high), np.maximum(low, high)
-        return SurfaceMeeting(low, high, overlap.depth, overlap.direction, margin)
+        if len(region) == 0:
+            lows, highs = np.stack([a.bounds, b.bounds], axis=1)
+            region = grow_box(np.array([lows.max(axis=0), highs.min(axis=0)]), margin)
+        return SurfaceMeeting(box_around([region]), overlap.depth, overlap.direction, margin)
 
     def _sides(self, contact: Contact, poses: Mapping[str, FloatArray]) -> Sides | None:
         """Return the surfaces of a contact's hulls' parts; ``None`` where one shows nothing."""

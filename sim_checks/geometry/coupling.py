@@ -16,19 +16,15 @@ def sound_chains(mimics: Mapping[str, Mimic | None]) -> dict[str, Mimic]:
     One by a number that is none, or absurdly large, leads nowhere. Asked are all joints that move;
     a free one has ``None``.
     """
-    sound: dict[str, Mimic] = {}
+    led: dict[str, list[str]] = {}
     for name, mimic in mimics.items():
-        at = mimic
-        seen = {name}
-        while at is not None and at.leader in mimics and at.leader not in seen:
-            seen.add(at.leader)
-            at = mimics[at.leader]
-        if mimic is not None and at is None:
-            sound[name] = mimic
-    lost = {name for name, mimic in sound.items() if not sensible((mimic.multiplier, mimic.offset))}
-    while found := {name for name, mimic in sound.items() if mimic.leader in lost} - lost:
-        lost |= found
-    return {name: mimic for name, mimic in sound.items() if name not in lost}
+        if mimic is not None and sensible((mimic.multiplier, mimic.offset)):
+            led.setdefault(mimic.leader, []).append(name)
+    held = [name for name, mimic in mimics.items() if mimic is None]
+    for leader in held:
+        held += led.pop(leader, [])
+    sound = frozenset(held)
+    return {n: mimic for n, mimic in mimics.items() if mimic is not None and n in sound}
 
 
 def leaders(name: str, mimics: Mapping[str, Mimic]) -> tuple[str, ...]:

@@ -23,6 +23,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ..description import BoolArray, FloatArray, IntArray
 from .collision import Skin
+from .placing import grow_box
 from .surfaces import WELD, Patch, PosedSurface, SurfaceMeeting, VisibleSurface, patches
 
 #: First and finest pull [m].
@@ -78,9 +79,9 @@ def _zones(
     A drawer too wide meets two walls, and lies deep in neither. The largest few, as what both
     surfaces show around each.
     """
-    corners = one.vertices[one.faces[pairs[:, 0]]], other.vertices[other.faces[pairs[:, 1]]]
-    low = np.maximum(meeting.low, np.maximum(*(side.min(axis=1) for side in corners)))
-    high = np.minimum(meeting.high, np.minimum(*(side.max(axis=1) for side in corners)))
+    corners = one.corners[pairs[:, 0]], other.corners[pairs[:, 1]]
+    low = np.maximum(meeting.box[0], np.maximum(*(side.min(axis=1) for side in corners)))
+    high = np.minimum(meeting.box[1], np.minimum(*(side.max(axis=1) for side in corners)))
     half = meeting.margin / 2.0
     way = max(0.0, meeting.depth) * meeting.direction
     back = np.minimum(way, 0.0)
@@ -91,11 +92,10 @@ def _zones(
     sizes = np.bincount(labels)
     for label in np.argsort(-sizes, kind="stable")[:MOST_ZONES]:
         rows = labels == label
-        below = low[rows].min(axis=0) - half
-        above = high[rows].max(axis=0) + half
+        box = np.array([low[rows].min(axis=0) - half, high[rows].max(axis=0) + half])
         # What of either lies deeper in the other comes by on the way out.
-        here = one.whole.patch(below + back, above + ahead)
-        there = other.whole.patch(below - ahead, above - back)
+        here = one.whole.patch(box + np.array([back, ahead]))
+        there = other.whole.patch(box - np.array([ahead, back]))
         if here is not None and there is not None:
             yield here, there
 
@@ -141,8 +141,7 @@ def _directions(one: Patch, other: Patch, meeting: SurfaceMeeting) -> FloatArray
     """Return where to pull the first: the hulls' way out, then across the faces that meet."""
     back = -meeting.direction
     pairs = one.skin.touching(other.skin, MET_FACES)
-    met = ((one, np.unique(pairs[:, 0])), (other, np.unique(pairs[:, 1])))
-    corners = [side.vertices[side.faces[rows]] for side, rows in met]
+    corners = [one.corners[np.unique(pairs[:, 0])], other.corners[np.unique(pairs[:, 1])]]
     a, b, c = np.vstack(corners).transpose(1, 0, 2)
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
@@ -192,8 +191,9 @@ def _corners(inner: Patch, meeting: SurfaceMeeting) -> FloatArray:
 
     Beyond, the other's nearest face may not have been looked at.
     """
-    corners = inner.vertices
-    within = (corners >= meeting.low - WELD) & (corners <= meeting.high + WELD)
+    corners = inner.corners.reshape(-1, 3)
+    low, high = grow_box(meeting.box, WELD)
+    within = (corners >= low) & (corners <= high)
     corners = np.unique(corners[within.all(axis=1)], axis=0)
     return corners[:: max(1, len(corners) // ASKED)][:ASKED]
 

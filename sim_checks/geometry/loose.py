@@ -7,7 +7,7 @@ import numpy as np
 from ..description import IntArray
 from .collision import Skin
 from .gaps import visible_gap
-from .placing import box_around, placed
+from .placing import box_around, grow_box, placed
 from .surfaces import PosedSurface, SurfaceMeeting, VisibleSurface, patches
 
 #: A piece with less than this share of its part's area is small.
@@ -67,10 +67,10 @@ def _nearer(piece: VisibleSurface, other: PosedSurface, own: PosedSurface, margi
     """
     vertices = placed(piece.vertices, own.pose)
     skin = Skin(vertices, piece.faces)
-    low, high = box_around([vertices[piece.faces]])
+    around = grow_box(box_around([vertices[piece.faces]]), margin)
 
     def gap(surface: PosedSurface) -> float:
-        beside = surface.patch(low - margin, high + margin)
+        beside = surface.patch(around)
         return margin if beside is None else min(margin, skin.distance(beside.skin))
 
     return gap(other) < gap(own)

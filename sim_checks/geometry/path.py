@@ -95,10 +95,6 @@ class Path:
         back = ((replace(line, axis=-line.axis), rate) for line, rate in reversed(self.steps))
         return Path(tuple(back), self.length)
 
-    def unturned(self, vector: FloatArray, at: float) -> FloatArray:
-        """Turn a world direction at ``at`` back to 0, as if fixed to the moving body."""
-        return self.pose(at)[:3, :3].T @ vector
-
     def orbit(self, points: FloatArray) -> Orbit | CoupledOrbit:
         """Return how points [m] travel that are at their places at 0; shape [point_count, 3]."""
         if len(self.steps) > 1 or self.steps[0][1] != 1.0:

@@ -36,6 +36,11 @@ def box_corners(boxes: FloatArray) -> FloatArray:
     return boxes[..., ENDS, np.arange(3)]
 
 
+def grow_box(box: FloatArray, margin: float) -> FloatArray:
+    """Return a box that reaches so far [m] beyond another, shape [2, 3]."""
+    return np.array([box[0] - margin, box[1] + margin])
+
+
 def box_gap(first: FloatArray, second: FloatArray) -> float:
     """Return the distance between the boxes around two sets of points [m]; 0 if they meet."""
     below = first.min(axis=0) - second.max(axis=0)

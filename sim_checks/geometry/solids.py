@@ -63,12 +63,10 @@ class Solids:
         looks: exact looks at two hulls, that those who ask count, too.
     """
 
-    def __init__(
-        self, description: Description, tree: Tree, looks: LookBudget | None = None
-    ) -> None:
+    def __init__(self, description: Description, tree: Tree, looks: LookBudget) -> None:
         self.description = description
         self.tree = tree
-        self.looks = looks or LookBudget()
+        self.looks = looks
         part_of = tree.part_of()
         self.items: list[LinkSolid] = []
         for link in description.links:
@@ -101,7 +99,7 @@ class Solids:
 
     def diagonal(self) -> float:
         """Return the diagonal of the box around everything as placed [m]."""
-        return diagonal([self.bounds()]) if self.items else 0.0
+        return diagonal(item.collider.bounds for item in self.items)
 
     def points(self, indices: Iterable[int]) -> FloatArray:
         """Return the corners of some solids as placed [m], shape [corner_count, 3]."""

@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ..description import FloatArray, IntArray
 from .collision import Skin
-from .placing import box_corners
+from .placing import box_around, box_corners, grow_box
 
 #: Corners closer than this are one [m].
 WELD = 1e-6
@@ -24,14 +24,13 @@ class SurfaceMeeting:
     """Where two hulls meet.
 
     Attributes:
-        low, high: box around their common region [m], world frame, shape [3] each.
+        box: around their common region [m], world frame, shape [2, 3].
         depth: of the hulls [m]; 0 or less where they do not meet.
         direction: from the first hull into the second, unit, world frame, shape [3].
         margin: how far around the box to look [m]; wider gaps are not measured.
     """
 
-    low: FloatArray
-    high: FloatArray
+    box: FloatArray
     depth: float
     direction: FloatArray
     margin: float
@@ -114,22 +113,18 @@ class PosedSurface:
     surface: VisibleSurface
     pose: FloatArray
 
-    def patch(self, low: FloatArray, high: FloatArray) -> Patch | None:
+    def patch(self, box: FloatArray) -> Patch | None:
         """Return the faces whose boxes reach into a box of the world [m]; ``None`` without any."""
         surface = self.surface
         turn = self.pose[:3, :3]
         place = self.pose[:3, 3]
-        local = (box_corners(np.array([low, high])) - place) @ turn
+        local = (box_corners(box) - place) @ turn
         below, above = surface.boxes
         near = ((below <= local.max(axis=0)) & (above >= local.min(axis=0))).all(axis=1)
         rows = np.flatnonzero(near)
         corners = surface.vertices[surface.faces[rows]] @ turn.T + place
-        inside = ((corners.min(axis=1) <= high) & (corners.max(axis=1) >= low)).all(axis=1)
-        rows = rows[inside]
-        if len(rows) == 0:
-            return None
-        faces = np.arange(3 * len(rows)).reshape(-1, 3)
-        return Patch(self, rows, corners[inside].reshape(-1, 3), faces)
+        inside = ((corners.min(axis=1) <= box[1]) & (corners.max(axis=1) >= box[0])).all(axis=1)
+        return Patch(self, rows[inside], corners[inside]) if inside.any() else None
 
 
 @dataclass(frozen=True)
@@ -139,19 +134,17 @@ class Patch:
     Attributes:
         whole: whose.
         rows: which faces.
-        vertices: their corners in the world [m], shape [vertex_count, 3].
-        faces: shape [len(rows), 3].
+        corners: theirs in the world [m], shape [len(rows), 3, 3].
     """
 
     whole: PosedSurface
     rows: IntArray
-    vertices: FloatArray
-    faces: IntArray
+    corners: FloatArray
 
     @cached_property
     def skin(self) -> Skin:
         """Return the same, ready to be asked what it meets."""
-        return Skin(self.vertices, self.faces)
+        return Skin(self.corners.reshape(-1, 3), np.arange(3 * len(self.rows)).reshape(-1, 3))
 
 
 def patches(
@@ -161,15 +154,13 @@ def patches(
 
     The first is of the part whose hull is first in the meeting.
     """
-    low = meeting.low - meeting.margin
-    high = meeting.high + meeting.margin
-    one = first.patch(low, high)
-    other = second.patch(low, high)
+    box = grow_box(meeting.box, meeting.margin)
+    one = first.patch(box)
+    other = second.patch(box)
     if one is None or other is None:
         return one, other
     # Neither matters where the other is not.
-    lows = np.array([each.vertices.min(axis=0) for each in (one, other)])
-    highs = np.array([each.vertices.max(axis=0) for each in (one, other)])
-    low = np.maximum(low, lows.max(axis=0) - meeting.margin)
-    high = np.minimum(high, highs.min(axis=0) + meeting.margin)
-    return first.patch(low, high), second.patch(low, high)
+    around = (grow_box(box_around([each.corners]), meeting.margin) for each in (one, other))
+    lows, highs = np.stack([box, *around], axis=1)
+    box = np.array([lows.max(axis=0), highs.min(axis=0)])
+    return first.patch(box), second.patch(box)

@@ -121,14 +121,14 @@ class Sweep:
         moving: Sequence[Collider],
         standing: Sequence[Collider],
         steps: int,
-        budget: LookBudget | None = None,
+        budget: LookBudget,
     ) -> None:
         self.path = path
         self.moving = moving
         self.standing = standing
         self.places = np.linspace(0.0, path.length, steps + 1)
         self.looks = 0
-        self._budget = budget or LookBudget()
+        self._budget = budget
         starts = [collider.pose for collider in moving]
         backwards = path.inverse()
         self._start_poses = starts
@@ -251,7 +251,7 @@ class Sweep:
         everywhere = np.arange(len(track.bounds))
         riders = [(direction, False)]
         if self.path.turning:
-            riders.append((self.path.unturned(direction, at), True))
+            riders.append((self.path.pose(at)[:3, :3].T @ direction, True))
         for vector, riding in riders:
             track.directions.append((vector, riding))
             self._lower(track, vector, riding, everywhere)

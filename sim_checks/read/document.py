@@ -75,16 +75,10 @@ def refuse_doctype(data: bytes, name: str) -> None:
         DescriptionError: ``forbidden_doctype``, or ``invalid_xml``.
     """
     with _refusing(name):
-        guard = XMLParser(target=_NoTree(), forbid_dtd=True)
+        # It has no method for what is parsed, and so nothing is built.
+        guard = XMLParser(target=object(), forbid_dtd=True)
         guard.feed(data)
         guard.close()
-
-
-class _NoTree:
-    """What a parser builds that is only to look."""
-
-    def close(self) -> None:
-        """End the document."""
 
 
 @contextmanager
@@ -110,7 +104,7 @@ def find_file(reference: str, folder: Path) -> Path:
     """
     places = locate(reference, folder.resolve())
     for place in places:
-        if is_file(place):
+        if os.path.isfile(place):
             return place.resolve()
     message = f"{reference[:160]!r}: no such file in the description's folder"
     raise DescriptionError("missing_file", message, places)
@@ -148,20 +142,6 @@ def outside_error(reference: str, places: Sequence[Path]) -> DescriptionError:
     """Return the refusal of a reference that leads to where nothing may be read."""
     message = f"{reference[:160]!r} leads out of the folders that may be read; {REMEDY}"
     return DescriptionError("outside_folder", message, places)
-
-
-def is_there(place: Path) -> bool:
-    """Return whether something lies there; nothing has a name that no file can have."""
-    with suppress(OSError, ValueError):
-        return place.exists()
-    return False
-
-
-def is_file(place: Path) -> bool:
-    """Return whether a file lies there; none has a name that is too long."""
-    with suppress(OSError):
-        return place.is_file()
-    return False
 
 
 def inside(path: Path, folder: Path) -> bool:

@@ -14,15 +14,14 @@ from urllib.parse import unquote
 
 from ..description import DescriptionError
 from ..report import Finding, Severity
-from .document import find_file, is_file, parse_document
+from .document import find_file, parse_document
 from .meshes import MAX_MESH_BYTES
 from .references import (
     DOCUMENTS,
     SRDF,
-    ModelWalk,
     MujocoModel,
-    found,
-    named_files,
+    NamedFile,
+    follow_models,
     named_in_mesh,
     urdf_references,
 )
@@ -82,7 +81,7 @@ def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
         _copy_urdf(path, document, copies, target)
         # One that somebody names may lie anywhere.
         srdf = options.srdf or path.with_name(target.name).with_suffix(SRDF)
-        if is_file(srdf):
+        if os.path.isfile(srdf):
             target.with_suffix(SRDF).write_bytes(copies.read(srdf))
     told = Finding("read_by_xacro", Severity.NOTE, f"{path.name} was expanded by xacro")
     findings = (*([told] if made else []), *([_told(path, roots)] if strays else []))
@@ -114,7 +113,7 @@ def _urdf_strays(path: Path, document: ET.Element) -> bool:
 def _mjcf_strays(path: Path, document: ET.Element) -> bool:
     """Return whether an MJCF, or what it includes, refers to files outside its folder."""
     try:
-        named_files(path, document)
+        follow_models(path, document)
     except DescriptionError as error:
         return error.code == "outside_folder"
     return False
@@ -136,17 +135,15 @@ def _copy_urdf(path: Path, document: ET.Element, copies: Copies, target: Path) -
 
 def _copy_mjcf(path: Path, document: ET.Element, copies: Copies, target: Path) -> None:
     """Write a model to ``target``, what it includes and attaches, and every file these name."""
-    here = path.parent.resolve() / path.name
-    for model in ModelWalk(copies.roots.allows).follow(here, document):
-        main = model.documents[0][0]
-        _copy_model(model, copies, target if main == here else copies.place(main))
+    for number, model in enumerate(follow_models(path, document, allows=copies.roots.allows)):
+        _copy_model(model, copies, copies.place(model.main) if number else target)
 
 
 def _copy_model(model: MujocoModel, copies: Copies, target: Path) -> None:
     """Write a model's own file to ``target``, and what it includes."""
-    written = [(e, key, _copied(e, key, model, at, copies)) for e, key, at in model.naming()]
-    for element, key, place in written:
-        element.set(key, Path(os.path.relpath(place, target.parent)).as_posix())
+    for named in model.named:
+        place = Path(os.path.relpath(_copied(named, copies), target.parent))
+        named.element.set(named.key, place.as_posix())
     for number, (at, root) in enumerate(model.documents):
         for compiler in root.iter("compiler"):
             for key in FOLDERS:
@@ -154,15 +151,12 @@ def _copy_model(model: MujocoModel, copies: Copies, target: Path) -> None:
         copies.write(root, at, copies.place(at.resolve()) if number else target)
 
 
-def _copied(
-    element: ET.Element, key: str, model: MujocoModel, document: Path, copies: Copies
-) -> Path:
+def _copied(named: NamedFile, copies: Copies) -> Path:
     """Return where the copy of a file that an element names lies, or will."""
-    files = found([p for p in model.places(element, key, document) if copies.roots.allows(p)])
-    if not files:
-        message = f"<{element.tag}> {element.get(key, '')[:160]!r}: no such file"
-        raise DescriptionError("missing_file", message)
-    return copies.place(files[0]) if element.tag in DOCUMENTS else copies.take(files[0])
+    if not named.files:
+        raise DescriptionError("missing_file", f"{named.said}: no such file")
+    file = named.files[0]
+    return copies.place(file) if named.element.tag in DOCUMENTS else copies.take(file)
 
 
 class Copies:
@@ -198,7 +192,8 @@ class Copies:
             place.write_bytes(data)
             for name in named_in_mesh(original, data):
                 beside = [original.parent / name, original.parent / unquote(name)]
-                waiting += [p.resolve() for p in beside if self.roots.allows(p) and is_file(p)]
+                within = filter(self.roots.allows, beside)
+                waiting += [place.resolve() for place in within if os.path.isfile(place)]
         return self._copied[file]
 
     def read(self, file: Path) -> bytes:

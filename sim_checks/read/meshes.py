@@ -40,6 +40,22 @@ def read_mesh(path: Path) -> tuple[FloatArray, IntArray]:
     return vertices, faces
 
 
+def fan_polygons(sizes: IntArray) -> IntArray:
+    """Return polygons as triangles around their first corners, shape [triangle_count, 3].
+
+    Corners are counted through all polygons, one after the other; one of fewer than three has no
+    triangle.
+
+    Args:
+        sizes: corners of each polygon, shape [polygon_count].
+    """
+    counts = np.maximum(sizes - 2, 0)
+    polygon = np.repeat(np.arange(len(sizes)), counts)
+    step = np.arange(len(polygon)) - np.repeat(np.cumsum(counts) - counts, counts)
+    first = (np.cumsum(sizes) - sizes)[polygon]
+    return np.column_stack([first, first + step + 1, first + step + 2])
+
+
 def _load(path: Path) -> tuple[FloatArray, IntArray]:
     import trimesh
 

@@ -24,7 +24,7 @@ from .mjcf_compiler import compile_model
 from .mjcf_model import MESH, CompiledGeom, CompiledJoint, CompiledModel
 from .multiplied import refuse_multiplied
 from .primitives import box, capsule, cylinder, ellipsoid
-from .references import named_files
+from .references import follow_models
 
 
 def read_mjcf(path: Path, document: ET.Element) -> Description:
@@ -40,8 +40,7 @@ def read_mjcf(path: Path, document: ET.Element) -> Description:
     Raises:
         DescriptionError: with MuJoCo's own words.
     """
-    named_files(path, document)
-    refuse_multiplied(path, document)
+    refuse_multiplied(path.name, follow_models(path, document))
     model = compile_model(path)
     return _Describer(model, path.parent.resolve()).describe(path)
 

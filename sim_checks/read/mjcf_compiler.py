@@ -24,7 +24,7 @@ def compile_model(path: Path, *, lenient: bool = False) -> CompiledModel:
     """Compile the MJCF file at ``path``; call it in a killable child.
 
     Args:
-        path: a file whose references were checked by :func:`.references.named_files`.
+        path: a file whose references were checked by :func:`.references.follow_models`.
         lenient: keep names and looks that the file drops, and accept bodies that are too light.
 
     Raises:

@@ -151,11 +151,13 @@ class CompiledEquality:
 
 
 @dataclass(frozen=True)
-class CompiledMechanism:
-    """Bodies and joints of a model in MuJoCo's order, the world first.
+class CompiledModel:
+    """A whole model in MuJoCo's order, the world first.
 
     Attributes:
         excluded: pairs of bodies that the file forbids to collide by their names.
+        others: how many things there are that no other field tells, by MuJoCo's name.
+        meant: joints whose range the file states and switches off; a lenient reader takes it.
     """
 
     bodies: tuple[CompiledBody, ...]
@@ -163,6 +165,10 @@ class CompiledMechanism:
     geoms: tuple[CompiledGeom, ...]
     equalities: tuple[CompiledEquality, ...]
     excluded: tuple[tuple[int, int], ...]
+    meshes: tuple[CompiledMesh, ...]
+    textures: tuple[CompiledTexture, ...]
+    others: tuple[tuple[str, int], ...]
+    meant: tuple[str, ...] = ()
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -204,40 +210,18 @@ class CompiledMechanism:
         return sorted({(min(a, b), max(a, b)) for a, b in (*self.excluded, *strangers) if a != b})
 
 
-@dataclass(frozen=True)
-class CompiledModel(CompiledMechanism):
-    """A whole model.
-
-    Attributes:
-        others: how many things there are that no other field tells, by MuJoCo's name.
-        meant: joints whose range the file states and switches off; a lenient reader takes it.
-    """
-
-    meshes: tuple[CompiledMesh, ...]
-    textures: tuple[CompiledTexture, ...]
-    others: tuple[tuple[str, int], ...]
-    meant: tuple[str, ...] = ()
-
-
 def read_model(model: MjModel, meant: tuple[str, ...] = ()) -> CompiledModel:
     """Return all of a compiled model, with the joints that were given a range."""
     return CompiledModel(
-        **vars(read_mechanism(model)),
-        meshes=tuple(_mesh(model, i) for i in range(model.nmesh)),
-        textures=tuple(_texture(model, i) for i in range(model.ntex)),
-        others=(("tendon", model.ntendon), ("flex", model.nflex), ("skin", model.nskin)),
-        meant=meant,
-    )
-
-
-def read_mechanism(model: MjModel) -> CompiledMechanism:
-    """Return the bodies and joints of a compiled model."""
-    return CompiledMechanism(
         bodies=tuple(_body(model, i) for i in range(model.nbody)),
         joints=tuple(_joint(model, i) for i in range(model.njnt)),
         geoms=tuple(_geom(model, i) for i in range(model.ngeom)),
         equalities=tuple(_equality(model, i) for i in range(model.neq)),
         excluded=tuple(divmod(int(pair), 1 << 16) for pair in model.exclude_signature),
+        meshes=tuple(_mesh(model, i) for i in range(model.nmesh)),
+        textures=tuple(_texture(model, i) for i in range(model.ntex)),
+        others=(("tendon", model.ntendon), ("flex", model.nflex), ("skin", model.nskin)),
+        meant=meant,
     )
 
 

@@ -6,12 +6,11 @@ import math
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterable
-from functools import cached_property
+from functools import cache
 from pathlib import Path
 
 from ..description import DescriptionError
-from .document import inside, parse_document
-from .references import ModelWalk, MujocoModel
+from .references import MujocoModel
 
 #: A line of text can make a million. Copies are elements that stand in a ``replicate``, or in a
 #: model that is attached; the compiler takes time by their square, 16 s for so many.
@@ -22,55 +21,48 @@ _GRIDS = ("composite", "flexcomp")
 _LARGEST = 10**12
 
 
-def refuse_multiplied(path: Path, document: ET.Element) -> None:
+def refuse_multiplied(name: str, models: Iterable[MujocoModel]) -> None:
     """Refuse an MJCF that becomes too much: by ``replicate``, grids, includes, attached models.
 
-    The outermost file is given with its root element.
+    Args:
+        name: of the file, for the sentence.
+        models: the file's own and those that it attaches, see :func:`.references.follow_models`.
 
     Raises:
-        DescriptionError: ``too_large``, or the fault of an inner document.
+        DescriptionError: ``too_large``.
     """
-    folder = path.parent.resolve()
-    walk = ModelWalk(lambda place: inside(place, folder))
-    model = walk.model(folder / path.name, document)
-    counts = _ElementCount(model, {}).all
+    counts = _ElementCount(models).all
     for what, most in MOST.items():
         if counts[what] > most:
             becomes = f"{counts[what]:,} {what} once compiled"
-            message = f"{path.name}: {becomes}, at most {most:,} are read"
+            message = f"{name}: {becomes}, at most {most:,} are read"
             raise DescriptionError("too_large", message)
 
 
 class _ElementCount:
-    """Counts what a model becomes, each document once however often it is named.
+    """Counts what models become, each document of each once however often it is named.
 
     Attributes:
-        all: as in :data:`MOST`, and ``elements``.
+        all: of the first model, as in :data:`MOST`, and ``elements``.
     """
 
-    def __init__(self, model: MujocoModel, attached: dict[Path, Counter[str]]) -> None:
-        self._model = model
-        self._attached = attached
-        self._documents = dict(model.documents)
-        self._known: dict[Path, Counter[str]] = {}
-        self.all = self._of(model.documents[0][0])
+    def __init__(self, models: Iterable[MujocoModel]) -> None:
+        self._models = {model.main: model for model in models}
+        self._roots = {main: dict(model.documents) for main, model in self._models.items()}
+        self._of = cache(self._counted)
+        self._attachable = cache(self._most_attached)
+        first = next(iter(self._models))
+        self.all = self._of(first, first)
 
-    def _of(self, path: Path) -> Counter[str]:
-        """Return what a document of the model becomes."""
-        if path not in self._known:
-            # A document that holds itself ends here; others refuse it.
-            self._known[path] = Counter()
-            self._known[path] = self._counted(path)
-        return self._known[path]
-
-    def _counted(self, path: Path) -> Counter[str]:
+    def _counted(self, main: Path, path: Path) -> Counter[str]:
+        """Return what a document of the model with that main file becomes."""
         counts: Counter[str] = Counter()
-        waiting = [(self._documents[path], 1)]
+        waiting = [(self._roots[main][path], 1)]
         while waiting:
             element, times = waiting.pop()
             if element.tag == "replicate":
                 times = min(times * _whole(element.get("count", "")), _LARGEST)
-            own = self._own(element, path)
+            own = self._own(element, main)
             if times != 1:
                 own["copies"] = own["elements"]
             for what, number in own.items():
@@ -78,32 +70,24 @@ class _ElementCount:
             waiting += [(inner, times) for inner in element]
         return counts
 
-    def _own(self, element: ET.Element, path: Path) -> Counter[str]:
-        """Return what one element becomes, without those written in it."""
+    def _own(self, element: ET.Element, main: Path) -> Counter[str]:
+        """Return what one element of a model becomes, without those written in it."""
         own = Counter(elements=1)
         if element.tag in _COUNTED:
             own[_COUNTED[element.tag]] = 1
         elif element.tag in _GRIDS:
             own["bodies"] = math.prod(map(_whole, element.get("count", "").split()))
         elif element.tag == "include":
-            inner = self._model.inner(element, path)
-            own |= _most(self._of(each) for each in inner if each in self._documents)
+            inner = self._models[main].inner.get(element, ())
+            own |= _most(self._of(main, each) for each in inner)
         elif element.tag == "attach":
-            own |= self._attachable
+            own |= self._attachable(main)
             own["copies"] = own["elements"]
         return own
 
-    @cached_property
-    def _attachable(self) -> Counter[str]:
+    def _most_attached(self, main: Path) -> Counter[str]:
         """Return the most that an ``attach`` brings: it may mean any model that is named."""
-        return _most(map(self._of_model, self._model.attached()))
-
-    def _of_model(self, file: Path) -> Counter[str]:
-        if file not in self._attached:
-            self._attached[file] = Counter()
-            model = ModelWalk(self._model.allows).model(file, parse_document(file))
-            self._attached[file] = _ElementCount(model, self._attached).all
-        return self._attached[file]
+        return _most(self._of(model, model) for model in self._models[main].attached)
 
 
 def _most(counts: Iterable[Counter[str]]) -> Counter[str]:

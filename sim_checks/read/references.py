@@ -5,22 +5,17 @@ This is known before any is opened.
 
 from __future__ import annotations
 
+import os
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import chain
 from pathlib import Path
 
 from ..description import DescriptionError
-from .document import (
-    inside,
-    is_file,
-    is_there,
-    locate,
-    outside_error,
-    parse_document,
-    refuse_address,
-)
+from .document import inside, locate, outside_error, parse_document, refuse_address
 from .meshes import MAX_MESH_BYTES
 from .regular import read_regular
 
@@ -30,8 +25,6 @@ MOST_NESTED = 16
 MOST_DOCUMENTS = 256
 #: Elements whose files are whole documents, which name files of their own.
 DOCUMENTS = ("include", "model")
-
-
 #: How the file beside a URDF ends that says which of its links may pass through each other.
 SRDF = ".srdf"
 #: Returns the root element of a document.
@@ -45,29 +38,50 @@ class NamedFile:
     """A file that an element of an MJCF names.
 
     Attributes:
-        said: the element and its reference, for a sentence.
+        element, key: the element, and its attribute.
         places: where in the folder MuJoCo may look for it.
         files: those that lie there, resolved, each once.
     """
 
-    said: str
+    element: ET.Element
+    key: str
     places: tuple[Path, ...]
     files: tuple[Path, ...]
 
+    @property
+    def said(self) -> str:
+        """Return the element and its reference, for a sentence."""
+        return f"<{self.element.tag}> {self.element.get(self.key, '')[:160]!r}"
 
-@dataclass(frozen=True)
+
+@dataclass
 class MujocoModel:
     """A main file and what it includes, which share one set of folders.
 
     Attributes:
-        allows: tells whether a path may be opened.
-        base: the main file's own folder.
         documents: path and root element, the main file first.
+        named: every file that they name.
     """
 
-    allows: Allows
-    base: Path
-    documents: tuple[tuple[Path, ET.Element], ...]
+    documents: list[tuple[Path, ET.Element]] = field(default_factory=list)
+    named: list[NamedFile] = field(default_factory=list)
+
+    @property
+    def main(self) -> Path:
+        """Return the path of the main file."""
+        return self.documents[0][0]
+
+    @cached_property
+    def inner(self) -> Mapping[ET.Element, tuple[Path, ...]]:
+        """Return the documents that an element of :data:`DOCUMENTS` may mean, of those there."""
+        whole = (each for each in self.named if each.element.tag in DOCUMENTS)
+        return {each.element: each.files for each in whole if each.key == "file"}
+
+    @cached_property
+    def attached(self) -> tuple[Path, ...]:
+        """Return the models that this one attaches, each once."""
+        named = (files for element, files in self.inner.items() if element.tag == "model")
+        return tuple(dict.fromkeys(chain.from_iterable(named)))
 
     def settings(self, key: str) -> list[str]:
         """Return what the compiler elements say of ``key``, the last word first."""
@@ -77,136 +91,112 @@ class MujocoModel:
     def places(self, element: ET.Element, key: str, document: Path) -> list[Path]:
         """Return where MuJoCo may look for a file; the first is where it should."""
         reference = _plain(element.get(key, ""))
+        bases = [self.main.parent, document.parent]
         if element.tag in DOCUMENTS:
-            return [self.base / reference, document.parent / reference]
+            return [base / reference for base in bases]
         own = self.settings("texturedir" if element.tag == "texture" else "meshdir")
         folders = [_plain(folder) for folder in (*own, *self.settings("assetdir"))] or [""]
         names = [reference]
         if "true" in self.settings("strippath"):
             names.insert(0, Path(reference).name)
-        bases = [self.base, document.parent]
         return [base / folder / name for name in names for folder in folders for base in bases]
-
-    def inner(self, element: ET.Element, document: Path) -> tuple[Path, ...]:
-        """Return the documents that an element of :data:`DOCUMENTS` may mean, of those there."""
-        places = self.places(element, "file", document) if element.get("file") else []
-        return found([place for place in places if self.allows(place)])
-
-    def naming(self) -> Iterator[tuple[ET.Element, str, Path]]:
-        """Yield every attribute that names a file: its element, its key and its document."""
-        for document, root in self.documents:
-            for element in root.iter():
-                keys = (key for key in element.attrib if key.startswith("file"))
-                yield from ((element, key, document) for key in keys if element.get(key))
-
-    def attached(self) -> dict[Path, None]:
-        """Return the models that this one attaches, each once."""
-        named = ((item, at) for at, root in self.documents for item in root.iter("model"))
-        return dict.fromkeys(model for item, at in named for model in self.inner(item, at))
 
 
 def _plain(reference: str) -> str:
     return reference.rpartition("://")[2].replace("\\", "/")
 
 
-def named_files(
-    path: Path, document: ET.Element, parse: Parser = parse_document
-) -> tuple[NamedFile, ...]:
-    """Return every file that an MJCF model names, in every document that it includes or attaches.
+def follow_models(
+    path: Path,
+    document: ET.Element,
+    parse: Parser = parse_document,
+    allows: Allows | None = None,
+) -> list[MujocoModel]:
+    """Return an MJCF model and those that it attaches, with every file that they name.
 
-    The outermost file is given with its root element; ``parse`` reads inner documents.
+    Args:
+        path: of the outermost file.
+        document: its root element.
+        parse: reads an inner document.
+        allows: tells whether a path may be opened; ``None`` for those in the file's folder.
+            Whatever leads elsewhere is refused.
 
     Raises:
         DescriptionError: ``outside_folder``; ``nested_too_deep`` for documents that hold each
             other; and whatever is wrong with an inner document.
     """
     folder = path.parent.resolve()
-    walk = ModelWalk(lambda place: inside(place, folder), parse)
-    walk.follow(folder / path.name, document)
-    return tuple(walk.named)
+    walk = _ModelWalk(parse, allows or (lambda place: inside(place, folder)))
+    return walk.follow(folder / path.name, document, ())
 
 
-class ModelWalk:
-    """Follows an MJCF into the documents that it includes and attaches.
+class _ModelWalk:
+    """Follows an MJCF into the documents that it includes and attaches."""
 
-    Args:
-        allows: tells whether a path may be opened; whatever leads elsewhere is refused.
-        parse: reads an inner document.
-
-    Attributes:
-        named: every file that was named so far.
-    """
-
-    def __init__(self, allows: Allows, parse: Parser = parse_document) -> None:
-        self._allows = allows
+    def __init__(self, parse: Parser, allows: Allows) -> None:
         self._parse = parse
+        self._allows = allows
         self._left = MOST_DOCUMENTS
-        self.named: list[NamedFile] = []
-
-    def model(self, path: Path, document: ET.Element, above: tuple[Path, ...] = ()) -> MujocoModel:
-        """Return a main file, nested in the documents ``above``, with all that it includes."""
-        documents = tuple(self._with_included(path, document, path.parent, above))
-        return MujocoModel(self._allows, path.parent, documents)
 
     def follow(
-        self, path: Path, document: ET.Element, above: tuple[Path, ...] = ()
+        self, path: Path, document: ET.Element, above: tuple[Path, ...]
     ) -> list[MujocoModel]:
-        """Return a model and those that it attaches, whose files are noted."""
-        model = self.model(path, document, above)
+        """Return a model that is nested in the documents ``above``, and those that it attaches."""
+        model = MujocoModel()
+        self._include(model, path, document, above)
+        for at, root in model.documents:
+            for element in root.iter():
+                # Included documents were noted on the way.
+                keys = element.attrib if element.tag != "include" else ()
+                for key in filter(lambda key: key.startswith("file"), keys):
+                    self._note(model, element, key, at)
         models = [model]
-        for element, key, at in model.naming():
-            if element.tag != "include":
-                self._note(element, key, model.places(element, key, at))
-        for inner in model.attached():
+        for inner in model.attached:
             models += self.follow(inner, self._parse(inner), _nested(inner, (*above, path)))
         return models
 
-    def _with_included(
-        self, path: Path, document: ET.Element, base: Path, above: tuple[Path, ...]
-    ) -> Iterator[tuple[Path, ET.Element]]:
-        """Yield a document and those that it includes."""
+    def _include(
+        self, model: MujocoModel, path: Path, document: ET.Element, above: tuple[Path, ...]
+    ) -> None:
+        """Add a document to a model, with those that it includes."""
         self._left -= 1
         if self._left < 0:
             holds = f"{path.name}: the model holds over {MOST_DOCUMENTS} documents"
             raise DescriptionError("nested_too_deep", f"{holds}, at most so many are read")
-        yield path, document
-        model = MujocoModel(self._allows, base, ())
+        model.documents.append((path, document))
         for element in document.iter("include"):
-            for inner in self._note(element, "file", model.places(element, "file", path)):
-                chain = _nested(inner, (*above, path))
-                yield from self._with_included(inner, self._parse(inner), base, chain)
+            for inner in self._note(model, element, "file", path):
+                self._include(model, inner, self._parse(inner), _nested(inner, (*above, path)))
 
-    def _note(self, element: ET.Element, key: str, places: Sequence[Path]) -> tuple[Path, ...]:
+    def _note(
+        self, model: MujocoModel, element: ET.Element, key: str, document: Path
+    ) -> tuple[Path, ...]:
         """Return the files that an element may mean, of those there; refuse what leads out."""
         reference = element.get(key, "")
         if not reference:
             return ()
         refuse_address(reference)
+        places = model.places(element, key, document)
         outside = [place for place in places if not self._allows(place)]
         # Which rule it goes by depends on its version: a place it might look at counts where
         # something lies there.
-        if places[0] in outside or any(is_there(place) for place in outside):
+        if places[0] in outside or any(os.path.exists(place) for place in outside):
             raise outside_error(reference, outside)
         within = tuple(place for place in places if place not in outside)
-        files = found(within)
-        self.named.append(NamedFile(f"<{element.tag}> {reference[:160]!r}", within, files))
+        files = tuple(dict.fromkeys(place.resolve() for place in within if os.path.isfile(place)))
+        model.named.append(NamedFile(element, key, within, files))
         return files
 
 
-def found(places: Sequence[Path]) -> tuple[Path, ...]:
-    """Return those of some places where a file lies, links followed, each once."""
-    return tuple(dict.fromkeys(place.resolve() for place in places if is_file(place)))
-
-
-def _nested(inner: Path, chain: tuple[Path, ...]) -> tuple[Path, ...]:
+def _nested(inner: Path, above: tuple[Path, ...]) -> tuple[Path, ...]:
     """Return the documents that hold an inner one. Raises DescriptionError ``nested_too_deep``."""
     nested_in = f"{inner.name} is nested in"
-    if inner in chain:
+    if inner in above:
         raise DescriptionError("nested_too_deep", f"{nested_in} itself; want documents that end")
-    if len(chain) > MOST_NESTED:
-        message = f"{nested_in} {len(chain)} documents, at most {MOST_NESTED} are read"
+    if len(above) > MOST_NESTED:
+        message = f"{nested_in} {len(above)} documents, at most {MOST_NESTED} are read"
         raise DescriptionError("nested_too_deep", message)
-    return chain
+    return above
 
 
 def urdf_references(document: ET.Element) -> list[ET.Element]:

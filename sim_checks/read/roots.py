@@ -16,7 +16,6 @@ from .document import (
     PACKAGED,
     REMEDY,
     inside,
-    is_file,
     locate,
     outside_error,
     parse_document,
@@ -72,7 +71,7 @@ class Roots:
         self.own = path.parent.resolve()
         self._outside = options.allow_outside
         levels = [self.own, *self.own.parents][: MOST_LEVELS + 1]
-        found = next((n for n, level in enumerate(levels) if is_file(level / PACKAGE)), None)
+        found = next((n for n, level in enumerate(levels) if os.path.isfile(level / PACKAGE)), None)
         self.package = None if found is None else levels[found]
         self.looked = [level / PACKAGE for level in levels[: None if found is None else found + 1]]
         above = [] if self.package is None else [self.package]
@@ -95,7 +94,7 @@ class Roots:
             places += self._places(spelled)
         allowed = [place for place in places if self.allows(place)]
         for place in allowed:
-            if is_file(place):
+            if os.path.isfile(place):
                 return place.resolve()
         if not allowed:
             raise outside_error(reference, places)
@@ -137,7 +136,7 @@ class Roots:
         yield from (folder / inner for folder in self._packages(name))
         with suppress(DescriptionError):
             yield from locate(reference, self.own)
-        unnamed = (root for root in self._folders if not is_file(root / PACKAGE))
+        unnamed = (root for root in self._folders if not os.path.isfile(root / PACKAGE))
         yield from (root / inner for root in unnamed)
 
     def _packages(self, name: str) -> Iterator[Path]:

@@ -13,7 +13,7 @@ from ..config import MotionConfig
 from ..description import FloatArray
 from ..geometry.placing import rigid
 from ..read.mjcf_compiler import begin_compiling
-from ..read.mjcf_model import CompiledMechanism, read_mechanism
+from ..read.mjcf_model import CompiledModel, read_model
 from ..read.read import format_of
 from ..read.urdf import exempt_pairs
 from .simulator import Simulator
@@ -72,7 +72,7 @@ class MujocoSimulator(Simulator):
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         if config.parents_touch:
             model.opt.disableflags |= int(flags.mjDSBL_FILTERPARENT)
-        return MujocoWorld(mujoco, model, read_mechanism(model), config.parents_touch)
+        return MujocoWorld(mujoco, model, read_model(model), config.parents_touch)
 
 
 def _fix_base(spec: Any, mujoco: Any) -> None:
@@ -87,9 +87,7 @@ def _fix_base(spec: Any, mujoco: Any) -> None:
 class MujocoWorld(World):
     """A compiled model, by the names that are read of it, and its state."""
 
-    def __init__(
-        self, mujoco: Any, model: Any, held: CompiledMechanism, parents_touch: bool
-    ) -> None:
+    def __init__(self, mujoco: Any, model: Any, held: CompiledModel, parents_touch: bool) -> None:
         self._mujoco = mujoco
         self._model = model
         self._data = mujoco.MjData(model)
@@ -189,7 +187,7 @@ class MujocoWorld(World):
         return np.array([warning.number for warning in self._data.warning], np.int64)
 
 
-def _link(model: Any, held: CompiledMechanism, i: int) -> LoadedLink:
+def _link(model: Any, held: CompiledModel, i: int) -> LoadedLink:
     body = held.bodies[i]
     geoms = ((k, held.geoms[k]) for k in body.geoms)
     solid = [k for k, geom in geoms if geom.collides and geom.shape not in FLOORS]
@@ -201,7 +199,7 @@ def _link(model: Any, held: CompiledMechanism, i: int) -> LoadedLink:
     return LoadedLink(held.names[i], mass, len(solid), moments, center, static, friction)
 
 
-def _below(held: CompiledMechanism, body: int) -> frozenset[str]:
+def _below(held: CompiledModel, body: int) -> frozenset[str]:
     found = {body}
     for i, each in enumerate(held.bodies):
         # Children are numbered after their parents.
@@ -210,15 +208,13 @@ def _below(held: CompiledMechanism, body: int) -> frozenset[str]:
     return frozenset(held.names[i] for i in found)
 
 
-def _excluded(
-    held: CompiledMechanism, links: tuple[LoadedLink, ...]
-) -> tuple[tuple[str, str], ...]:
+def _excluded(held: CompiledModel, links: tuple[LoadedLink, ...]) -> tuple[tuple[str, str], ...]:
     solid = ((a, b) for a, b in held.apart() if links[a].shapes and links[b].shapes)
     moved = ((a, b) for a, b in solid if held.bodies[a].weld != held.bodies[b].weld)
     return tuple((links[a].name, links[b].name) for a, b in moved)
 
 
-def _joints(held: CompiledMechanism) -> tuple[LoadedJoint, ...]:
+def _joints(held: CompiledModel) -> tuple[LoadedJoint, ...]:
     mimics = held.mimics()
     found = []
     for i, joint in enumerate(held.joints):

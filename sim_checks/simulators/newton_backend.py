@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..config import MotionConfig
-from ..read.mjcf_model import CompiledMechanism, read_mechanism
+from ..read.mjcf_model import CompiledModel, read_model
 from ..read.read import format_of
 from .chatter import captured_lines
 from .mujoco_backend import MujocoWorld
@@ -77,7 +77,7 @@ class NewtonWorld(MujocoWorld):
     """What Newton's solver made of its model; links and joints by the file's names."""
 
     def __init__(self, mujoco: Any, model: Any, loaded: Any, solid: int) -> None:
-        held = _renamed(read_mechanism(model), loaded)
+        held = _renamed(read_model(model), loaded)
         super().__init__(mujoco, model, held, parents_touch=False)
         frictions = _frictions(loaded, solid, held.names[0])
         moved = frozenset[str]().union(*self.carried)
@@ -97,7 +97,7 @@ class NewtonWorld(MujocoWorld):
         self.model = replace(self.model, links=links, pairs=rules)
 
 
-def _renamed(held: CompiledMechanism, loaded: Any) -> CompiledMechanism:
+def _renamed(held: CompiledModel, loaded: Any) -> CompiledModel:
     """Return the same by the file's names, which Newton's solver calls by their model's, too."""
     labels = (*loaded.body_label, *loaded.joint_label)
     names = {each.replace(SEPARATOR, "_"): each.rpartition(SEPARATOR)[2] for each in labels}
@@ -121,7 +121,7 @@ def _frictions(loaded: Any, solid: int, world: str) -> dict[str, list[float]]:
     return found
 
 
-def _jointed(pair: tuple[str, str], held: CompiledMechanism) -> bool:
+def _jointed(pair: tuple[str, str], held: CompiledModel) -> bool:
     first, second = (held.names.index(name) for name in pair)
     one, other = (held.bodies[number].parent for number in (first, second))
     return first in (second, other) or second == one

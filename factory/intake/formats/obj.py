@@ -140,34 +140,29 @@ def _assemble(
         originals.append(Material("default"))
     safe = unique_names(m.name for m in originals)
     named = tuple(replace(m, name=n) for n, m in zip(safe, originals, strict=True))
+    positions = _gather(lines.positions, corners[..., 0], 3, name)
+    if (corners[..., 0] < 0).any():
+        raise unreadable(name, "a face has a corner without a vertex")
     return Soup(
-        corners=_gather(lines.positions, corners[..., 0], 3, name),
-        uv=_optional(lines.coordinates, corners[..., 1], 2, name),
-        normals=_optional(lines.normals, corners[..., 2], 3, name),
+        corners=np.zeros((0, 3, 3)) if positions is None else positions,
+        uv=_gather(lines.coordinates, corners[..., 1], 2, name),
+        normals=_gather(lines.normals, corners[..., 2], 3, name),
         face_material=face_material,
         materials=named or (Material("default"),),
         notes=tuple(notes),
     )
 
 
-def _gather(values: array[float], indices: IntArray, width: int, name: str) -> FloatArray:
+def _gather(values: array[float], indices: IntArray, width: int, name: str) -> FloatArray | None:
+    """Return what corners refer to, NaN for those that name nothing; ``None`` if none does."""
+    if not (indices >= 0).any():
+        return None
     table = np.array(values, dtype=np.float64).reshape(-1, width)
-    if indices.size and indices.max() >= len(table):
+    if indices.max() >= len(table):
         wrong = f"a face refers to entry {indices.max() + 1}, but there are {len(table)}"
         raise unreadable(name, wrong)
-    if indices.size and indices.min() < 0:
-        raise unreadable(name, "a face has a corner without a vertex")
-    return np.asarray(table[indices])
-
-
-def _optional(values: array[float], indices: IntArray, width: int, name: str) -> FloatArray | None:
-    if not indices.size or not (indices >= 0).any():
-        return None
-    padded = values + array("d", [float("nan")] * width)
-    blank = len(padded) // width - 1
-    if indices.max() >= blank:
-        raise unreadable(name, f"a face refers to entry {indices.max() + 1}, but there are {blank}")
-    return _gather(padded, np.where(indices < 0, blank, indices), width, name)
+    # The last row, which -1 means.
+    return np.vstack([table, np.full(width, np.nan)])[indices]
 
 
 def read_mtl(data: bytes, folder: Path, files: InputFiles, notes: list[str]) -> dict[str, Material]:

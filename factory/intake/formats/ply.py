@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from asset_factory.sim_checks.read.meshes import fan_polygons
+
 from ...geometry.colors import linear_of
 from ...geometry.soup import Soup
 from ...mesh import FloatArray, IntArray, Material
@@ -70,20 +72,16 @@ class PlyTable:
     lists: dict[str, tuple[IntArray, npt.NDArray[Any]]] = field(default_factory=dict)
 
 
-class _Growing:
-    """A table while its rows are read one by one: values by property, and the lists' sizes."""
-
-    def __init__(self, element: PlyElement) -> None:
-        plain = {name: length is None for name, _, length in element.properties}
-        self.scalars: dict[str, list[Any]] = {name: [] for name, is_so in plain.items() if is_so}
-        self.lists: dict[str, list[Any]] = {name: [] for name, is_so in plain.items() if not is_so}
-        self.sizes: dict[str, list[int]] = {name: [] for name in self.lists}
-
-    def table(self) -> PlyTable:
-        joined = {n: np.concatenate(e) if e else np.zeros(0) for n, e in self.lists.items()}
-        sizes = {name: np.array(each, dtype=np.int64) for name, each in self.sizes.items()}
-        scalars = {name: np.array(values) for name, values in self.scalars.items()}
-        return PlyTable(scalars, {name: (sizes[name], joined[name]) for name in sizes})
+def _table(element: PlyElement, columns: list[list[Any]]) -> PlyTable:
+    """Return columns that were read row by row: a property's numbers, or arrays of its lists."""
+    table = PlyTable()
+    for (name, _, length), values in zip(element.properties, columns, strict=True):
+        if length is None:
+            table.scalars[name] = np.array(values)
+        else:
+            sizes = np.array(list(map(len, values)), dtype=np.int64)
+            table.lists[name] = (sizes, np.concatenate(values) if values else np.zeros(0))
+    return table
 
 
 def read_header(data: bytes, name: str) -> PlyHeader:
@@ -146,12 +144,12 @@ def _text_table(element: PlyElement, rows: list[list[bytes]]) -> PlyTable:
         values = np.array(rows, dtype=np.float64).reshape(len(rows), -1)
         names = enumerate(name for name, _, _ in element.properties)
         return PlyTable({name: values[:, column] for column, name in names})
-    found = _Growing(element)
+    columns: list[list[Any]] = [[] for _ in element.properties]
     for row in rows:
         at = 0
-        for name, _, length in element.properties:
+        for column, (_, _, length) in zip(columns, element.properties, strict=True):
             if length is None:
-                found.scalars[name].append(float(row[at]))
+                column.append(float(row[at]))
                 at += 1
                 continue
             size = int(row[at])
@@ -159,74 +157,56 @@ def _text_table(element: PlyElement, rows: list[list[bytes]]) -> PlyTable:
             if size < 0 or len(words) != size:
                 announced = f"a list of {element.name} announces {size} values"
                 raise ValueError(f"{announced} and has {len(words)}")
-            found.sizes[name].append(size)
-            found.lists[name].append(np.array([float(word) for word in words]))
+            column.append(np.array([float(word) for word in words]))
             at += 1 + size
-    return found.table()
+    return _table(element, columns)
 
 
 def _binary_table(data: bytes, start: int, element: PlyElement, order: str) -> tuple[PlyTable, int]:
     """Return an element's values, and where the next starts; equal lists are read at once."""
-    sizes = [0 if length is None else -1 for _, _, length in element.properties]
-    if element.count:
-        sizes = _first_sizes(data, start, element, order)
+    properties = [(f"{k}", kind, length) for k, (_, kind, length) in enumerate(element.properties)]
+    first = PlyElement(element.name, 1 if element.count else 0, properties)
+    lists = _binary_rows(data, start, first, order)[0].lists
+    sizes = {key: int(lengths.sum()) for key, (lengths, _) in lists.items()}
     fields: list[tuple[Any, ...]] = []
-    for k, (_, kind, length) in enumerate(element.properties):
+    for key, kind, length in properties:
         if length is None:
-            fields.append((f"{k}", order + kind))
+            fields.append((key, order + kind))
         else:
-            fields += [(f"{k}n", order + length), (f"{k}", order + kind, (max(sizes[k], 0),))]
+            fields += [(f"{key}n", order + length), (key, order + kind, (sizes[key],))]
     dtype = np.dtype(fields)
-    if len(data) - start >= element.count * dtype.itemsize:
+    end = start + element.count * dtype.itemsize
+    if end <= len(data):
         rows = np.frombuffer(data, dtype, element.count, start)
-        lists = [k for k, (_, _, length) in enumerate(element.properties) if length]
-        if all((rows[f"{k}n"] == sizes[k]).all() for k in lists):
+        if all((rows[f"{key}n"] == size).all() for key, size in sizes.items()):
             table = PlyTable()
             for k, (name, _, length) in enumerate(element.properties):
                 if length is None:
                     table.scalars[name] = rows[f"{k}"]
                 else:
                     table.lists[name] = (rows[f"{k}n"].astype(np.int64), rows[f"{k}"].reshape(-1))
-            return table, start + element.count * dtype.itemsize
+            return table, end
     return _binary_rows(data, start, element, order)
 
 
-def _first_sizes(data: bytes, start: int, element: PlyElement, order: str) -> list[int]:
-    sizes: list[int] = []
-    for _, kind, length in element.properties:
-        if length is None:
-            sizes.append(0)
-            start += np.dtype(kind).itemsize
-            continue
-        size = int(np.frombuffer(data, order + length, 1, start)[0])
-        sizes.append(size)
-        start += np.dtype(length).itemsize + size * np.dtype(kind).itemsize
-        if size < 0 or start > len(data):
-            past = f"a list of {element.name} has {size} values, past the end of the file"
-            raise ValueError(past)
-    return sizes
-
-
 def _binary_rows(data: bytes, start: int, element: PlyElement, order: str) -> tuple[PlyTable, int]:
-    found = _Growing(element)
-    plan = [
-        (name, np.dtype(order + kind), None if length is None else np.dtype(order + length))
-        for name, kind, length in element.properties
+    plan: list[tuple[list[Any], Any, Any]] = [
+        ([], np.dtype(order + kind), None if length is None else np.dtype(order + length))
+        for _, kind, length in element.properties
     ]
     for _ in range(element.count):
-        for name, kind, length in plan:
+        for column, kind, length in plan:
             size = 1
             if length is not None:
                 size = int(np.frombuffer(data, length, 1, start)[0])
                 start += length.itemsize
-                found.sizes[name].append(size)
-            values = np.frombuffer(data, kind, size, start) if size > 0 else np.zeros(0, kind)
-            start += max(size, 0) * kind.itemsize
-            if length is None:
-                found.scalars[name].append(values[0])
-            else:
-                found.lists[name].append(values)
-    return found.table(), start
+                if not 0 <= size * kind.itemsize <= len(data) - start:
+                    past = f"a list of {element.name} has {size} values, past the end of the file"
+                    raise ValueError(past)
+            values = np.frombuffer(data, kind, size, start) if size else np.zeros(0, kind)
+            start += size * kind.itemsize
+            column.append(values[0] if length is None else values)
+    return _table(element, [column for column, _, _ in plan]), start
 
 
 _COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
@@ -287,12 +267,8 @@ def read_ply(data: bytes, path: Path, files: InputFiles) -> Soup:
 def _triangles(face: PlyTable, vertex_count: int, name: str, max_faces: int) -> _Triangles:
     lists = face.lists.get("vertex_indices") or face.lists.get("vertex_index")
     lengths, flat = lists or (_NONE, _NONE)
-    counts = np.maximum(lengths - 2, 0)
-    require_at_most(name, int(counts.sum()), max_faces, "faces")
-    polygon = np.repeat(np.arange(len(lengths)), counts)
-    step = np.arange(len(polygon)) - np.repeat(np.cumsum(counts) - counts, counts)
-    base = (np.cumsum(lengths) - lengths)[polygon]
-    slots = np.stack([base, base + step + 1, base + step + 2], axis=1)
+    require_at_most(name, int(np.maximum(lengths - 2, 0).sum()), max_faces, "faces")
+    slots = fan_polygons(lengths)
     vertices = flat.astype(np.int64)[slots]
     if len(vertices) and not 0 <= vertices.min() <= vertices.max() < vertex_count:
         raise unreadable(name, f"a face uses a vertex outside 0..{vertex_count - 1}")

@@ -24,7 +24,7 @@ from asset_factory.sim_checks.read.mjcf_model import (
 )
 from asset_factory.sim_checks.read.multiplied import refuse_multiplied
 from asset_factory.sim_checks.read.native import read_apart
-from asset_factory.sim_checks.read.references import named_files
+from asset_factory.sim_checks.read.references import MujocoModel, follow_models
 
 from ...config import IntakeConfig
 from ...errors import InputRejected
@@ -55,13 +55,14 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
         DescriptionError: what its reader refuses.
         TimeoutError, ChildProcessError: the compiler hung or was killed, which is no verdict.
     """
-    files = _referenced_files(root, path, config.max_bytes, log)
+    models = follow_models(path, root, partial(read_xml, max_bytes=config.max_bytes, log=log))
+    files = _referenced_files(models, path.name)
     size = sum(file.stat().st_size for file in files)
     require_at_most("all files together", size, config.max_bytes, "bytes")
-    refuse_multiplied(path, root)
+    refuse_multiplied(path.name, models)
     # Before they are compiled: whoever changes them after this is found out by the digest.
     digests = tuple(log.digest(file) for file in (path, *files))
-    model = _compiled(path)
+    model = read_apart(partial(compile_model, lenient=True), path)
     visuals = _visuals(model)
     notes = list(_notes(model))
     images = _images(model, InputFiles(path.parent, config, log), path.parent)
@@ -80,19 +81,15 @@ def import_mjcf(root: ET.Element, path: Path, config: IntakeConfig, log: ReadLog
     return Imported(tuple(pieces), names, joints, digests, tuple(notes), "mjcf")
 
 
-def _referenced_files(root: ET.Element, path: Path, max_bytes: int, log: ReadLog) -> list[Path]:
+def _referenced_files(models: list[MujocoModel], name: str) -> list[Path]:
     """Return every file that an MJCF and its inner documents refer to, each once."""
     found: dict[Path, None] = {}
-    for named in named_files(path, root, partial(read_xml, max_bytes=max_bytes, log=log)):
+    for named in (each for model in models for each in model.named):
         if not named.files:
-            message = f"{path.name}: {named.said} is not there; want it below its folder"
+            message = f"{name}: {named.said} is not there; want it below its folder"
             raise DescriptionError("missing_file", message, named.places)
         found |= dict.fromkeys(named.files)
     return list(found)
-
-
-def _compiled(path: Path) -> CompiledModel:
-    return read_apart(partial(compile_model, lenient=True), path)
 
 
 def _world_poses(model: CompiledModel) -> list[FloatArray]:

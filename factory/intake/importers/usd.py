@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from asset_factory.sim_checks.geometry.placing import placed
 from asset_factory.sim_checks.processes.isolation import WarmChild
 from asset_factory.sim_checks.read.native import ask_of
 from asset_factory.sim_checks.read.usd.layers import require_inside
@@ -69,8 +70,7 @@ def _pieces(stage: PhysicsStage, name: str, max_faces: int) -> list[tuple[str, M
     found: list[tuple[str, bool, Mesh]] = []
     faces = 0
     for surface in stage.surfaces:
-        pose = stage.bodies[surface.body].pose
-        vertices = surface.vertices @ pose[:3, :3].T + pose[:3, 3]
+        vertices = placed(surface.vertices, stage.bodies[surface.body].pose)
         try:
             mesh = clean(plain_soup(vertices[surface.faces]), surface.name).mesh
         except InputRejected as error:

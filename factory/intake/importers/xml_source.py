@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from urllib.parse import unquote
 from xml.etree.ElementTree import Element
 
 from asset_factory.sim_checks.description import DescriptionError
-from asset_factory.sim_checks.read.document import is_file, locate, parse_xml, read_document
+from asset_factory.sim_checks.read.document import locate, parse_xml, read_document
 
 from ...runtime.store import digest_bytes
 from ..reads import ABSENT, ReadLog
@@ -36,7 +37,7 @@ def find_reference(reference: str, folder: Path, where: str, log: ReadLog) -> Pa
     """
     with rejecting(where, folder, log):
         for place in locate(unquote(reference.strip()).replace("\\", "/"), folder.resolve()):
-            if is_file(place):
+            if os.path.isfile(place):
                 return place.resolve()
             log.note(place, ABSENT)
         why = f"{reference[:160]!r} is not there; want it below the description's folder"

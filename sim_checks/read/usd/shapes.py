@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from ...description import DescriptionError, FloatArray, IntArray
+from ...geometry.placing import placed
 from .. import primitives
+from ..meshes import fan_polygons
 
 #: What turns a shape along z so that it lies along a USD axis, shape [3, 3] each.
 ALONG = {
@@ -61,7 +63,7 @@ def read_triangles(prim: Any, place: FloatArray) -> tuple[FloatArray, IntArray] 
     vertices, faces = found
     if np.linalg.det(place[:3, :3]) < 0.0:
         faces = faces[:, [0, 2, 1]]
-    return vertices @ place[:3, :3].T + place[:3, 3], faces
+    return placed(vertices, place), faces
 
 
 def _value(attribute: Any) -> Any:
@@ -97,25 +99,10 @@ def _mesh(mesh: Any) -> tuple[FloatArray, IntArray]:
     holes = _array(mesh.GetHoleIndicesAttr(), np.int64)
     solid = np.ones(len(counts), dtype=np.bool_)
     solid[holes[(holes >= 0) & (holes < len(counts))]] = False
-    faces = _fan(counts, corners, solid)
+    faces = corners[fan_polygons(counts)[np.repeat(solid, np.maximum(counts - 2, 0))]]
     if _value(mesh.GetOrientationAttr()) == UsdGeom.Tokens.leftHanded:
         faces = faces[:, [0, 2, 1]]
     return points, faces
-
-
-def _fan(counts: IntArray, corners: IntArray, wanted: np.ndarray) -> IntArray:
-    """Return polygons as triangles around their first corners, shape [triangle_count, 3].
-
-    Args:
-        counts: corners of each polygon, shape [polygon_count].
-        corners: of all polygons in order, shape [sum of ``counts``].
-        wanted: which polygons, shape [polygon_count].
-    """
-    each = np.where(wanted, np.maximum(counts - 2, 0), 0)
-    polygon = np.repeat(np.arange(len(counts)), each)
-    first = (np.cumsum(counts) - counts)[polygon]
-    step = np.arange(len(polygon)) - np.repeat(np.cumsum(each) - each, each)
-    return np.column_stack([corners[first], corners[first + step + 1], corners[first + step + 2]])
 
 
 def _primitive(prim: Any) -> tuple[FloatArray, IntArray] | None:

@@ -114,15 +114,6 @@ def test_a_hostile_folder_is_searched_within_bounds(tmp_path, attack):
     assert grown < MOST_BYTES
 
 
-def test_meshes_named_in_documents_that_include_each_other_are_found(tmp_path):
-    (tmp_path / "scene.xml").write_text('<mujoco><include file="a.xml"/></mujoco>')
-    (tmp_path / "a.xml").write_text('<x><include file="scene.xml"/><include file="b.xml"/></x>')
-    (tmp_path / "b.xml").write_text('<x><mesh file="door.stl"/></x>')
-    (tmp_path / "door.stl").touch()
-    (tmp_path / "chair.stl").touch()
-    assert find_inputs((tmp_path,)) == (tmp_path / "chair.stl", tmp_path / "scene.xml")
-
-
 def test_a_file_too_large_for_anybody_is_told_apart_without_being_read(tmp_path):
     digests = []
     for size in (2**40, 2**40 + 1):

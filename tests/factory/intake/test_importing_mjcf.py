@@ -7,8 +7,8 @@ from test_importing_urdf import articulated
 
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.intake.importers.load import load_description
 from asset_factory.factory.intake.importers.mjcf import shown
+from asset_factory.factory.intake.load import load_description
 from asset_factory.factory.intake.reads import ABSENT, ReadLog
 from asset_factory.sim_checks.read.mjcf_model import CompiledGeom
 
@@ -71,32 +71,21 @@ def test_a_recentred_mesh_lands_where_the_file_had_it(tmp_path):
     np.testing.assert_allclose(found, np.unique(expected.round(4), axis=0), atol=2e-4)
 
 
-def test_several_joints_of_one_body_become_a_chain_in_their_order(tmp_path):
+def test_joints_of_one_body_become_a_chain_and_limits_count_from_the_reference_pose(tmp_path):
     intake = load(
         tmp_path,
         """<worldbody><geom type="box" size=".5 .5 .5"/>
         <body name="knob" pos="0 0 1">
           <joint name="turn" type="hinge" axis="0 0 1" limited="false"/>
-          <joint name="slide" type="slide" axis="1 0 0" range="0 .3"/>
+          <joint name="slide" type="slide" axis="1 0 0" ref=".2" range=".2 .5"/>
           <geom type="sphere" size=".1"/></body></worldbody>""",
     )
     result = articulated(intake)
     assert [joint.name for joint in result.joints] == ["turn", "slide"]
+    assert (result.joints[1].lower, result.joints[1].upper) == pytest.approx((0.0, 0.3))
     assert len(result.parts[1].faces) == 0
     pose = result.poses({"turn": np.pi / 2.0, "slide": 0.3})[2]
     np.testing.assert_allclose(pose[:3, 3], [0.0, 0.3, 0.0], atol=1e-12)
-
-
-def test_limits_count_from_the_reference_pose(tmp_path):
-    intake = load(
-        tmp_path,
-        """<compiler angle="radian"/><worldbody><geom type="box" size=".5 .5 .5"/>
-        <body name="b" pos="0 0 1">
-        <joint name="j" type="slide" axis="1 0 0" ref=".2" range=".2 .6"/>
-        <geom type="sphere" size=".1"/></body></worldbody>""",
-    )
-    joint = articulated(intake).joint("j")
-    assert (joint.lower, joint.upper) == pytest.approx((0.0, 0.4))
 
 
 def geom(group, collides, alpha=1.0):

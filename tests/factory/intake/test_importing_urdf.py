@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.config import IntakeConfig
-from asset_factory.factory.intake.importers.load import load_description
+from asset_factory.factory.intake.load import load_description
 from asset_factory.sim_checks.geometry.placing import rigid
 
 BOX = '<visual><geometry><box size="1 1 1"/></geometry></visual>'

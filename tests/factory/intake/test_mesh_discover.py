@@ -16,66 +16,62 @@ def _touch(path, content="x"):
     return path
 
 
-def test_folders_are_searched_in_sorted_order_and_a_file_named_twice_is_one_input(tmp_path):
-    b = _touch(tmp_path / "b" / "y.OBJ")
-    a = _touch(tmp_path / "a" / "x.glb")
-    z = _touch(tmp_path / "z.ply")
-    _touch(tmp_path / "a" / "readme.txt")
-    _touch(tmp_path / "a" / "x.mtl")
-    assert find_inputs([tmp_path]) == (z, a, b)
-    assert find_inputs([b, tmp_path / "b", b]) == (b,)
+ROBOT = '<robot><mesh filename="{}"/></robot>'
+SCENE = "<?xml version='1.0'?><!-- x --><mujoco><mesh file='link.stl'/></mujoco>"
+CIRCLE = {
+    "scene.xml": '<mujoco><include file="a.xml"/></mujoco>',
+    "a.xml": '<x><include file="scene.xml"/><include file="b.xml"/></x>',
+    "b.xml": '<x><mesh file="door.stl"/></x>',
+}
+OVEN = {"r.urdf": ROBOT.format("package://r/meshes/oven.obj")}
+#: Documents and other files of a folder, and those of them that are inputs, in order.
+FOLDERS = {
+    "sorted": ({}, "b/y.OBJ a/x.glb z.ply a/readme.txt a/x.mtl", "z.ply a/x.glb b/y.OBJ"),
+    "a folder of a URDF's meshes": (OVEN, "meshes/oven.obj meshes/spare/other.obj", "r.urdf"),
+    "an MJCF's mesh under any suffix": ({"s.xml": SCENE}, "link.obj link.stl", "s.xml"),
+    "a mesh beside that is named": (
+        {"r.urdf": ROBOT.format("a.obj")},
+        "a.obj b.glb",
+        "b.glb r.urdf",
+    ),
+    "a description of nothing": ({"a.urdf": "<robot/>"}, "b.glb", "a.urdf b.glb"),
+    "documents that include each other": (CIRCLE, "door.stl chair.stl", "chair.stl scene.xml"),
+    "other XML": ({"notes.xml": "<notes/>"}, "plain.stl", "plain.stl"),
+    # It names no mesh, so the one beside it is an input too.
+    "an early root": ({"a.xml": f"<!--{'x' * 3000}--><mujoco>"}, "b.glb", "a.xml b.glb"),
+    "a root too late": ({"a.xml": f"<!--{'x' * 3_000_000}--><mujoco/>"}, "b.glb", "b.glb"),
+    "layers of USD": ({}, "oven/oven.usda oven/payload.usda", "oven/oven.usda"),
+    "a registry": ({"out/assets/cup-0/asset.urdf": "<robot/>"}, "out/registry.db c.glb", "c.glb"),
+    "hidden files": ({}, "a.glb .b.glb .git/c.glb", "a.glb"),
+}
 
 
-def test_meshes_of_a_description_are_not_inputs_of_their_own(tmp_path):
-    robot = '<robot><mesh filename="package://r/meshes/link.obj"/></robot>'
-    urdf = _touch(tmp_path / "robot" / "robot.urdf", robot)
-    _touch(tmp_path / "robot" / "meshes" / "spare" / "other.obj")
-    mesh = _touch(tmp_path / "robot" / "meshes" / "link.obj")
-    scene = "<?xml version='1.0'?><!-- x --><mujoco><mesh file='link.stl'/></mujoco>"
-    mjcf = _touch(tmp_path / "scene" / "scene.xml", scene)
-    _touch(tmp_path / "scene" / "link.obj")
-    _touch(tmp_path / "scene" / "link.stl")
-    other = _touch(tmp_path / "notes" / "notes.xml", "<notes/>")
-    plain = _touch(tmp_path / "notes" / "plain.stl")
-    assert find_inputs([tmp_path]) == (plain, urdf, mjcf)
-    assert find_inputs([mesh, other]) == (mesh, other)
+@pytest.mark.parametrize("name", FOLDERS)
+def test_a_folder_is_searched_for_inputs(name, tmp_path):
+    documents, others, found = FOLDERS[name]
+    for file, text in {**documents, **dict.fromkeys(others.split(), "x")}.items():
+        _touch(tmp_path / file, text)
+    assert find_inputs([tmp_path]) == tuple(tmp_path / file for file in found.split())
 
 
-def test_meshes_beside_a_description_that_it_does_not_name_are_inputs(tmp_path):
-    urdf = _touch(tmp_path / "robot.urdf", '<robot><mesh filename="door.obj"/></robot>')
-    _touch(tmp_path / "door.obj")
-    others = [_touch(tmp_path / f"{name}.glb") for name in ("chair", "table")]
-    assert set(find_inputs([tmp_path])) == {*others, urdf}
-    empty = _touch(tmp_path / "empty" / "a.urdf", "<robot/>")
-    mesh = _touch(tmp_path / "empty" / "b.glb")
-    assert find_inputs([tmp_path / "empty"]) == (empty, mesh)
+def test_what_is_named_is_an_input_once_whatever_it_is(tmp_path):
+    mesh = _touch(tmp_path / "door.obj")
+    _touch(tmp_path / "robot.urdf", ROBOT.format("door.obj"))
+    asset = _touch(tmp_path / "out" / "assets" / "cup-0000000000" / "asset.urdf", "<robot/>")
+    _touch(tmp_path / "out" / "registry.db")
+    other = _touch(tmp_path / "notes.xml", "<notes/>")
+    named = [mesh, other, mesh, tmp_path / "out" / "assets"]
+    assert find_inputs(named) == (mesh, other, asset)
 
 
-def test_the_root_layer_of_a_usd_asset_is_an_input_and_its_other_layers_are_not(tmp_path):
-    main = _touch(tmp_path / "oven" / "oven.usda")
-    _touch(tmp_path / "oven" / "payload.usda")
-    assert find_inputs([tmp_path]) == (main,)
-
-
-def test_links_out_of_the_folder_are_named_and_passed_over_as_hidden_files_are(tmp_path):
+def test_links_out_of_the_folder_are_named_and_passed_over(tmp_path):
     outside = _touch(tmp_path / "outside.glb")
     inside = _touch(tmp_path / "in" / "a.glb")
     os.symlink(outside, tmp_path / "in" / "b.glb")
     os.symlink(tmp_path, tmp_path / "in" / "up")
-    _touch(tmp_path / "in" / ".hidden.glb")
-    _touch(tmp_path / "in" / ".git" / "c.glb")
     assert find_inputs([tmp_path / "in"]) == (inside,)
     os.symlink(inside, tmp_path / "in" / "again.glb")
     assert links_out([tmp_path / "in"]) == (tmp_path / "in" / "b.glb", tmp_path / "in" / "up")
-
-
-def test_a_registry_among_the_inputs_is_passed_over(tmp_path):
-    asset = _touch(tmp_path / "out" / "assets" / "cup-0000000000" / "asset.urdf", "<robot/>")
-    _touch(tmp_path / "out" / "registry.db")
-    mesh = _touch(tmp_path / "cup.glb")
-    assert find_inputs((tmp_path,)) == (mesh,)
-    # Unless somebody asks for it.
-    assert find_inputs((tmp_path / "out" / "assets",)) == (asset,)
 
 
 @pytest.mark.parametrize("before", ["../meshes/", "package://cabinet/meshes/"])
@@ -87,15 +83,6 @@ def test_meshes_beside_the_folder_of_a_description_belong_to_it(tmp_path, before
     (main := path.with_name("main.urdf.xacro")).write_text("<robot/>")
     alone = [tmp_path / "alone" / f"{name}.obj" for name in ("drawer", "shell")]
     assert find_inputs([tmp_path]) == (*alone, path, main)
-
-
-def test_the_root_of_an_xml_file_is_looked_for_at_its_beginning_only(tmp_path):
-    mesh = _touch(tmp_path / "cube.glb")
-    late = _touch(tmp_path / "a.xml", f"<!--{'x' * 3_000_000}--><mujoco/>")
-    assert find_inputs([tmp_path]) == (mesh,)
-    # It names no mesh, so the one beside it is an input too.
-    late.write_text(f"<!--{'x' * 3000}--><mujoco>")
-    assert find_inputs([tmp_path]) == (late, mesh)
 
 
 MJCF = '<mujoco><compiler meshdir="assets"/><asset><mesh file="a.stl"/></asset></mujoco>'

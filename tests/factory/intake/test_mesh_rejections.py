@@ -34,6 +34,11 @@ PLY = (
 )
 CLOUD = f"ply\nformat ascii 1.0\nelement vertex 3\n{XYZ}end_header\n0 0 0\n1 0 0\n0 1 0\n"
 VAST_PLY = f"ply\nformat binary_little_endian 1.0\nelement vertex 99999999999\n{XYZ}end_header\n"
+#: A triangle, and then a polygon that says it has fewer corners than none.
+NEGATIVE_PLY = (
+    f"ply\nformat binary_little_endian 1.0\nelement vertex 3\n{XYZ}element face 2\n"
+    "property list char int vertex_indices\nend_header\n"
+).encode() + struct.pack("<9fb3ib", *range(9), 3, 0, 1, 2, -1)
 LFS = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n"
 
 
@@ -93,6 +98,7 @@ UNREADABLE = {
     "no format.ply": (PLY.replace("format ascii 1.0\n", ""), "its header names no format"),
     "no head.ply": (PLY.replace("ply\n", "plx\n", 1), "does not start with ply"),
     "cut.ply": (PLY.rsplit("3 0 2 3", 1)[0], "ends before its 2 entries of face"),
+    "negative.ply": (NEGATIVE_PLY, "a list of face has -1 values"),
     "vertex.ply": (PLY.replace("3 0 1 2", "3 0 99 1"), "a vertex outside 0..3"),
     "count.ply": (PLY.replace("3 0 1 2", "200 0 1 2"), "announces 200 values"),
     "entry 0.obj": (f"{OBJ}f 0 1 2\n", "refers to entry 0"),

@@ -13,6 +13,8 @@ import numpy.typing as npt
 import trimesh
 from scipy.spatial.transform import Rotation
 
+from asset_factory.sim_checks.description import Mimic
+
 FloatArray = npt.NDArray[np.float64]
 
 
@@ -37,7 +39,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Move:
-    """A joint: ``axis`` in the world's frame, limits [rad] or [m]."""
+    """A joint: ``axis`` in the world's frame, limits [rad] or [m], and what it follows."""
 
     name: str
     kind: str
@@ -46,6 +48,7 @@ class Move:
     axis: tuple[float, float, float]
     lower: float
     upper: float
+    mimic: Mimic | None = None
 
 
 @dataclass(frozen=True)
@@ -139,7 +142,8 @@ def write_mjcf(thing: Thing, folder: Path) -> Path:
     path = folder / f"{thing.name}.xml"
     path.write_text(
         f'<mujoco model="{thing.name}"><compiler angle="radian"/>'
-        f"<asset>{''.join(meshes)}</asset><worldbody>{tree}</worldbody></mujoco>\n"
+        f"<asset>{''.join(meshes)}</asset><worldbody>{tree}</worldbody>"
+        f"{''.join(map(_mjcf_equality, thing.moves))}</mujoco>\n"
     )
     return path
 
@@ -175,8 +179,24 @@ def _urdf_joint(thing: Thing, move: Move) -> str:
         f'<child link="{move.child}"/>'
         f'<origin xyz="{words(origin[:3, 3])}" rpy="{words(turn.as_euler("xyz"))}"/>'
         f'<axis xyz="{words(axis)}"/>'
-        f'<limit lower="{move.lower!r}" upper="{move.upper!r}" effort="50" velocity="2"/></joint>\n'
+        f'<limit lower="{move.lower!r}" upper="{move.upper!r}" effort="50" velocity="2"/>'
+        f"{_urdf_mimic(move.mimic)}</joint>\n"
     )
+
+
+def _urdf_mimic(mimic: Mimic | None) -> str:
+    if mimic is None:
+        return ""
+    rate = f'multiplier="{mimic.multiplier!r}" offset="{mimic.offset!r}"'
+    return f'<mimic joint="{mimic.leader}" {rate}/>'
+
+
+def _mjcf_equality(move: Move) -> str:
+    if move.mimic is None:
+        return ""
+    rate = f"{move.mimic.offset!r} {move.mimic.multiplier!r} 0 0 0"
+    pair = f'joint1="{move.name}" joint2="{move.mimic.leader}"'
+    return f'<equality><joint {pair} polycoef="{rate}"/></equality>'
 
 
 def _mjcf_body(

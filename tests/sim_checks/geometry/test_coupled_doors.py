@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from engines import skipped_if_missing
-from fault_corpus.things import Body, Move, Thing, at, box, write_mjcf, write_urdf
+from fault_corpus.things import Body, Move, Thing, at, box, with_move, write_mjcf, write_urdf
 from hypothesis import given
 from hypothesis import strategies as st
 from sliders import Sliders
@@ -36,7 +36,7 @@ def engine(request):
     return request.param
 
 
-def doors(mimic, width, *, drawer):
+def doors(mimic, width=0.47, *, drawer=False):
     """Two doors before a 1 m carcass, shut with the leader at 0; a drawer wider than either."""
     sign = 1.0 if mimic.multiplier > 0.0 else -1.0
     hinge = np.array([0.5, -0.03, 0.0])
@@ -52,34 +52,13 @@ def doors(mimic, width, *, drawer):
     ]
     moves = [
         Move("lead", "revolute", "carcass", "left", (0.0, 0.0, -1.0), 0.0, OPEN),
-        Move("led", "revolute", "carcass", "right", (0.0, 0.0, sign), lower, upper),
+        Move("led", "revolute", "carcass", "right", (0.0, 0.0, sign), lower, upper, mimic),
     ]
     if drawer:
         tray = box((0.0, 0.25, 0.0), (0.6, 0.45, 0.2))
         bodies.append(Body("drawer", (tray,), at(0.0, 0.0, 0.0), 2.0))
         moves.append(Move("slide", "prismatic", "carcass", "drawer", (0.0, -1.0, 0.0), 0.0, 0.3))
     return Thing("doors", tuple(bodies), tuple(moves))
-
-
-def mimic_element(mimic):
-    words = f'joint="{mimic.leader}" multiplier="{mimic.multiplier}" offset="{mimic.offset}"'
-    return f"<mimic {words}/>"
-
-
-def coupled(folder, mimic, width=0.47, *, drawer=True, kind="urdf"):
-    thing = doors(mimic, width, drawer=drawer)
-    path = (write_urdf if kind == "urdf" else write_mjcf)(thing, folder)
-    text = path.read_text()
-    if kind == "urdf":
-        head, tail = text.split('<joint name="led"')
-        led = tail.replace("</joint>", f"{mimic_element(mimic)}</joint>", 1)
-        text = f'{head}<joint name="led"{led}'
-    else:
-        rate = f"{mimic.offset} {mimic.multiplier} 0 0 0"
-        follows = f'<joint joint1="led" joint2="lead" polycoef="{rate}"/>'
-        text = text.replace("</mujoco>", f"<equality>{follows}</equality></mujoco>")
-    path.write_text(text)
-    return path
 
 
 def judged(path, engine):
@@ -106,7 +85,7 @@ def hard(findings):
     ],
 )
 def test_sound_coupled_doors_pass(tmp_path, engine, mimic, drawer, coupling):
-    findings, motions = judged(coupled(tmp_path, mimic, drawer=drawer), engine)
+    findings, motions = judged(write_urdf(doors(mimic, drawer=drawer), tmp_path), engine)
     told = [] if engine in coupling else ["mimic_ignored"]
     assert [finding.code for finding in findings] == told
     for motion in motions.values():
@@ -121,7 +100,7 @@ def test_sound_coupled_doors_pass(tmp_path, engine, mimic, drawer, coupling):
 
 @pytest.mark.parametrize("mimic", MIMICS)
 def test_coupled_doors_that_overlap_fail(tmp_path, engine, mimic):
-    findings, _ = judged(coupled(tmp_path, mimic, width=0.52, drawer=False), engine)
+    findings, _ = judged(write_urdf(doors(mimic, 0.52), tmp_path), engine)
     assert hard(findings) & {"jammed", "not_returned"}
 
 
@@ -130,28 +109,18 @@ def test_coupled_doors_that_overlap_fail(tmp_path, engine, mimic):
     "mimic", [Mimic("lead", -1.0), Mimic("lead", 1.0, 0.5), Mimic("lead", -0.9, 0.2)]
 )
 def test_doors_that_an_mjcf_equality_couples_pass_and_fail_alike(tmp_path, mimic):
-    assert judged(coupled(tmp_path, mimic, drawer=False, kind="mjcf"), "mujoco")[0] == []
-    wide = coupled(tmp_path, mimic, width=0.52, drawer=False, kind="mjcf")
+    assert judged(write_mjcf(doors(mimic), tmp_path), "mujoco")[0] == []
+    wide = write_mjcf(doors(mimic, 0.52), tmp_path)
     assert "jammed" in hard(judged(wide, "mujoco")[0])
 
 
 def chain(parents, mimics):
     """Three slides on a post, the second and third of which follow another."""
-    links = "".join(
-        f'<link name="{name}"><inertial><mass value="1"/>'
-        '<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/>'
-        "</inertial></link>"
-        for name in ("post", "a", "b", "c")
-    )
-    lines = ""
-    for name, parent, mimic in zip("abc", ("post", *parents), (None, *mimics), strict=True):
-        follows = "" if mimic is None else mimic_element(mimic)
-        lines += (
-            f'<joint name="j{name}" type="prismatic"><parent link="{parent}"/>'
-            f'<child link="{name}"/><axis xyz="1 0 0"/>'
-            f'<limit lower="-9" upper="9" effort="1" velocity="1"/>{follows}</joint>'
-        )
-    return f'<robot name="chain">{links}{lines}</robot>'
+    bodies = [Body(name, (), at(0.0, 0.0, 0.0), 1.0) for name in ("post", "a", "b", "c")]
+    pairs = zip("abc", ("post", *parents), (None, *mimics), strict=True)
+    way = ((1.0, 0.0, 0.0), -9.0, 9.0)
+    moves = [Move(f"j{name}", "prismatic", parent, name, *way, led) for name, parent, led in pairs]
+    return Thing("chain", tuple(bodies), tuple(moves))
 
 
 @pytest.mark.parametrize(
@@ -164,8 +133,7 @@ def chain(parents, mimics):
     ],
 )
 def test_joints_are_where_the_engine_is_said_to_force_them(tmp_path, engine, parents, mimics):
-    path = tmp_path / "chain.urdf"
-    path.write_text(chain(parents, mimics))
+    path = write_urdf(chain(parents, mimics), tmp_path)
     with closing(simulator(engine).open(path, CONFIG)) as world:
         world.weigh(False)
         span = world.span
@@ -181,17 +149,15 @@ def test_joints_are_where_the_engine_is_said_to_force_them(tmp_path, engine, par
 
 @pytest.mark.parametrize("engine", ENGINES[1:])
 def test_one_that_follows_at_no_rate_stops_nobody(tmp_path, engine):
-    path = coupled(tmp_path, Mimic("lead", 0.0, 0.3), drawer=False)
-    path.write_text(path.read_text().replace('lower="0.3" upper="0.3"', 'lower="0" upper="1.8"'))
-    findings, motions = judged(path, engine)
+    free = with_move(doors(Mimic("lead", 0.0, 0.3)), "led", lower=0.0, upper=OPEN)
+    findings, motions = judged(write_urdf(free, tmp_path), engine)
     assert hard(findings) == set()
     assert motions["lead"].reached > 0.99
 
 
 @pytest.mark.skipif(not installed("sapien"), reason="SAPIEN is not installed")
 def test_what_sapien_leaves_free_is_not_held_to_be_coupled(tmp_path):
-    path = tmp_path / "chain.urdf"
-    path.write_text(chain(("post", "b"), (Mimic("ja"), Mimic("ja"))))
+    path = write_urdf(chain(("post", "b"), (Mimic("ja"), Mimic("ja"))), tmp_path)
     findings, motions = judged(path, "sapien")
     assert [f.message for f in findings if f.code == "mimic_ignored"] == [
         "does not couple 'jc' to another joint as the file does: whoever simulates it must"

@@ -10,7 +10,7 @@ from asset_factory.sim_checks.geometry import gaps
 from asset_factory.sim_checks.geometry.depth import contact_region, overlap
 from asset_factory.sim_checks.geometry.gaps import visible_gap
 from asset_factory.sim_checks.geometry.loose import strayed
-from asset_factory.sim_checks.geometry.placing import joined
+from asset_factory.sim_checks.geometry.placing import box_around, joined
 from asset_factory.sim_checks.geometry.surfaces import (
     PosedSurface,
     SurfaceMeeting,
@@ -61,8 +61,7 @@ def met(a, b):
     if len(region) == 0:
         low = np.maximum(a.bounds[0], b.bounds[0]) - MARGIN
         region = np.array([low, np.minimum(a.bounds[1], b.bounds[1]) + MARGIN])
-    low, high = region.min(axis=0), region.max(axis=0)
-    return SurfaceMeeting(low, high, found.depth, found.direction, MARGIN)
+    return SurfaceMeeting(box_around([region]), found.depth, found.direction, MARGIN)
 
 
 def posed(surface, pose=None):
@@ -186,6 +185,6 @@ def test_faces_that_touch_only_beside_where_the_hulls_meet_still_get_a_number(mo
     monkeypatch.setattr(gaps, "_zones", lambda *_: iter(()))
     block = boxes(((0, 0, 0), (0.1, 0.1, 0.1)))
     plate = boxes(((0, 0, 0.053), (0.1, 0.1, 0.01)))
-    low, high, up = np.array([[-0.05, -0.05, 0.048], [0.05, 0.05, 0.05], [0.0, 0.0, 1.0]])
-    meeting = SurfaceMeeting(low, high, 0.002, up, MARGIN)
+    box = np.array([[-0.05, -0.05, 0.048], [0.05, 0.05, 0.05]])
+    meeting = SurfaceMeeting(box, 0.002, np.array([0.0, 0.0, 1.0]), MARGIN)
     assert stand(block, plate, meeting) == pytest.approx(-0.002, rel=0.1)

@@ -6,7 +6,7 @@ from box_world import box_hull
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asset_factory.sim_checks.geometry.collision import Collider
+from asset_factory.sim_checks.geometry.collision import Collider, LookBudget
 from asset_factory.sim_checks.geometry.depth import overlap
 from asset_factory.sim_checks.geometry.hull import convex_hull
 from asset_factory.sim_checks.geometry.path import JointAxis
@@ -18,7 +18,7 @@ SLIDE = JointAxis(turning=False, origin=np.zeros(3), axis=np.array([1.0, 0.0, 0.
 
 
 def swept(path, moving, standing, steps=8):
-    return Sweep(path, [Collider(moving)], [Collider(standing)], steps)
+    return Sweep(path, [Collider(moving)], [Collider(standing)], steps, LookBudget())
 
 
 def worst(path, moving, standing, **tolerance):
@@ -101,7 +101,7 @@ def test_no_hull_that_comes_near_is_left_out(turning, length, where, floor):
     path = JointAxis(turning, np.array([0.1, -0.2, 0.0]), Z).path(length)
     moving = [Collider(box_hull(at, (0.3, 0.1, 0.2))) for at in where[::2]]
     standing = [Collider(box_hull(at, (0.1, 0.4, 0.2))) for at in where[1::2]]
-    sweep = Sweep(path, moving, standing, 16)
+    sweep = Sweep(path, moving, standing, 16, LookBudget())
     near = sweep.near(floor)
     for row in range(len(moving)):
         for at in np.linspace(0.0, length, 37):

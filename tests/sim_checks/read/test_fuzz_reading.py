@@ -28,7 +28,7 @@ def test_names_that_no_file_has_are_missing(reference, tmp_path):
     assert len(error.message) < 300
     path = tmp_path / "a.xml"
     path.write_text(f'<mujoco><asset><mesh name="m" file="{reference}"/></asset></mujoco>')
-    references.named_files(path, document.parse_document(path))
+    references.follow_models(path, document.parse_document(path))
 
 
 def test_includes_that_double_are_counted(tmp_path):
@@ -38,7 +38,7 @@ def test_includes_that_double_are_counted(tmp_path):
     (tmp_path / "12.xml").write_text("<mujoco/>")
     started = time.process_time()
     first = tmp_path / "0.xml"
-    refused = judges_refusal(references.named_files, first, document.parse_document(first))
+    refused = judges_refusal(references.follow_models, first, document.parse_document(first))
     assert refused.code == "nested_too_deep"
     assert time.process_time() - started < QUICK_S
 

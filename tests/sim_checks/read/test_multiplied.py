@@ -16,6 +16,7 @@ from asset_factory.sim_checks.read.document import parse_document
 from asset_factory.sim_checks.read.multiplied import refuse_multiplied
 from asset_factory.sim_checks.read.native import COMPILE_LIMITS, COMPILER_BYTES, memory_bounded
 from asset_factory.sim_checks.read.read import read_description, read_here
+from asset_factory.sim_checks.read.references import follow_models
 
 GEOM = '<geom size="0.1"/>'
 BODY = f"<body>{GEOM}</body>"
@@ -23,6 +24,10 @@ BODY = f"<body>{GEOM}</body>"
 
 def replicated(count, inside):
     return f'<replicate count="{count}">{inside}</replicate>'
+
+
+def count(path):
+    refuse_multiplied(path.name, follow_models(path, parse_document(path)))
 
 
 def written(folder, world, before="", **documents):
@@ -75,7 +80,7 @@ HOSTILE = {
 def test_what_multiplies_without_bounds_is_refused_by_counting(tmp_path, name, monkeypatch):
     path = HOSTILE[name](tmp_path)
     started = time.process_time()
-    assert judges_refusal(refuse_multiplied, path, parse_document(path)).code == "too_large"
+    assert judges_refusal(count, path).code == "too_large"
     assert time.process_time() - started < 2.0
     # Intake says so before anything is compiled.
     monkeypatch.setattr("asset_factory.factory.intake.importers.mjcf.read_apart", None)
@@ -100,15 +105,15 @@ def test_as_many_are_counted_as_mujoco_makes(tmp_path, world, bodies, monkeypatc
     assert mujoco.MjModel.from_xml_path(str(path)).nbody == bodies
     # The world is not written in the file.
     monkeypatch.setitem(multiplied.MOST, "bodies", bodies - 1)
-    refuse_multiplied(path, parse_document(path))
+    count(path)
     monkeypatch.setitem(multiplied.MOST, "bodies", bodies - 2)
     with pytest.raises(DescriptionError, match=f"{bodies - 1} bodies"):
-        refuse_multiplied(path, parse_document(path))
+        count(path)
 
 
 def test_models_attached_a_few_times_are_read(tmp_path):
     path = attaching(tmp_path, 2, 3)
-    refuse_multiplied(path, parse_document(path))
+    count(path)
     assert len(read_here(path).links) == 14
 
 
