@@ -101,7 +101,7 @@ class Rooms:
     def _points_of(self, part: int) -> FloatArray:
         if part not in self._spread:
             mesh = self._articulation.part_mesh(part)
-            self._spread[part] = spread_over(mesh, SPREAD, SPREAD)
+            self._spread[part] = spread_over(mesh, SPREAD)
         return self._spread[part]
 
 

@@ -45,23 +45,6 @@ class SeparationRefusal:
 
 
 @dataclass(frozen=True)
-class CutBack:
-    """A visible cut.
-
-    Attributes:
-        part: its name.
-        depth_m: deepest [m].
-        share: of its collision volume.
-        area: of its visible surface.
-    """
-
-    part: str
-    depth_m: float
-    share: float
-    area: float
-
-
-@dataclass(frozen=True)
 class Separation:
     """What came of cutting.
 
@@ -71,13 +54,13 @@ class Separation:
         hidden: pair of part names -> how deep the parts themselves overlap at rest [m],
             where that is more than decomposition explains and the hidden share was cut out of the
             collision geometry.
-        trimmed: pair of part names -> the visible cut.
+        trimmed: pair of part names -> what each part loses of which a cut can be seen.
     """
 
     pieces: tuple[SolidPieces, ...]
     refused: dict[Pair, SeparationRefusal] = field(default_factory=dict)
     hidden: dict[Pair, float] = field(default_factory=dict)
-    trimmed: dict[Pair, tuple[CutBack, ...]] = field(default_factory=dict)
+    trimmed: dict[Pair, tuple[Loss, ...]] = field(default_factory=dict)
 
 
 def separate(
@@ -150,7 +133,7 @@ class _CutPair:
     @property
     def reason(self) -> str | None:
         """Return why the two are not to be cut so; ``None`` if they are."""
-        return self.overdone or too_bare(self.pair.names, self.losses, self.pair.bodies.config)
+        return self.overdone or too_bare(self.losses, self.pair.bodies.config)
 
     @property
     def bare_area(self) -> float:
@@ -231,11 +214,8 @@ def _keep(found: Separation, cut: _CutPair) -> None:
     pair = cut.pair
     for part, hulls in zip(pair.parts, cut.after, strict=True):
         pair.bodies.hulls[part] = hulls
-    trimmed = tuple(
-        CutBack(name, each.deepest_m, each.share, each.area)
-        for name, each in zip(pair.names, cut.losses, strict=True)
-        if each.deepest_m > pair.bodies.config.visible_m
-    )
+    visible_m = pair.bodies.config.visible_m
+    trimmed = tuple(each for each in cut.losses if each.deepest_m > visible_m)
     if trimmed:
         found.trimmed[pair.names] = trimmed
 

@@ -113,7 +113,7 @@ def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
     assert result.refused == {}
     assert result.pieces[1].hulls[0].volume == pytest.approx(tongue.volume, rel=1e-6)
     (slot,) = result.trimmed[PAIR]
-    assert slot.depth_m == pytest.approx(0.025 + CONFIG.clearance_m, abs=1e-4)
+    assert slot.deepest_m == pytest.approx(0.025 + CONFIG.clearance_m, abs=1e-4)
     assert slot.area < 0.01
 
 
