@@ -39,7 +39,7 @@ class Room:
 
     def inside(self, hull: Hull) -> FloatArray:
         """Return the points that lie in a hull [m], shape [k, 3]."""
-        near = _between(self.points, hull.vertices.min(axis=0), hull.vertices.max(axis=0))
+        near = _between(self.points, *hull.bounds)
         return near[depth_below(hull, near) > ENTERED_M] if len(near) else near
 
     def entered(self, hull: Hull, sources: Iterable[Hull] = ()) -> bool:
