@@ -9,8 +9,8 @@ import numpy as np
 
 from ...articulation import Joint
 from ...asset import Asset, Hull
+from ...geometry.posing import closed_values
 from ...mesh import FloatArray
-from ..poses import closed_values
 from .along import hull_depth
 
 #: Poses along a joint that are looked at.
