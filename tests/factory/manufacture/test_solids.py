@@ -12,6 +12,7 @@ from manifold3d import Manifold
 from plain_solids import sized_box as box
 from plain_solids import sized_hull
 
+from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of, limit_vertices
 from asset_factory.factory.manufacture.decompose.cut import as_one, cut_along_faces
 from asset_factory.factory.manufacture.decompose.merge import merge
@@ -19,7 +20,7 @@ from asset_factory.factory.manufacture.decompose.openings import capped
 from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.pockets import fills_little
 from asset_factory.factory.manufacture.decompose.sheets import slabs
-from asset_factory.factory.manufacture.decompose.simplify import simplified
+from asset_factory.factory.manufacture.decompose.simplify import smoothed
 from asset_factory.factory.manufacture.decompose.solids import (
     OpenSurface,
     closes,
@@ -129,7 +130,7 @@ def test_a_pipe_with_hidden_open_ends_is_closed_and_a_box_without_a_lid_is_not()
 def test_simplifying_keeps_a_closed_solid_of_nearly_the_same_volume():
     sphere = trimesh.creation.icosphere(subdivisions=4, radius=0.2)
     solid = manifold_of(np.array(sphere.vertices), np.array(sphere.faces))
-    light = simplified(solid, 400, 0.0005)
+    light = smoothed(solid, 0.005, DecomposeConfig(max_faces=400))
     assert light.num_tri() <= 400
     assert light.volume() == pytest.approx(solid.volume(), rel=0.03)
 
