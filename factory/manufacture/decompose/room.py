@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from manifold3d import Manifold
+from trimesh.bounds import corners
 
 from ...articulation import Articulation
 from ...asset import Hull
@@ -91,9 +92,9 @@ class Rooms:
             points = NOWHERE.points if other == part else self._points_of(other)
             if not len(points):
                 continue
-            corners = _corners(points)
+            box = corners([points.min(axis=0), points.max(axis=0)])
             for pose in relative_poses(self._articulation, part, other, POSES):
-                reach = moved(corners, pose)
+                reach = moved(box, pose)
                 if (reach.max(axis=0) > low).all() and (reach.min(axis=0) < high).all():
                     found.append(_between(moved(points, pose), low, high))
         return Room(_thinned(np.concatenate(found)))
@@ -108,12 +109,6 @@ class Rooms:
 def _between(points: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
     """Return the points that lie in a box [m], shape [k, 3]."""
     return points[((points > low) & (points < high)).all(axis=1)]
-
-
-def _corners(points: FloatArray) -> FloatArray:
-    """Return the corners of the box around points, shape [8, 3]."""
-    ends = np.stack([points.min(axis=0), points.max(axis=0)])
-    return np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
 def _thinned(points: FloatArray) -> FloatArray:
