@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from manifold3d import Manifold
@@ -67,18 +68,15 @@ class Rooms:
 
     Args:
         articulation: parts and joints.
+
+    Attributes:
+        around: what others take of one part's room, by its index: looked for once.
     """
 
     def __init__(self, articulation: Articulation) -> None:
         self._articulation = articulation
-        self._found: dict[int, Room] = {}
-        self._spread: dict[int, FloatArray] = {}
-
-    def around(self, part: int) -> Room:
-        """Return what others take of one part's room, by its index: looked for once."""
-        if part not in self._found:
-            self._found[part] = self._around(part)
-        return self._found[part]
+        self.around = cache(self._around)
+        self._points_of = cache(self._spread_over)
 
     def _around(self, part: int) -> Room:
         own = self._articulation.part_mesh(part)
@@ -99,11 +97,8 @@ class Rooms:
                     found.append(_between(moved(points, pose), low, high))
         return Room(_thinned(np.concatenate(found)))
 
-    def _points_of(self, part: int) -> FloatArray:
-        if part not in self._spread:
-            mesh = self._articulation.part_mesh(part)
-            self._spread[part] = spread_over(mesh, SPREAD)
-        return self._spread[part]
+    def _spread_over(self, part: int) -> FloatArray:
+        return spread_over(self._articulation.part_mesh(part), SPREAD)
 
 
 def _between(points: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
