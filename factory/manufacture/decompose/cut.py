@@ -32,7 +32,7 @@ REFLEX_EDGES = 400
 PLACES = (0.25, 0.5, 0.75)
 
 
-def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> SolidPieces | None:
+def as_one(solid: Manifold, error_m: float, slot_m: float) -> SolidPieces | None:
     """Return a solid as one hull if that fills little, see ``fills_little``; else ``None``."""
     vertices, faces = triangles_of(solid)
     hull = hull_of(vertices)
@@ -47,14 +47,14 @@ def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> Soli
 
 
 def cut_along_faces(
-    solid: Manifold, error_m: float, most: int, slot_m: float | None = None
+    solid: Manifold, error_m: float, most: int, slot_m: float
 ) -> SolidPieces | None:
     """Return the convex pieces of a solid made of flat faces; ``None`` of one that is curved.
 
     Each piece is cut along that plane of one of its inward edges which leaves the least volume
     between the pieces and their hulls, until no dent is deeper than ``error_m`` [m] (notch cutting:
-    Chazelle 1984, greedily). Slots up to ``slot_m`` wide may be filled [m]; ``None``: twice the
-    error. ``None`` too where more than ``most`` pieces are needed.
+    Chazelle 1984, greedily). Slots up to ``slot_m`` wide may be filled [m]. ``None`` too where more
+    than ``most`` pieces are needed.
     """
     waiting = list(solid.decompose())
     found = NOTHING

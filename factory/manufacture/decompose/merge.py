@@ -43,8 +43,8 @@ def merge(
     error.
     """
     clusters = [_Cluster(hull, manifold_of_hull(hull)) for hull in hulls]
-    joined = _Joining(error_m, slot_m, room).halve_and_join(clusters)
-    return [cluster.hull for cluster in joined]
+    joining = _Joining(error_m, 2.0 * error_m if slot_m is None else slot_m, room)
+    return [cluster.hull for cluster in joining.halve_and_join(clusters)]
 
 
 @dataclass
@@ -52,7 +52,7 @@ class _Joining:
     """The limits, see :func:`merge`, and how many more pairs may be offered."""
 
     error_m: float
-    slot_m: float | None
+    slot_m: float
     room: Room
     looks: int = MOST_LOOKS
 

@@ -28,10 +28,6 @@ def judged(lost, solid):
     return overdone((lost, replace(NOTHING, part="bin")), (solid, True), CONFIG, **LIMITS)
 
 
-def test_a_cut_that_takes_nothing_is_fine():
-    assert judged(NOTHING, solid=True) is None
-
-
 @pytest.mark.parametrize(("name", "most"), [("bared_m", 0.006), ("trimmed_m", 0.025)])
 def test_depths_are_limited_for_both_parts_together(name, most):
     within = replace(NOTHING, **{name: 0.5 * most})
