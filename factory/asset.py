@@ -238,11 +238,6 @@ class Asset:
                 )
 
     @property
-    def mass(self) -> float:
-        """Return the total mass [kg]."""
-        return float(sum(body.inertial.mass for body in self.bodies))
-
-    @property
     def hull_count(self) -> int:
         """Return the number of convex pieces over all parts."""
         return sum(len(body.hulls) for body in self.bodies)
