@@ -16,7 +16,7 @@ from ..decompose.merge import merge
 from ..decompose.pieces import SolidPieces
 from ..repair import Pair
 from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
-from .between import Cut, cut_between, poses_between
+from .between import Cut, cut_between
 from .budget import SHAVED_M, Loss, too_bare
 from .pair import PartPair, Workpieces
 
@@ -205,7 +205,7 @@ def _attempt(pair: PartPair, cut: Cut, poses: Sequence[FloatArray]) -> _CutPair:
     tried = _CutPair.of(pair, cut(*pair.before, poses))
     if tried.overdone is not None or len(poses) <= 2:
         return tried
-    closer = cut_between(cut, pair.before, tried.after, poses, poses_between(pair))
+    closer = cut_between(cut, pair, tried.after, poses)
     return tried if closer is None else _CutPair.of(pair, closer)
 
 
