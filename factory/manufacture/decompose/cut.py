@@ -11,7 +11,7 @@ from manifold3d import Manifold
 from ...asset import Hull
 from ...geometry.edges import shared_edges
 from ...geometry.rows import distinct_rows
-from ...geometry.triangles import FOLLOWING, doubled_normals
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
 from .convex import THINNEST_M, concavity, hull_of
 from .pieces import NOTHING, SolidPieces
@@ -175,8 +175,7 @@ def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[Float
     start, end = shared.vertices.T
     # The face that walks an edge from its lower vertex on is the left one.
     one, other = shared.faces.T
-    walked = faces[one], faces[one][:, FOLLOWING]
-    forward = ((walked[0] == start[:, None]) & (walked[1] == end[:, None])).any(axis=1)
+    forward = shared.forward[:, 0]
     left = np.where(forward, one, other)
     right = np.where(forward, other, one)
     along = vertices[end] - vertices[start]
