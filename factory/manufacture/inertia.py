@@ -131,7 +131,7 @@ def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> Mo
             total += 0.5 * _sheet_moments(*triangles_of(solid), thickness)
         else:
             thick.append(solid)
-    return total + _manifold_moments(replace(gated, solids=tuple(thick)).body)
+    return total + _solid_moments(*triangles_of(replace(gated, solids=tuple(thick)).body))
 
 
 def _moments(mass: float, first: FloatArray, second: FloatArray) -> Moments:
@@ -159,10 +159,6 @@ def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> M
     return _moments(volume.sum(), (volume @ total) / 3.0, np.asarray(second + across))
 
 
-def _manifold_moments(body: manifold3d.Manifold) -> Moments:
-    return np.zeros((4, 4)) if body.is_empty() else _solid_moments(*triangles_of(body))
-
-
 def _hull_moments(hulls: Sequence[Hull], center: FloatArray) -> Moments:
     solids = [manifold3d.Manifold.hull_points(hull.vertices - center) for hull in hulls]
-    return _manifold_moments(union(solids))
+    return _solid_moments(*triangles_of(union(solids)))

@@ -42,14 +42,12 @@ class Room:
     def inside(self, hull: Hull) -> FloatArray:
         """Return the points that lie in a hull [m], shape [k, 3]."""
         near = _between(self.points, *hull.bounds)
-        return near[depth_below(hull, near) > ENTERED_M] if len(near) else near
+        return near[depth_below(hull, near) > ENTERED_M]
 
     def entered(self, hull: Hull, sources: Iterable[Hull] = ()) -> bool:
         """Return whether a hull takes room that the hulls which it was made from did not take."""
         found = self.inside(hull)
         for source in sources:
-            if not len(found):
-                return False
             found = found[depth_below(source, found) <= ENTERED_M / 2.0]
         return bool(len(found))
 
@@ -107,8 +105,6 @@ def _between(points: FloatArray, low: FloatArray, high: FloatArray) -> FloatArra
 
 
 def _thinned(points: FloatArray) -> FloatArray:
-    if not len(points):
-        return points
     first, _ = distinct_rows(np.floor(points / GRAIN_M).astype(np.int64))
     kept = points[np.sort(first)]
     if len(kept) <= MOST:

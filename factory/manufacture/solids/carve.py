@@ -153,8 +153,6 @@ def _behind_slab(
 
     Of ``whole`` points of all its surface some lie behind its slab [m], shape [n, 3].
     """
-    if not len(points):
-        return ()
     bare = points[outside(hulls, points) > FAR_M]
     if len(bare) < BARE_SHARE * whole:
         return ()
