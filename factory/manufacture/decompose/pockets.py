@@ -74,4 +74,4 @@ def _narrow(pocket: Manifold, hull: Hull, error_m: float, slot_m: float) -> bool
     if width <= slot_m:
         return area > 0.0 and faces_it <= SLOT_COSINE * area
     # A dent's mouth looks along its thin direction; a gap as wide, behind a handle, does not.
-    return area > 0.0 and faces_it > (1.0 - SLOT_COSINE) * area
+    return faces_it > (1.0 - SLOT_COSINE) * area

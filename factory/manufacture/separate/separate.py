@@ -76,8 +76,6 @@ def separate(
     out.
     """
     wanted = sorted({(min(pair), max(pair)) for pair in pairs})
-    if not wanted:
-        return Separation(pieces)
     bodies = Workpieces(articulation, [list(piece.hulls) for piece in pieces], config)
     found = Separation(pieces)
     for pair in wanted:
