@@ -35,6 +35,11 @@ class Hull:
             )
 
     @cached_property
+    def bounds(self) -> FloatArray:
+        """Return the lower and upper corner of the axis-aligned box around it [m], shape [2, 3]."""
+        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+
+    @cached_property
     def volume(self) -> float:
         """Return the enclosed volume [m3], by the divergence theorem."""
         corners = (self.vertices - self.vertices.mean(axis=0))[self.faces]
@@ -241,11 +246,6 @@ class Asset:
                 raise InvalidAsset(
                     f"part {part.name!r}: has {len(part.faces)} faces and no hull to collide with"
                 )
-
-    @property
-    def mass(self) -> float:
-        """Return the total mass [kg]."""
-        return float(sum(body.inertial.mass for body in self.bodies))
 
     @property
     def hull_count(self) -> int:

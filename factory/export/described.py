@@ -47,7 +47,7 @@ def manifest_of(layout: Layout, provenance: Provenance) -> Manifest:
         articulator=articulation.articulator,
         scale=1.0,
         fixed_base=True,
-        mass=magnitude(asset.mass),
+        mass=magnitude(sum(body.inertial.mass for body in asset.bodies)),
         bounds=tuple(_row(corner) for corner in rest),
         closed_bounds=tuple(_row(corner) for corner in closed),
         ground_offset=rounded(-min(rest[0, 2], closed[0, 2])),

@@ -97,13 +97,10 @@ def _diagonal(points: FloatArray, name: str) -> float:
 
 
 def _has_area(vertices: FloatArray, faces: IntArray, tolerance: float) -> BoolArray:
-    distinct = (
-        (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    )
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     double_area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     longest = np.sqrt(np.maximum(np.maximum(_square(b - a), _square(c - b)), _square(a - c)))
-    return np.asarray(distinct & (double_area > tolerance * longest))
+    return np.asarray(double_area > tolerance * longest)
 
 
 def _square(vectors: FloatArray) -> FloatArray:

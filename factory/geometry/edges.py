@@ -9,7 +9,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from ..mesh import IntArray
+from ..mesh import BoolArray, IntArray
 from .triangles import FOLLOWING
 
 
@@ -20,12 +20,13 @@ class SharedEdges:
     Attributes:
         vertices: of each edge, the lower one first, shape [n, 2].
         faces: that share it, shape [n, 2].
-        alike: whether both faces are wound the same way, shape [n].
+        forward: whether each of these walks it from its lower vertex on, shape [n, 2]; where one
+            does and the other does not they are wound alike.
     """
 
     vertices: IntArray
     faces: IntArray
-    alike: npt.NDArray[np.bool_]
+    forward: BoolArray
 
 
 def shared_edges(faces: IntArray) -> SharedEdges:
@@ -39,11 +40,10 @@ def shared_edges(faces: IntArray) -> SharedEdges:
     starts = np.flatnonzero(np.diff(key, prepend=-1))
     first = starts[np.diff(np.append(starts, len(key))) == 2]
     pairs = np.stack([order[first], order[first + 1]], axis=1)
-    forward = directed[pairs, 0] == low[pairs]
     return SharedEdges(
         np.stack([low[pairs[:, 0]], high[pairs[:, 0]]], axis=1),
         pairs // 3,
-        forward[:, 0] != forward[:, 1],
+        directed[pairs, 0] == low[pairs],
     )
 
 

@@ -43,10 +43,13 @@ def posed(articulation: Articulation, values: Mapping[str, float]) -> Articulati
 
 def closed(articulation: Articulation) -> Articulation:
     """Return the object with every joint closed; joints without ends stay where they are."""
-    return posed(
-        articulation,
-        {j.name: j.lower for j in articulation.joints if j.kind is not JointKind.CONTINUOUS},
-    )
+    return posed(articulation, closed_values(articulation))
+
+
+def closed_values(articulation: Articulation) -> dict[str, float]:
+    """Return the value at which each joint is closed [rad] or [m]; of those that have ends."""
+    ended = (joint for joint in articulation.joints if joint.kind is not JointKind.CONTINUOUS)
+    return {joint.name: joint.lower for joint in ended}
 
 
 def turned(articulation: Articulation, yaw: float) -> Articulation:

@@ -1,9 +1,9 @@
 """Masses and inertias from the material a mesh encloses.
 
 Everything is kept as moments of the mass distribution: mass, first moment, second moment ``C``, the
-integral of ``x x^T``. The inertia tensor is ``trace(C) 1 - C`` about the centre of mass; as long as
-``C`` is positive definite, it satisfies the triangle inequality, so validity is one eigenvalue
-floor away.
+integral of ``x x^T``; in one matrix, so that those of bodies add up. The inertia tensor is
+``trace(C) 1 - C`` about the centre of mass; as long as ``C`` is positive definite, it satisfies the
+triangle inequality, so validity is one eigenvalue floor away.
 
 Closed surfaces: exact polyhedral integrals (Mirtich 1996; here as sums over signed tetrahedra) over
 the body that decomposition sees in them. Open surfaces: laminae of an assumed thickness.
@@ -12,7 +12,7 @@ the body that decomposition sees in them. Open surfaces: laminae of an assumed t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import manifold3d
 import numpy as np
@@ -37,24 +37,9 @@ CARRIER_SHARE = 0.05
 CARRIER_RADIUS_M = 0.02
 
 
-@dataclass(frozen=True)
-class _Moments:
-    """Of a mass distribution about a fixed point: mass [kg], moments: 1st [kg m], 2nd [kg m2]."""
-
-    mass: float
-    first: FloatArray
-    second: FloatArray
-
-    def __add__(self, other: _Moments) -> _Moments:
-        return _Moments(
-            self.mass + other.mass, self.first + other.first, self.second + other.second
-        )
-
-    def scaled(self, factor: float) -> _Moments:
-        return _Moments(self.mass * factor, self.first * factor, self.second * factor)
-
-
-_NOTHING = _Moments(0.0, np.zeros(3), np.zeros((3, 3)))
+#: Of a mass distribution about a fixed point, the integral of ``(x, 1) (x, 1)^T``, shape [4, 4]:
+#: second moments [kg m2] above on the left, first ones [kg m] beside and below, the mass [kg] last.
+Moments = FloatArray
 
 
 def part_inertial(
@@ -89,13 +74,13 @@ def part_inertial(
     moments = _mesh_moments(mesh.vertices - center, mesh.faces, config.shell_thickness_m)
     if hulls:
         filled = _hull_moments(hulls, center)
-        if not moments.mass > 0.0:
+        if not moments[3, 3] > 0.0:
             moments = filled
-        elif moments.mass > filled.mass > 0.0:
-            moments = moments.scaled(filled.mass / moments.mass)
-    if not moments.mass > 0.0:
-        moments = _Moments(MIN_MASS_KG / density, np.zeros(3), np.zeros((3, 3)))
-    return _inertial(moments.scaled(density), center)
+        elif moments[3, 3] > filled[3, 3] > 0.0:
+            moments = moments * (filled[3, 3] / moments[3, 3])
+    if not moments[3, 3] > 0.0:
+        moments = np.diag([0.0, 0.0, 0.0, MIN_MASS_KG / density])
+    return _inertial(moments * density, center)
 
 
 def carrier_inertial(child: Inertial, origin: FloatArray) -> Inertial:
@@ -123,40 +108,45 @@ def weighing(inertials: Sequence[Inertial], total: float, density: float) -> lis
     ]
 
 
-def _inertial(moments: _Moments, reference: FloatArray) -> Inertial:
-    offset = moments.first / moments.mass
-    second = moments.second / moments.mass - np.outer(offset, offset)
-    mass = max(moments.mass, MIN_MASS_KG)
+def _inertial(moments: Moments, reference: FloatArray) -> Inertial:
+    normed = moments / moments[3, 3]
+    offset = normed[:3, 3]
+    second = normed[:3, :3] - np.outer(offset, offset)
+    mass = max(float(moments[3, 3]), MIN_MASS_KG)
     squares, axes = np.linalg.eigh((second + second.T) / 2.0)
     widened = (axes * np.maximum(squares, MIN_GYRATION_M**2)) @ axes.T
     tensor = mass * (np.trace(widened) * np.eye(3) - widened)
     return Inertial(mass, reference + offset, (tensor + tensor.T) / 2.0)
 
 
-def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _Moments:
+def _mesh_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> Moments:
     """Return moments per unit of density: mass is a volume [m3]."""
     gated = gate(vertices, faces)
-    total = _NOTHING
+    total = np.zeros((4, 4))
     for sheet in gated.sheets:
         total += _sheet_moments(sheet.vertices, sheet.faces, thickness)
     thick = []
     for solid in gated.solids:
         if thickness_m(solid) < SHEET_THICKNESS_M:
-            total += _sheet_moments(*triangles_of(solid), thickness).scaled(0.5)
+            total += 0.5 * _sheet_moments(*triangles_of(solid), thickness)
         else:
             thick.append(solid)
-    return total + _manifold_moments(replace(gated, solids=tuple(thick)).body)
+    return total + _solid_moments(*triangles_of(replace(gated, solids=tuple(thick)).body))
 
 
-def _solid_moments(vertices: FloatArray, faces: IntArray) -> _Moments:
+def _moments(mass: float, first: FloatArray, second: FloatArray) -> Moments:
+    return np.block([[second, first[:, None]], [first, mass]])
+
+
+def _solid_moments(vertices: FloatArray, faces: IntArray) -> Moments:
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     det = np.einsum("ij,ij->i", a, np.cross(b, c))
     total = a + b + c
     second = sum((p * det[:, None]).T @ p for p in (a, b, c, total))
-    return _Moments(float(det.sum() / 6.0), (det @ total) / 24.0, np.asarray(second) / 120.0)
+    return _moments(det.sum() / 6.0, (det @ total) / 24.0, np.asarray(second) / 120.0)
 
 
-def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _Moments:
+def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> Moments:
     corners = vertices[faces]
     cross = doubled_normals(corners)
     double = np.linalg.norm(cross, axis=1)
@@ -166,13 +156,9 @@ def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> _
     total = a + b + c
     second = sum((p * volume[:, None]).T @ p for p in (a, b, c, total)) / 12.0
     across = (normal * volume[:, None]).T @ normal * thickness**2 / 12.0
-    return _Moments(float(volume.sum()), (volume @ total) / 3.0, np.asarray(second + across))
+    return _moments(volume.sum(), (volume @ total) / 3.0, np.asarray(second + across))
 
 
-def _manifold_moments(body: manifold3d.Manifold) -> _Moments:
-    return _NOTHING if body.is_empty() else _solid_moments(*triangles_of(body))
-
-
-def _hull_moments(hulls: Sequence[Hull], center: FloatArray) -> _Moments:
+def _hull_moments(hulls: Sequence[Hull], center: FloatArray) -> Moments:
     solids = [manifold3d.Manifold.hull_points(hull.vertices - center) for hull in hulls]
-    return _manifold_moments(union(solids))
+    return _solid_moments(*triangles_of(union(solids)))

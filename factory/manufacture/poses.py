@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..articulation import Articulation, Joint, JointKind
+from ..articulation import Articulation, Joint
 from ..mesh import FloatArray
 
 #: Beyond a turn of so many quarters poses grow sparser.
@@ -34,12 +34,6 @@ def relative_poses(
     return [
         np.asarray(np.linalg.inv(_pose(above_a, given)) @ _pose(above_b, given)) for given in values
     ]
-
-
-def closed_values(articulation: Articulation) -> dict[str, float]:
-    """Return the value at which each joint is closed [rad] or [m]; of those that have ends."""
-    ended = (joint for joint in articulation.joints if joint.kind is not JointKind.CONTINUOUS)
-    return {joint.name: joint.lower for joint in ended}
 
 
 def moved(points: FloatArray, pose: FloatArray) -> FloatArray:

@@ -191,7 +191,7 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
         yield _measured("hidden_overlap", message, pair, depth)
     for pair, trimmed in separation.trimmed.items():
         told = " and ".join(
-            f"{each.depth_m * 1000:.1f} mm of {each.part!r} ({each.share:.1%} of it, "
+            f"{each.deepest_m * 1000:.1f} mm of {each.part!r} ({each.share:.1%} of it, "
             f"{each.area:.1%} of its surface)"
             for each in trimmed
         )
@@ -199,7 +199,7 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
             f"so that {pair[0]!r} and {pair[1]!r} are clear of one another, their collision "
             f"geometry was cut back where that can be seen: {told}"
         )
-        yield _measured("planed", message, pair, max(each.depth_m for each in trimmed))
+        yield _measured("planed", message, pair, max(each.deepest_m for each in trimmed))
 
 
 def _measured(code: str, message: str, parts: Pair, depth_m: float) -> Finding:

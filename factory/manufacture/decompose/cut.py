@@ -1,16 +1,17 @@
-"""Convex pieces by cutting along a solid's own planes: boards and boxes, exact, no search."""
+"""Convex pieces of a solid by planes: along its own faces, exact; or across its box, coarse."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
 from manifold3d import Manifold
 
+from ...asset import Hull
 from ...geometry.edges import shared_edges
 from ...geometry.rows import distinct_rows
-from ...geometry.triangles import FOLLOWING, doubled_normals
+from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
 from .convex import THINNEST_M, concavity, hull_of
 from .pieces import NOTHING, SolidPieces
@@ -27,9 +28,11 @@ LAYER_SHARE = 2e-6
 PLANES_TRIED = 24
 #: Solids with more inward edges are curved: not made of boards, not worth cutting along planes.
 REFLEX_EDGES = 400
+#: Where planes across a piece are tried, as shares of its extents.
+PLACES = (0.25, 0.5, 0.75)
 
 
-def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> SolidPieces | None:
+def as_one(solid: Manifold, error_m: float, slot_m: float) -> SolidPieces | None:
     """Return a solid as one hull if that fills little, see ``fills_little``; else ``None``."""
     vertices, faces = triangles_of(solid)
     hull = hull_of(vertices)
@@ -44,14 +47,14 @@ def as_one(solid: Manifold, error_m: float, slot_m: float | None = None) -> Soli
 
 
 def cut_along_faces(
-    solid: Manifold, error_m: float, most: int, slot_m: float | None = None
+    solid: Manifold, error_m: float, most: int, slot_m: float
 ) -> SolidPieces | None:
     """Return the convex pieces of a solid made of flat faces; ``None`` of one that is curved.
 
     Each piece is cut along that plane of one of its inward edges which leaves the least volume
     between the pieces and their hulls, until no dent is deeper than ``error_m`` [m] (notch cutting:
-    Chazelle 1984, greedily). Slots up to ``slot_m`` wide may be filled [m]; ``None``: twice the
-    error. ``None`` too where more than ``most`` pieces are needed.
+    Chazelle 1984, greedily). Slots up to ``slot_m`` wide may be filled [m]. ``None`` too where more
+    than ``most`` pieces are needed.
     """
     waiting = list(solid.decompose())
     found = NOTHING
@@ -85,7 +88,31 @@ def opened(solid: Manifold, cavity: Manifold) -> list[Manifold]:
     normals = doubled_normals(vertices[faces])
     area = np.linalg.norm(normals, axis=1)
     normal = normals[area.argmax()] / area.max()
-    return halves_of(hollow, normal, float(vertices.mean(axis=0) @ normal))
+    return _halves_of(hollow, normal, float(vertices.mean(axis=0) @ normal))
+
+
+def halve(solid: Manifold, outside_m: float, most: int) -> list[Hull]:
+    """Return hulls that together cover a solid, cut in two where a hull stands out of it most.
+
+    Each piece is cut by the plane across one of its box's axes that saves the most volume, until
+    the hulls lie ``outside_m`` outside on average over the solid's surface [m], or are ``most``.
+    """
+    pieces = [(_waste_of([piece]), piece) for piece in solid.decompose()]
+    enough = outside_m * solid.surface_area()
+    while 0 < len(pieces) < most and sum(waste for waste, _ in pieces) > enough:
+        worst = max(range(len(pieces)), key=lambda index: pieces[index][0])
+        best = min(_cuts_across(pieces.pop(worst)[1]), key=_waste_of)
+        pieces += [(_waste_of([piece]), piece) for piece in best]
+    hulls = (hull_of(triangles_of(piece)[0]) for _, piece in pieces)
+    return [hull for hull in hulls if hull is not None]
+
+
+def _cuts_across(solid: Manifold) -> Iterator[list[Manifold]]:
+    """Yield the pieces that each of the planes across a solid's box makes of it."""
+    low, high = np.array(solid.bounding_box()).reshape(2, 3)
+    for axis, normal in enumerate(np.eye(3)):
+        for share in PLACES:
+            yield _halves_of(solid, normal, float(low[axis] + share * (high[axis] - low[axis])))
 
 
 def _best_cut(piece: Manifold) -> list[Manifold] | None:
@@ -96,16 +123,16 @@ def _best_cut(piece: Manifold) -> list[Manifold] | None:
     least = np.inf
     for normal, offset in _candidate_planes(*triangles_of(piece)):
         halves = [
-            half for half in halves_of(piece, normal, offset) if half.volume() > LEAST_VOLUME_M3
+            half for half in _halves_of(piece, normal, offset) if half.volume() > LEAST_VOLUME_M3
         ]
-        waste = waste_of(halves)
+        waste = _waste_of(halves)
         if len(halves) > 1 and waste < least:
             best = halves
             least = waste
     return best
 
 
-def halves_of(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold]:
+def _halves_of(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold]:
     """Return a solid's two sides of a plane, in connected pieces.
 
     A plane along a face would leave films of rounding's thickness on the wrong side, so a layer
@@ -133,7 +160,7 @@ def _stretch(
     return stretched
 
 
-def waste_of(pieces: list[Manifold]) -> float:
+def _waste_of(pieces: list[Manifold]) -> float:
     """Return the volume between pieces and their hulls [m3]."""
     return float(sum(piece.hull().volume() - piece.volume() for piece in pieces))
 
@@ -148,8 +175,7 @@ def _candidate_planes(vertices: FloatArray, faces: IntArray) -> list[tuple[Float
     start, end = shared.vertices.T
     # The face that walks an edge from its lower vertex on is the left one.
     one, other = shared.faces.T
-    walked = faces[one], faces[one][:, FOLLOWING]
-    forward = ((walked[0] == start[:, None]) & (walked[1] == end[:, None])).any(axis=1)
+    forward = shared.forward[:, 0]
     left = np.where(forward, one, other)
     right = np.where(forward, other, one)
     along = vertices[end] - vertices[start]

@@ -15,7 +15,7 @@ from ...config import DecomposeConfig
 from ...errors import Unjudged
 from .child import Triangles, coacd_pieces
 from .convex import hull_of
-from .halving import halve
+from .cut import halve
 from .pieces import NOTHING, SolidPieces
 from .simplify import VOLUME_SHARE, smoothed
 from .solids import manifold_of_hull, triangles_of, union

@@ -24,16 +24,12 @@ TOGETHER = 24
 MOST_LOOKS = 6000
 
 
-@dataclass
+@dataclass(frozen=True)
 class _Cluster:
+    """Hulls joined to one, and the solids that it was made from."""
+
     hull: Hull
     sources: Manifold
-    low: FloatArray
-    high: FloatArray
-
-    @classmethod
-    def of(cls, hull: Hull, sources: Manifold) -> _Cluster:
-        return cls(hull, sources, hull.vertices.min(axis=0), hull.vertices.max(axis=0))
 
 
 def merge(
@@ -46,104 +42,97 @@ def merge(
     room that these do not take. Slots up to ``slot_m`` wide may be filled [m]; ``None``: twice the
     error.
     """
-    start = [_Cluster.of(hull, manifold_of_hull(hull)) for hull in hulls]
-    return [cluster.hull for cluster in _halve_and_join(start, _Yardstick(error_m, slot_m, room))]
+    clusters = [_Cluster(hull, manifold_of_hull(hull)) for hull in hulls]
+    joining = _Joining(error_m, 2.0 * error_m if slot_m is None else slot_m, room)
+    return [cluster.hull for cluster in joining.halve_and_join(clusters)]
 
 
 @dataclass
-class _Yardstick:
+class _Joining:
     """The limits, see :func:`merge`, and how many more pairs may be offered."""
 
     error_m: float
-    slot_m: float | None
+    slot_m: float
     room: Room
     looks: int = MOST_LOOKS
 
+    def halve_and_join(self, clusters: list[_Cluster]) -> list[_Cluster]:
+        """Join what may be joined, of many first within two halves of space each."""
+        if len(clusters) <= TOGETHER:
+            return self._join_greedily(clusters, [])
+        middles = np.array([cluster.hull.bounds.mean(axis=0) for cluster in clusters])
+        order = np.argsort(middles[:, np.ptp(middles, axis=0).argmax()], kind="stable").tolist()
+        half = len(order) // 2
+        left = self.halve_and_join([clusters[i] for i in order[:half]])
+        right = self.halve_and_join([clusters[i] for i in order[half:]])
+        return self._join_greedily(left, right)
 
-def _halve_and_join(clusters: list[_Cluster], yardstick: _Yardstick) -> list[_Cluster]:
-    if len(clusters) <= TOGETHER:
-        return _join_greedily(clusters, [], yardstick)
-    middles = np.array([(c.low + c.high) / 2.0 for c in clusters])
-    order = np.argsort(middles[:, np.ptp(middles, axis=0).argmax()], kind="stable").tolist()
-    half = len(order) // 2
-    left = _halve_and_join([clusters[i] for i in order[:half]], yardstick)
-    right = _halve_and_join([clusters[i] for i in order[half:]], yardstick)
-    return _join_greedily(left, right, yardstick)
+    def _join_greedily(self, left: list[_Cluster], right: list[_Cluster]) -> list[_Cluster]:
+        """Join within ``left`` if ``right`` is empty; else only across, as each side is done."""
+        clusters = dict(enumerate([*left, *right]))
+        queue: list[tuple[float, int, int]] = []
+        for i in range(len(left)):
+            others = range(len(left), len(clusters)) if right else range(i + 1, len(left))
+            self._offer(queue, clusters, i, list(others))
+        fresh = len(clusters)
+        while queue:
+            _, i, j = heapq.heappop(queue)
+            if i not in clusters or j not in clusters:
+                continue
+            # Only now: most pairs that might be joined never are, since one of them is joined
+            # before.
+            joined = self._joined_as_allowed(clusters[i], clusters[j])
+            if joined is None:
+                continue
+            del clusters[i], clusters[j]
+            clusters[fresh] = joined
+            self._offer(queue, clusters, fresh, [k for k in clusters if k != fresh])
+            fresh += 1
+        return list(clusters.values())
 
+    def _offer(
+        self,
+        queue: list[tuple[float, int, int]],
+        clusters: dict[int, _Cluster],
+        i: int,
+        others: list[int],
+    ) -> None:
+        if not others:
+            return
+        low, high = clusters[i].hull.bounds
+        boxes = np.array([clusters[j].hull.bounds for j in others])
+        near = (boxes[:, 0] <= high + self.error_m) & (boxes[:, 1] >= low - self.error_m)
+        for j in np.flatnonzero(near.all(axis=1)).tolist():
+            cost = self._cost(clusters[i], clusters[others[j]])
+            if cost < np.inf:
+                heapq.heappush(queue, (cost, min(i, others[j]), max(i, others[j])))
 
-def _join_greedily(
-    left: list[_Cluster], right: list[_Cluster], yardstick: _Yardstick
-) -> list[_Cluster]:
-    """Join within ``left`` if ``right`` is empty; else only across, as each side is done."""
-    clusters = dict(enumerate([*left, *right]))
-    queue: list[tuple[float, int, int]] = []
-    for i in range(len(left)):
-        others = range(len(left), len(clusters)) if right else range(i + 1, len(left))
-        _offer(queue, clusters, i, list(others), yardstick)
-    fresh = len(clusters)
-    while queue:
-        _, i, j = heapq.heappop(queue)
-        if i not in clusters or j not in clusters:
-            continue
-        # Only now: most pairs that might be joined never are, since one of them is joined before.
-        joined = _joined_as_allowed(clusters[i], clusters[j], yardstick)
-        if joined is None:
-            continue
-        del clusters[i], clusters[j]
-        clusters[fresh] = joined
-        _offer(queue, clusters, fresh, [k for k in clusters if k != fresh], yardstick)
-        fresh += 1
-    return list(clusters.values())
+    def _cost(self, first: _Cluster, second: _Cluster) -> float:
+        """Return the volume that joining two fills [m3]; infinite where that is soon wrong."""
+        hull = _joined(first, second) if self.looks > 0 else None
+        if hull is None:
+            return np.inf
+        corners = hull.vertices[hull.faces]
+        area = float(areas_of(corners).sum())
+        filled = hull.volume - first.hull.volume - second.hull.volume
+        too_much = filled > self.error_m * area
+        if too_much or _gap(first, second, corners.mean(axis=1)) > self.error_m:
+            return np.inf
+        self.looks -= 1
+        return max(filled, 0.0)
+
+    def _joined_as_allowed(self, first: _Cluster, second: _Cluster) -> _Cluster | None:
+        """Return two clusters as one; ``None`` if its hull fills what must stay open."""
+        hull = _joined(first, second)
+        if hull is None or self.room.entered(hull, (first.hull, second.hull)):
+            return None
+        sources = first.sources + second.sources
+        little = fills_little(hull, sources, self.error_m, self.slot_m)
+        return _Cluster(hull, sources) if little else None
 
 
 def _joined(first: _Cluster, second: _Cluster) -> Hull | None:
     return hull_of(np.concatenate([first.hull.vertices, second.hull.vertices]))
-
-
-def _offer(
-    queue: list[tuple[float, int, int]],
-    clusters: dict[int, _Cluster],
-    i: int,
-    others: list[int],
-    yardstick: _Yardstick,
-) -> None:
-    if not others:
-        return
-    one = clusters[i]
-    low = np.array([clusters[j].low for j in others])
-    high = np.array([clusters[j].high for j in others])
-    error_m = yardstick.error_m
-    near = (low <= one.high + error_m) & (high >= one.low - error_m)
-    for j in np.flatnonzero(near.all(axis=1)).tolist():
-        cost = _cost(one, clusters[others[j]], yardstick)
-        if cost < np.inf:
-            heapq.heappush(queue, (cost, min(i, others[j]), max(i, others[j])))
-
-
-def _cost(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> float:
-    """Return the volume that joining two clusters fills [m3]; infinite where that is soon wrong."""
-    error_m = yardstick.error_m
-    hull = _joined(first, second) if yardstick.looks > 0 else None
-    if hull is None:
-        return np.inf
-    corners = hull.vertices[hull.faces]
-    area = float(areas_of(corners).sum())
-    filled = hull.volume - first.hull.volume - second.hull.volume
-    if filled > error_m * area or _gap(first, second, corners.mean(axis=1)) > error_m:
-        return np.inf
-    yardstick.looks -= 1
-    return max(filled, 0.0)
-
-
-def _joined_as_allowed(first: _Cluster, second: _Cluster, yardstick: _Yardstick) -> _Cluster | None:
-    """Return two clusters as one; ``None`` if its hull fills what must stay open."""
-    hull = _joined(first, second)
-    if hull is None or yardstick.room.entered(hull, (first.hull, second.hull)):
-        return None
-    sources = first.sources + second.sources
-    if not fills_little(hull, sources, yardstick.error_m, yardstick.slot_m):
-        return None
-    return _Cluster.of(hull, sources)
 
 
 def _gap(first: _Cluster, second: _Cluster, points: FloatArray) -> float:

@@ -93,8 +93,7 @@ def _opens_up(surface: OpenSurface) -> bool:
     middle = (surface.vertices.min(axis=0) + surface.vertices.max(axis=0)) / 2.0
     outward = float(np.einsum("ij,ij->", corners.mean(axis=1) - middle, vectors))
     opening = -vectors.sum(axis=0) * (1.0 if outward >= 0.0 else -1.0)
-    length = float(np.linalg.norm(opening))
-    return length > 0.0 and float(opening[2]) > UPWARD * length
+    return float(opening[2]) > UPWARD * float(np.linalg.norm(opening))
 
 
 def _width(points: FloatArray) -> float:

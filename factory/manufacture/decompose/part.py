@@ -127,12 +127,13 @@ def _cover(sheet: OpenSurface, center: FloatArray, config: DecomposeConfig) -> l
 
 def _not_inside_others(hulls: list[Hull], proud_m: float = SAME_M) -> list[Hull]:
     """Return the hulls that stand out of every larger one by more than ``proud_m`` [m]."""
-    low = [hull.vertices.min(axis=0) for hull in hulls]
-    high = [hull.vertices.max(axis=0) for hull in hulls]
 
     def holds(other: int, one: int) -> bool:
         # Most boxes tell, long before their hulls' planes would.
-        if (low[other] - proud_m > low[one]).any() or (high[other] + proud_m < high[one]).any():
+        low, high = hulls[other].bounds
+        if (low - proud_m > hulls[one].bounds[0]).any():
+            return False
+        if (high + proud_m < hulls[one].bounds[1]).any():
             return False
         return float(depth_below(hulls[other], hulls[one].vertices).min()) >= -proud_m
 

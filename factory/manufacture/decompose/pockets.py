@@ -20,14 +20,13 @@ SKIN_SHARE = 0.1
 SLOT_COSINE = 0.3
 
 
-def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float | None = None) -> bool:
+def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float) -> bool:
     """Return whether ``hull`` may stand for ``solid``: its surface is within ``error_m`` of it.
 
     That is so where every pocket it fills is a dent no deeper than ``error_m``, or a slot or hole
-    no wider than ``slot_m`` [m], by default twice the error, whatever its depth: nobody's clearance
-    shrinks by more than ``error_m``. The solid may be several that overlap, as one.
+    no wider than ``slot_m`` [m], whatever its depth: nobody's clearance shrinks by more than
+    ``error_m``. The solid may be several that overlap, as one.
     """
-    slot_m = 2.0 * error_m if slot_m is None else slot_m
     core = shrunk(hull, SKIN_SHARE * error_m)
     if core is None:
         # Thinner than its own skin: a grain, or foil.
@@ -75,4 +74,4 @@ def _narrow(pocket: Manifold, hull: Hull, error_m: float, slot_m: float) -> bool
     if width <= slot_m:
         return area > 0.0 and faces_it <= SLOT_COSINE * area
     # A dent's mouth looks along its thin direction; a gap as wide, behind a handle, does not.
-    return area > 0.0 and faces_it > (1.0 - SLOT_COSINE) * area
+    return faces_it > (1.0 - SLOT_COSINE) * area

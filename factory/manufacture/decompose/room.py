@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from manifold3d import Manifold
+from trimesh.bounds import corners
 
 from ...articulation import Articulation
 from ...asset import Hull
@@ -39,15 +41,13 @@ class Room:
 
     def inside(self, hull: Hull) -> FloatArray:
         """Return the points that lie in a hull [m], shape [k, 3]."""
-        near = _between(self.points, hull.vertices.min(axis=0), hull.vertices.max(axis=0))
-        return near[depth_below(hull, near) > ENTERED_M] if len(near) else near
+        near = _between(self.points, *hull.bounds)
+        return near[depth_below(hull, near) > ENTERED_M]
 
     def entered(self, hull: Hull, sources: Iterable[Hull] = ()) -> bool:
         """Return whether a hull takes room that the hulls which it was made from did not take."""
         found = self.inside(hull)
         for source in sources:
-            if not len(found):
-                return False
             found = found[depth_below(source, found) <= ENTERED_M / 2.0]
         return bool(len(found))
 
@@ -66,18 +66,15 @@ class Rooms:
 
     Args:
         articulation: parts and joints.
+
+    Attributes:
+        around: what others take of one part's room, by its index: looked for once.
     """
 
     def __init__(self, articulation: Articulation) -> None:
         self._articulation = articulation
-        self._found: dict[int, Room] = {}
-        self._spread: dict[int, FloatArray] = {}
-
-    def around(self, part: int) -> Room:
-        """Return what others take of one part's room, by its index: looked for once."""
-        if part not in self._found:
-            self._found[part] = self._around(part)
-        return self._found[part]
+        self.around = cache(self._around)
+        self._points_of = cache(self._spread_over)
 
     def _around(self, part: int) -> Room:
         own = self._articulation.part_mesh(part)
@@ -91,18 +88,15 @@ class Rooms:
             points = NOWHERE.points if other == part else self._points_of(other)
             if not len(points):
                 continue
-            corners = _corners(points)
+            box = corners([points.min(axis=0), points.max(axis=0)])
             for pose in relative_poses(self._articulation, part, other, POSES):
-                reach = moved(corners, pose)
+                reach = moved(box, pose)
                 if (reach.max(axis=0) > low).all() and (reach.min(axis=0) < high).all():
                     found.append(_between(moved(points, pose), low, high))
         return Room(_thinned(np.concatenate(found)))
 
-    def _points_of(self, part: int) -> FloatArray:
-        if part not in self._spread:
-            mesh = self._articulation.part_mesh(part)
-            self._spread[part] = spread_over(mesh, SPREAD, SPREAD)
-        return self._spread[part]
+    def _spread_over(self, part: int) -> FloatArray:
+        return spread_over(self._articulation.part_mesh(part), SPREAD)
 
 
 def _between(points: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
@@ -110,15 +104,7 @@ def _between(points: FloatArray, low: FloatArray, high: FloatArray) -> FloatArra
     return points[((points > low) & (points < high)).all(axis=1)]
 
 
-def _corners(points: FloatArray) -> FloatArray:
-    """Return the corners of the box around points, shape [8, 3]."""
-    ends = np.stack([points.min(axis=0), points.max(axis=0)])
-    return np.stack(np.meshgrid(*ends.T, indexing="ij"), axis=-1).reshape(-1, 3)
-
-
 def _thinned(points: FloatArray) -> FloatArray:
-    if not len(points):
-        return points
     first, _ = distinct_rows(np.floor(points / GRAIN_M).astype(np.int64))
     kept = points[np.sort(first)]
     if len(kept) <= MOST:

@@ -89,20 +89,17 @@ def _grow(surface: OpenSurface, vectors: FloatArray, error_m: float) -> list[_Pa
         _, a, b = heapq.heappop(queue)
         if a not in patches or b not in patches:
             continue
-        patches[fresh] = _join(patches, a, b)
-        for other in patches[fresh].near:
+        first = patches.pop(a)
+        second = patches.pop(b)
+        points = np.unique(np.concatenate([first.points, second.points]), axis=0)
+        near = (first.near | second.near) - {a, b}
+        patches[fresh] = _Patch(points, first.normal + second.normal, near)
+        for other in near:
             patches[other].near -= {a, b}
             patches[other].near.add(fresh)
             _offer(queue, patches, fresh, other, error_m)
         fresh += 1
     return list(patches.values())
-
-
-def _join(patches: dict[int, _Patch], a: int, b: int) -> _Patch:
-    first = patches.pop(a)
-    second = patches.pop(b)
-    points = np.unique(np.concatenate([first.points, second.points]), axis=0)
-    return _Patch(points, first.normal + second.normal, (first.near | second.near) - {a, b})
 
 
 def _offer(

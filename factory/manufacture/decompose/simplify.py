@@ -16,21 +16,17 @@ VOLUME_SHARE = 0.02
 SMOOTHING_SHARE = 0.1
 
 
-def simplified(solid: Manifold, max_faces: int, tolerance_m: float) -> Manifold:
-    """Return the solid with about ``max_faces`` triangles; itself where that would not stay closed.
-
-    In the first, exact step its surface moves by no more than ``tolerance_m`` [m].
-    """
-    light = _accepted(solid.simplify(tolerance_m), solid) or solid
-    if light.num_tri() <= max_faces:
-        return light
-    again = manifold_of(*_decimated(*triangles_of(light), max_faces))
-    return (again and _accepted(again, solid)) or light
-
-
 def smoothed(solid: Manifold, error_m: float, config: DecomposeConfig) -> Manifold:
-    """Return a solid simplified as far as the error of its hulls [m] allows."""
-    return simplified(solid, config.max_faces, SMOOTHING_SHARE * error_m)
+    """Return a solid simplified as far as the error of its hulls [m] allows.
+
+    It has about as many triangles as CoACD may be given; more where it would not stay closed. In
+    the first, exact step its surface moves by no more than :data:`SMOOTHING_SHARE` of the error.
+    """
+    light = _accepted(solid.simplify(SMOOTHING_SHARE * error_m), solid) or solid
+    if light.num_tri() <= config.max_faces:
+        return light
+    again = manifold_of(*_decimated(*triangles_of(light), config.max_faces))
+    return (again and _accepted(again, solid)) or light
 
 
 def lighter(surface: OpenSurface, max_faces: int) -> OpenSurface:

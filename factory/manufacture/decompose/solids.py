@@ -207,7 +207,7 @@ def two_sided_patches(faces: IntArray) -> list[IntArray]:
 def _flips(shared: SharedEdges, count: int, patches: list[IntArray]) -> BoolArray:
     """Tell which of some faces to turn to wind each patch like its first face, shape [count]."""
     # Weight 1: wound alike, 2: not; an explicit zero would be no edge.
-    weights = np.where(shared.alike, 1, 2)
+    weights = np.where(shared.forward[:, 0] != shared.forward[:, 1], 1, 2)
     graph = coo_matrix((weights, shared.faces.T), shape=(count, count)).tocsr()
     graph = graph.maximum(graph.T)
     flip = np.zeros(count, dtype=bool)

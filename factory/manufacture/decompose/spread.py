@@ -11,8 +11,8 @@ from ...mesh import FloatArray, Mesh
 SPREAD = 1500
 
 
-def spread_over(mesh: Mesh, count: int, most_corners: int) -> FloatArray:
-    """Return points over a surface [m], shape [n, 3]: ``count`` by area, then corners.
+def spread_over(mesh: Mesh, most_corners: int) -> FloatArray:
+    """Return points over a surface [m], shape [n, 3]: :data:`SPREAD` by area, then corners.
 
     Those by area stand for equal areas each; of more than ``most_corners`` so many are drawn. No
     points where there is no area. All vertices must be used.
@@ -21,8 +21,8 @@ def spread_over(mesh: Mesh, count: int, most_corners: int) -> FloatArray:
     areas = face_areas(mesh)
     if not areas.sum() > 0.0:
         return np.zeros((0, 3))
-    chosen = generator.choice(len(areas), count, p=areas / areas.sum())
-    u, v = np.sort(generator.random((2, count)), axis=0)
+    chosen = generator.choice(len(areas), SPREAD, p=areas / areas.sum())
+    u, v = np.sort(generator.random((2, SPREAD)), axis=0)
     a, b, c = np.moveaxis(mesh.vertices[mesh.faces[chosen]], 1, 0)
     spread = u[:, None] * a + (v - u)[:, None] * b + (1.0 - v)[:, None] * c
     corners = mesh.vertices

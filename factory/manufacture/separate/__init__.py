@@ -14,6 +14,6 @@ Never cut: parts that a joint hits away from its hinge, and more than a joiner w
 A cut there would hide a fault of the asset.
 """
 
-from .separate import CutBack, Separation, SeparationRefusal, separate
+from .separate import Separation, SeparationRefusal, separate
 
-__all__ = ["CutBack", "Separation", "SeparationRefusal", "separate"]
+__all__ = ["Separation", "SeparationRefusal", "separate"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from itertools import chain
 
@@ -37,7 +37,7 @@ class Step:
     """
 
     pose: FloatArray
-    behind: FloatArray = field(default_factory=lambda: np.zeros(3))
+    behind: FloatArray
 
 
 def steps_along(poses: Sequence[FloatArray]) -> list[Step]:

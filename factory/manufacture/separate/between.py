@@ -24,7 +24,7 @@ LEAST_M = 0.002
 Cut = Callable[..., Sides]
 
 
-def poses_between(pair: PartPair) -> list[FloatArray]:
+def _poses_between(pair: PartPair) -> list[FloatArray]:
     """Return poses between those of hinges, so near that a sheet at an arm's end meets another.
 
     None for slides, which are cut on all of their way, where the poses that are cut at are near
@@ -46,23 +46,21 @@ def poses_between(pair: PartPair) -> list[FloatArray]:
     return first + relative_poses(articulation, *pair.parts, finer)
 
 
-def cut_between(
-    cut: Cut, before: Sides, after: Sides, way: Sequence[FloatArray], between: Sequence[FloatArray]
-) -> Sides | None:
+def cut_between(cut: Cut, pair: PartPair, after: Sides, way: Sequence[FloatArray]) -> Sides | None:
     """Cut hulls of two parts anew where they are too near to one another between two poses.
 
     Args:
         cut: hulls at some poses.
-        before: hulls of both, object frame at rest.
-        after: the same, cut.
+        pair: the two parts, with the hulls that they have before.
+        after: their hulls, cut.
         way: poses that they were cut at: of the second part as seen from the first, [4, 4] each.
-        between: other poses to be looked at.
 
     Returns:
         ``None`` where they are not.
     """
     found = None
     poses = list(way)
+    between = _poses_between(pair)
     for _ in range(MOST_LOOKS):
         hulls = found or after
         missed = [pose for pose in between if hull_depth(*hulls, pose, LEAST_M) > -LEAST_M]
@@ -70,5 +68,5 @@ def cut_between(
             break
         # Where nearly all of a long way is missed, as that of a wheel, some of it shows the rest.
         poses += missed[:: -(-len(missed) // len(way))]
-        found = cut(*before, poses)
+        found = cut(*pair.before, poses)
     return found

@@ -31,21 +31,19 @@ class SeenSurface:
     """Points of a part's visible surface, object frame at rest.
 
     Attributes:
-        points: [m], shape [n, 3]; the first ``spread`` by area, then corners.
-        spread: how many stand for equal areas each.
+        points: [m], shape [n, 3], see :func:`~.decompose.spread.spread_over`.
         diagonal: of the part [m].
         known: earlier measurements, by the hull's identity: most of them no cut touches.
     """
 
     points: FloatArray
-    spread: int
     diagonal: float
     known: dict[int, tuple[Hull, FloatArray]] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, mesh: Mesh) -> SeenSurface:
         """Sample a mesh that has an area."""
-        return cls(spread_over(mesh, SPREAD, MOST_CORNERS), SPREAD, mesh.diagonal)
+        return cls(spread_over(mesh, MOST_CORNERS), mesh.diagonal)
 
     def beyond(self, hulls: Sequence[Hull]) -> FloatArray:
         """Return how far each point lies beyond a face plane of every hull [m], shape [n].
@@ -68,29 +66,11 @@ class SeenSurface:
 
 
 @dataclass(frozen=True)
-class Excuse:
-    """Where a cut between two parts may take what can be seen of one of them.
-
-    Attributes:
-        other: the other part's hulls before the cut.
-        held: a joint holds one part in the other: its share inside the other is hidden.
-        hinges: joints that turn one against the other.
-    """
-
-    other: Sequence[Hull]
-    held: bool
-    hinges: Sequence[Joint]
-
-    def holds(self, points: FloatArray, config: SeparateConfig) -> npt.NDArray[np.bool_]:
-        """Tell which points lie in the other part, or as near as they may come to it, shape [n]."""
-        return outside(self.other, points) < config.clearance_m
-
-
-@dataclass(frozen=True)
 class Loss:
     """What one part loses by a cut.
 
     Attributes:
+        part: its name.
         share: of its collision volume.
         open_share: the same without what lay hidden in the part that holds it.
         area: share of its visible surface that is neither hidden nor covered any more.
@@ -101,6 +81,7 @@ class Loss:
         trimmed_m: the same beside a hinge, or in a part that no joint holds it in [m].
     """
 
+    part: str
     share: float
     open_share: float
     area: float
@@ -115,71 +96,81 @@ class Loss:
         return max(self.bared_m, self.trimmed_m)
 
 
-def loss(
-    surface: SeenSurface,
-    before: Sequence[Hull],
-    after: Sequence[Hull],
-    excuse: Excuse,
-    config: SeparateConfig,
-) -> Loss:
-    """Return what a part with some visible surface loses where its hulls become others."""
-    if not after:
-        return Loss(1.0, 1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
-    whole = sum(hull.volume for hull in before)
-    share = 1.0 - sum(hull.volume for hull in after) / whole
-    open_share = share
-    if excuse.held and share > config.planed_volume:
-        was, left = (volume_within(hulls, excuse.other) for hulls in (before, after))
-        open_share -= (was - left) / whole
-    depth = surface.beyond(after) - surface.beyond(before)
-    taken = depth > SHAVED_M
-    points = surface.points[taken]
-    depth = depth[taken]
-    within = excuse.holds(points, config)
-    hidden = within & excuse.held
-    trimmed = ~hidden & (within | _beside(points, excuse.hinges, config.hinge_m))
-    free = ~hidden & ~trimmed
-    area, bare_area, untouched = _bared(surface, before, after, excuse, config)
-    return Loss(
-        share,
-        max(0.0, open_share),
-        area,
-        bare_area,
-        untouched,
-        float(depth[free].max(initial=0.0)),
-        float(depth[trimmed].max(initial=0.0)),
-    )
+@dataclass(frozen=True)
+class CutSide:
+    """One of two parts that are cut apart, and where a cut may take what can be seen of it.
 
+    Attributes:
+        part: its name.
+        surface: what can be seen of it.
+        before: its hulls before the cut.
+        other: the other part's hulls before the cut.
+        held: a joint holds one part in the other: its share inside the other is hidden.
+        hinges: joints that turn one against the other.
+        config: how far a cut may go.
+    """
 
-def _bared(
-    surface: SeenSurface,
-    before: Sequence[Hull],
-    after: Sequence[Hull],
-    excuse: Excuse,
-    config: SeparateConfig,
-) -> tuple[float, float, float]:
-    """Return the shares of a surface bared and not hidden, bared, and untouched: see `Loss`."""
-    # Most lie within a hull that no cut touched, which is known.
-    out = surface.beyond(after)[: surface.spread] > ROUNDING_M
-    points = surface.points[: surface.spread][out]
-    now = outside(after, points)
-    far = now > config.visible_m
-    points = points[far]
-    now = now[far]
-    more = now - outside(before, points)
-    bared = more > config.visible_m
-    hidden = excuse.held & excuse.holds(points[bared], config)
-    untouched = now > config.gap_m
-    added = (untouched & (more > SHAVED_M)).any()
-    return (
-        float((~hidden).sum()) / surface.spread,
-        float(bared.sum()) / surface.spread,
-        float(untouched.sum()) / surface.spread if added else 0.0,
-    )
+    part: str
+    surface: SeenSurface
+    before: Sequence[Hull]
+    other: Sequence[Hull]
+    held: bool
+    hinges: Sequence[Joint]
+    config: SeparateConfig
+
+    def loss(self, after: Sequence[Hull]) -> Loss:
+        """Return what the part loses where its hulls become others."""
+        if not after:
+            return Loss(self.part, 1.0, 1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
+        whole = sum(hull.volume for hull in self.before)
+        share = 1.0 - sum(hull.volume for hull in after) / whole
+        open_share = share
+        if self.held and share > self.config.planed_volume:
+            was, left = (volume_within(hulls, self.other) for hulls in (self.before, after))
+            open_share -= (was - left) / whole
+        depth = self.surface.beyond(after) - self.surface.beyond(self.before)
+        taken = depth > SHAVED_M
+        points = self.surface.points[taken]
+        depth = depth[taken]
+        within = self._in_the_other(points)
+        hidden = within & self.held
+        trimmed = ~hidden & (within | _beside(points, self.hinges, self.config.hinge_m))
+        free = ~hidden & ~trimmed
+        return Loss(
+            self.part,
+            share,
+            max(0.0, open_share),
+            *self._bared(after),
+            float(depth[free].max(initial=0.0)),
+            float(depth[trimmed].max(initial=0.0)),
+        )
+
+    def _bared(self, after: Sequence[Hull]) -> tuple[float, float, float]:
+        """Return the shares of the surface bared and not hidden, bared, and untouched."""
+        # Most lie within a hull that no cut touched, which is known.
+        out = self.surface.beyond(after)[:SPREAD] > ROUNDING_M
+        points = self.surface.points[:SPREAD][out]
+        now = outside(after, points)
+        far = now > self.config.visible_m
+        points = points[far]
+        now = now[far]
+        more = now - outside(self.before, points)
+        bared = more > self.config.visible_m
+        hidden = self.held & self._in_the_other(points[bared])
+        untouched = now > self.config.gap_m
+        added = (untouched & (more > SHAVED_M)).any()
+        return (
+            float((~hidden).sum()) / SPREAD,
+            float(bared.sum()) / SPREAD,
+            float(untouched.sum()) / SPREAD if added else 0.0,
+        )
+
+    def _in_the_other(self, points: FloatArray) -> npt.NDArray[np.bool_]:
+        """Tell which points lie in the other part, or as near as they may come to it, shape [n]."""
+        return outside(self.other, points) < self.config.clearance_m
 
 
 def overdone(
-    names: Sequence[str],
     losses: Sequence[Loss],
     solid: Sequence[bool],
     config: SeparateConfig,
@@ -200,35 +191,35 @@ def overdone(
         if sum(depths) > limit:
             return (
                 f"cutting them apart would take {sum(depths) * 1000:.1f} mm that is not hidden "
-                f"in the other, most of it off {names[int(np.argmax(depths))]!r}; "
+                f"in the other, most of it off {losses[int(np.argmax(depths))].part!r}; "
                 f"at most {limit * 1000:.3g} mm may go"
             )
-    for name, each, encloses in zip(names, losses, solid, strict=True):
+    for each, encloses in zip(losses, solid, strict=True):
         trimmed = each.deepest_m > config.visible_m
         shares = [(each.share, config.most_cut)] if encloses or trimmed else []
         shares += [(each.open_share, config.planed_volume)] if encloses and trimmed else []
         for share, most in shares:
             if share > most:
                 return (
-                    f"cutting them apart would take {share:.0%} of {name!r}; "
+                    f"cutting them apart would take {share:.0%} of {each.part!r}; "
                     f"at most {most:.0%} may go"
                 )
         if each.area > config.planed_area:
             return (
-                f"cutting them apart would bare {each.area:.0%} of the surface of {name!r}; "
+                f"cutting them apart would bare {each.area:.0%} of the surface of {each.part!r}; "
                 f"at most {config.planed_area:.0%} may be"
             )
     return None
 
 
-def too_bare(names: Sequence[str], losses: Sequence[Loss], config: SeparateConfig) -> str | None:
+def too_bare(losses: Sequence[Loss], config: SeparateConfig) -> str | None:
     """Say why a part would be left with too little of its surface covered, by all cuts."""
-    for name, each in zip(names, losses, strict=True):
+    for each in losses:
         if each.untouched > config.most_untouched:
             return (
-                f"cutting them apart would leave {each.untouched:.0%} of the surface of {name!r} "
-                f"more than {config.gap_m * 1000:g} mm outside its collision geometry; "
-                f"at most {config.most_untouched:.0%} may be"
+                f"cutting them apart would leave {each.untouched:.0%} of the surface of "
+                f"{each.part!r} more than {config.gap_m * 1000:g} mm outside its collision "
+                f"geometry; at most {config.most_untouched:.0%} may be"
             )
     return None
 

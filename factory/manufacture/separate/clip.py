@@ -77,16 +77,13 @@ def _along_normals(a: Hull, b: Hull, pose: FloatArray) -> tuple[FloatArray, Floa
     return directions, ends, (moved(b.vertices, pose) @ directions.T).min(axis=0)
 
 
-def meeting(
-    a: Hull, b: Hull, pose: FloatArray, most: int = 6, behind: FloatArray | None = None
-) -> HullMeeting:
-    """Find the face normals that separate two hulls best; if they overlap, some unlike those too.
+def meeting(a: Hull, b: Hull, pose: FloatArray, behind: FloatArray | None = None) -> HullMeeting:
+    """Find six face normals that separate two hulls best; if they overlap, some unlike those too.
 
     Args:
         a: the first.
         b: the second.
         pose: by which the second is moved, [4, 4].
-        most: how many normals are kept.
         behind: from there to where it slid here from, in the first hull's frame [m], shape [3];
             all of that way counts.
     """
@@ -95,7 +92,7 @@ def meeting(
     starts = starts + lags
     # Triangles of one face reach equally far but for last digits, which must not choose among them.
     order = np.argsort(np.round(ends - starts, ROUNDING_DECIMALS), kind="stable")
-    best = order[:most]
+    best = order[:6]
     if ends[best[0]] > starts[best[0]]:
         best = _with_others(directions, order, best)
     return HullMeeting(

@@ -19,7 +19,7 @@ from ..hinges import is_crooked
 from ..poses import held_by, jointed, joints_between, moved, relative_poses
 from ..repair import Pair
 from .along import Sides, hull_depth
-from .budget import Excuse, Loss, SeenSurface, loss, overdone
+from .budget import CutSide, Loss, SeenSurface, overdone
 from .clip import SHEET_M
 from .hung import at_an_edge, stands_out_m, trimmed_limit, well_hung
 from .overlap import overlap_m, part_solid
@@ -174,12 +174,19 @@ class PartPair:
     def losses(self, after: Sides) -> list[Loss]:
         """Return what a cut takes of each that can be seen."""
         found = []
-        sides = zip(self.parts, self.before, after, reversed(self.before), strict=True)
-        for part, old, new, other in sides:
+        for side, part in enumerate(self.parts):
             surface = self.bodies.surfaces[part]
             if surface is not None:
-                excuse = Excuse(other, self.jointed, self.hinges)
-                found.append(loss(surface, old, new, excuse, self.bodies.config))
+                cut = CutSide(
+                    self.names[side],
+                    surface,
+                    self.before[side],
+                    self.before[1 - side],
+                    self.jointed,
+                    self.hinges,
+                    self.bodies.config,
+                )
+                found.append(cut.loss(after[side]))
         return found
 
     def overdone(self, losses: Sequence[Loss]) -> str | None:
@@ -189,7 +196,7 @@ class PartPair:
         least_m = SHEET_M if self.hinges else 0.0
         solid = [thickness_m(self.bodies.solids[part]) > least_m for part in self.parts]
         trimmed_m = self._trimmed_m + config.clearance_m
-        return overdone(self.names, losses, solid, config, free_m=self._free_m, trimmed_m=trimmed_m)
+        return overdone(losses, solid, config, free_m=self._free_m, trimmed_m=trimmed_m)
 
     @cached_property
     def solid(self) -> bool:

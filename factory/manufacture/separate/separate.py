@@ -16,7 +16,7 @@ from ..decompose.merge import merge
 from ..decompose.pieces import SolidPieces
 from ..repair import Pair
 from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
-from .between import Cut, cut_between, poses_between
+from .between import Cut, cut_between
 from .budget import SHAVED_M, Loss, too_bare
 from .pair import PartPair, Workpieces
 
@@ -45,23 +45,6 @@ class SeparationRefusal:
 
 
 @dataclass(frozen=True)
-class CutBack:
-    """A visible cut.
-
-    Attributes:
-        part: its name.
-        depth_m: deepest [m].
-        share: of its collision volume.
-        area: of its visible surface.
-    """
-
-    part: str
-    depth_m: float
-    share: float
-    area: float
-
-
-@dataclass(frozen=True)
 class Separation:
     """What came of cutting.
 
@@ -71,13 +54,13 @@ class Separation:
         hidden: pair of part names -> how deep the parts themselves overlap at rest [m],
             where that is more than decomposition explains and the hidden share was cut out of the
             collision geometry.
-        trimmed: pair of part names -> the visible cut.
+        trimmed: pair of part names -> what each part loses of which a cut can be seen.
     """
 
     pieces: tuple[SolidPieces, ...]
     refused: dict[Pair, SeparationRefusal] = field(default_factory=dict)
     hidden: dict[Pair, float] = field(default_factory=dict)
-    trimmed: dict[Pair, tuple[CutBack, ...]] = field(default_factory=dict)
+    trimmed: dict[Pair, tuple[Loss, ...]] = field(default_factory=dict)
 
 
 def separate(
@@ -93,8 +76,6 @@ def separate(
     out.
     """
     wanted = sorted({(min(pair), max(pair)) for pair in pairs})
-    if not wanted:
-        return Separation(pieces)
     bodies = Workpieces(articulation, [list(piece.hulls) for piece in pieces], config)
     found = Separation(pieces)
     for pair in wanted:
@@ -150,7 +131,7 @@ class _CutPair:
     @property
     def reason(self) -> str | None:
         """Return why the two are not to be cut so; ``None`` if they are."""
-        return self.overdone or too_bare(self.pair.names, self.losses, self.pair.bodies.config)
+        return self.overdone or too_bare(self.losses, self.pair.bodies.config)
 
     @property
     def bare_area(self) -> float:
@@ -222,7 +203,7 @@ def _attempt(pair: PartPair, cut: Cut, poses: Sequence[FloatArray]) -> _CutPair:
     tried = _CutPair.of(pair, cut(*pair.before, poses))
     if tried.overdone is not None or len(poses) <= 2:
         return tried
-    closer = cut_between(cut, pair.before, tried.after, poses, poses_between(pair))
+    closer = cut_between(cut, pair, tried.after, poses)
     return tried if closer is None else _CutPair.of(pair, closer)
 
 
@@ -231,11 +212,8 @@ def _keep(found: Separation, cut: _CutPair) -> None:
     pair = cut.pair
     for part, hulls in zip(pair.parts, cut.after, strict=True):
         pair.bodies.hulls[part] = hulls
-    trimmed = tuple(
-        CutBack(name, each.deepest_m, each.share, each.area)
-        for name, each in zip(pair.names, cut.losses, strict=True)
-        if each.deepest_m > pair.bodies.config.visible_m
-    )
+    visible_m = pair.bodies.config.visible_m
+    trimmed = tuple(each for each in cut.losses if each.deepest_m > visible_m)
     if trimmed:
         found.trimmed[pair.names] = trimmed
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from ...articulation import Joint
 from ...asset import Asset, Hull
+from ...geometry.posing import closed_values
 from ...mesh import FloatArray
-from ..poses import closed_values
 from .along import hull_depth
 
 #: Poses along a joint that are looked at.
@@ -76,8 +76,6 @@ def _deepening(
     ones: Sequence[Hull], others: Sequence[Hull], poses: list[FloatArray], gap_m: float
 ) -> Iterator[float]:
     """Yield how much deeper hulls of two parts are at each pose than at the first [m]."""
-    if not ones or not others:
-        return
     rest = hull_depth(ones, others, poses[0], gap_m)
     yield 0.0
     for pose in poses[1:]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from .box import Box
@@ -43,17 +41,16 @@ def drawer_box(hollow: Box, back: float, up: int = 1) -> tuple[Box, ...]:
     return bottom, left, right, _part(between, 2, high[2] - WALL_M, high[2])
 
 
-def shelf_boards(hollows: Sequence[Box], spacing: float, up: int = 1) -> tuple[Box, ...]:
+def shelf_boards(hollow: Box, spacing: float, up: int = 1) -> tuple[Box, ...]:
     """Return the shelves that hold the walls of a hollow apart, the lowest first.
 
-    Boxes of the hollow, behind one another, and boards are in the frame of the door: right, up,
-    away; ``up`` is the axis that points up. None where the hollow is lower than one and a half of
-    the usual spacing of shelves [m], or too shallow.
+    The hollow and the boards are in the frame of the door: right, up, away; ``up`` is the axis that
+    points up. None where the hollow is lower than one and a half of the usual spacing of shelves
+    [m], or too shallow.
     """
-    low = np.max([box.low for box in hollows], axis=0)
-    low[2] = hollows[0].low[2] + SETBACK_M
-    high = np.min([box.high for box in hollows], axis=0)
-    high[2] = hollows[-1].high[2]
+    low = hollow.low.copy()
+    low[2] += SETBACK_M
+    high = hollow.high
     if (high - low).min() <= 2.0 * SHELF_M:
         return ()
     rooms = max(round(float(high[up] - low[up]) / spacing), 1)

@@ -57,13 +57,9 @@ def make_rest(work: Workpiece, most: int) -> None:
             else (limit_vertices(whole, MOST_CORNERS),)
         )
         keep_clear(work, part)
-        if not work.hulls[part]:
-            continue
         give_way(work, part)
-        joint = work.joints[part - 1]
-        passed = entered(work.lattice, work.hulls[part], motions(joint, 24), CLEAR_M)
-        host = work.host(part)
-        work.clear_way(host, passed)
+        way = motions(work.joints[part - 1], 24)
+        work.clear_way(work.host(part), entered(work.lattice, work.hulls[part], way, CLEAR_M))
 
 
 def hang_panels(work: Workpiece) -> None:

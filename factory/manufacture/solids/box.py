@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from trimesh.bounds import corners
 
 from ...asset import Hull
 from ...mesh import BoolArray, FloatArray, read_only
@@ -58,11 +58,6 @@ class Box:
         ends = np.stack([self.low[which] * sign, self.high[which] * sign])
         return Box(ends.min(axis=0), ends.max(axis=0))
 
-    @property
-    def corners(self) -> FloatArray:
-        """Return the shape [8, 3]."""
-        return np.array(list(itertools.product(*zip(self.low, self.high, strict=True))))
-
     def hull(self) -> Hull | None:
         """Return the box as a convex piece; ``None`` if it is thinner than what engines take."""
-        return None if self.empty else hull_of(self.corners)
+        return None if self.empty else hull_of(corners([self.low, self.high]))

@@ -108,17 +108,14 @@ def _surface_points(work: Workpiece, part: int) -> FloatArray:
 def carve_panel(work: Workpiece, part: int) -> None:
     """Make a panel's slab, and keep its column free for it."""
     panel = work.panels[part]
-    frame = panel.side.frame
     config = work.config
     margin = gaps(panel, work.joints[part - 1], config.gap_m)
     end = np.inf if panel.through else panel.back + config.behind_m
-    carved = panel.reach(margin, end).turned(frame.T)
-    slab = panel.reach(-config.gap_m, panel.back).turned(frame.T)
-    span = work.lattice.span(carved)
-    for other in (0, *work.rest):
-        work.block_box(other, carved, PATH)
-    inner = work.lattice.span(slab)
-    work.take(0, span)
+    carved = work.cells_of(panel, panel.reach(margin, end))
+    work.clear_way(0, carved)
+    for other in work.rest:
+        work.block(other, carved, PATH)
+    inner = work.cells_of(panel, panel.reach(-config.gap_m, panel.back))
     work.owner[inner][work.whole[inner] & (work.owner[inner] == -1)] = part
 
 
@@ -139,7 +136,7 @@ def make_slab(work: Workpiece, part: int) -> None:
     if work.config.interior:
         work.lids[part] = _lid_hollow(work, panel)
         for box in work.lids[part]:
-            work.block_box(part, box.turned(frame.T), INSIDE)
+            work.block(part, work.cells_of(panel, box), INSIDE)
     for box in work.lids.get(part, ()):
         kept = kept[~box.holds(kept, -1e-9)]
     pieces = covering(work, part, solid, kept @ frame, MOST_PIECES, whole)
@@ -156,8 +153,6 @@ def _behind_slab(
 
     Of ``whole`` points of all its surface some lie behind its slab [m], shape [n, 3].
     """
-    if not len(points):
-        return ()
     bare = points[outside(hulls, points) > FAR_M]
     if len(bare) < BARE_SHARE * whole:
         return ()
@@ -172,11 +167,11 @@ def _behind_face(
     lattice = work.lattice
     plain = Box(np.append(panel.low, -np.inf), np.append(panel.high, np.inf))
     inside = np.zeros(lattice.shape, dtype=bool)
-    inside[lattice.span(plain.turned(frame.T))] = True
+    inside[work.cells_of(panel, plain)] = True
     cells = np.argwhere(inside)
     behind = face.above(lattice.centers(cells) @ frame.T)
     inside[tuple(cells.T)] = np.isfinite(behind) & (behind < 0.0)
-    slab = lattice.span(panel.reach(-work.config.gap_m, panel.back).turned(frame.T))
+    slab = work.cells_of(panel, panel.reach(-work.config.gap_m, panel.back))
     solid = np.zeros_like(inside)
     solid[slab] = inside[slab]
     return solid, inside
@@ -205,7 +200,7 @@ def _inner(work: Workpiece, owners: tuple[int, ...], wall: float) -> BoolArray:
         if part in work.panels:
             panel = work.panels[part]
             column = panel.reach(0.004, panel.back + work.config.behind_m)
-            span = lattice.span(column.turned(panel.side.frame.T))
+            span = work.cells_of(panel, column)
             mine[span] |= work.whole[span]
     step = float(np.median(np.diff(lattice.lines[int(np.argmax(lattice.shape))])))
     rounds = max(round(wall / step), 1)
@@ -224,7 +219,7 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     column = Box(np.append(panel.low + wall, start), np.append(panel.high - wall, far))
     if column.empty:
         return
-    work.filled[part] = _filled_behind(work, column, frame)
+    work.filled[part] = _filled_behind(work, panel, column)
     if work.filled[part]:
         room = _inner(work, (0, part), wall)
     else:
@@ -233,7 +228,7 @@ def hollow_behind(work: Workpiece, part: int) -> None:
             return
         room = _empty(work, marked(work.lattice, surface_points(work, 0)))
         layer = Box(column.low, np.append(column.high[:2], start + BEHIND_BACK_M))
-        room[work.lattice.span(layer.turned(frame.T))] = True
+        room[work.cells_of(panel, layer)] = True
     for taken in _taken(work, part):
         room[work.lattice.span(taken.grown(wall))] = False
     boxes = hollow(work.lattice, room, column, frame)
@@ -241,14 +236,15 @@ def hollow_behind(work: Workpiece, part: int) -> None:
         return
     work.hollows[part] = boxes
     for box in boxes:
-        placed = box.turned(frame.T)
-        work.block_box(0, placed, PATH if panel.slides else INSIDE)
-        work.take(0, work.lattice.span(placed))
+        work.clear_way(0, work.cells_of(panel, box), PATH if panel.slides else INSIDE)
+    low = np.max([box.low for box in boxes], axis=0)
+    high = np.min([box.high for box in boxes], axis=0)
+    clear = Box(np.append(low[:2], boxes[0].low[2]), np.append(high[:2], boxes[-1].high[2]))
     if panel.slides:
-        _give_box(work, panel, boxes)
+        _give_box(work, panel, clear)
     elif work.usual.shelves is not None and (upward := np.abs(frame[:2, 2])).max() > ALIKE:
         # What lies has none.
-        work.shelves[part] = shelf_boards(boxes, work.usual.shelves, int(upward.argmax()))
+        work.shelves[part] = shelf_boards(clear, work.usual.shelves, int(upward.argmax()))
 
 
 def _taken(work: Workpiece, part: int) -> Iterator[Box]:
@@ -262,9 +258,9 @@ def _taken(work: Workpiece, part: int) -> Iterator[Box]:
             yield Box.around(corners)
 
 
-def _filled_behind(work: Workpiece, column: Box, frame: FloatArray) -> bool:
+def _filled_behind(work: Workpiece, panel: FlatPanel, column: Box) -> bool:
     layer = Box(column.low, np.append(column.high[:2], column.low[2] + 0.03))
-    cells = work.whole[work.lattice.span(layer.turned(frame.T))]
+    cells = work.whole[work.cells_of(panel, layer)]
     return bool(cells.size and cells.mean() > FILLED)
 
 
@@ -287,11 +283,7 @@ def _empty(work: Workpiece, walls: BoolArray) -> BoolArray:
     return np.asarray(~walls & ~matter & (work.owner <= 0))
 
 
-def _give_box(work: Workpiece, panel: FlatPanel, boxes: tuple[Box, ...]) -> None:
-    room = Box(
-        np.append(np.max([box.low[:2] for box in boxes], axis=0), boxes[0].low[2]),
-        np.append(np.min([box.high[:2] for box in boxes], axis=0), boxes[-1].high[2]),
-    )
+def _give_box(work: Workpiece, panel: FlatPanel, room: Box) -> None:
     up = int(np.abs(panel.side.frame[:2, 2]).argmax())
     boards = drawer_box(room, panel.back, up)
     work.boards[panel.part] = boards

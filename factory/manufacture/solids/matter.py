@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
+from scipy import ndimage
 
 from ...geometry.rows import distinct_rows
 from ...mesh import BoolArray, FloatArray
@@ -74,10 +75,4 @@ class Matter:
 
 def any_around(cells: BoolArray) -> BoolArray:
     """Return for each corner of cells whether any cell around it is set, one more each way."""
-    result = cells
-    for axis in range(3):
-        pad = [(1, 1) if axis == other else (0, 0) for other in range(3)]
-        padded = np.pad(result, pad)
-        length = padded.shape[axis]
-        result = np.take(padded, range(length - 1), axis) | np.take(padded, range(1, length), axis)
-    return np.asarray(result)
+    return np.asarray(ndimage.maximum_filter(np.pad(cells, 1), size=2)[1:, 1:, 1:])

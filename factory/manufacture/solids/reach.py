@@ -75,5 +75,5 @@ def _stretched(matter: Matter, hull: Hull, points: FloatArray) -> Hull:
 
 def _filled(matter: Matter, hull: Hull) -> float:
     """Return what it fills of what must stay free, by weight, and of air [m3]."""
-    span = matter.lattice.span(Box.around(hull.vertices).grown(0.5 * matter.lattice.step))
+    span = matter.lattice.span(Box(*hull.bounds).grown(0.5 * matter.lattice.step))
     return filled(matter.lattice, matter.unwanted, span, hull)

@@ -60,7 +60,7 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
         if any(above.parent in panels for above in joints_above(articulation, index)):
             continue
         view = views.get(side_facing(given.outward))
-        if view is None or not (view.part == index).any():
+        if view is None:
             continue
         opposite = views.get(side_facing(-given.outward))
         panel = find_panel(articulation, index, view, opposite)

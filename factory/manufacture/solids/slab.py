@@ -44,10 +44,6 @@ class FrontRelief:
         plain = self.plain[self.view.raster.nearest(local)]
         return np.asarray(np.where(np.isfinite(plain), plain - local[:, 2], -np.inf))
 
-    def blob(self, local: FloatArray) -> FloatArray:
-        """Return which blob points lie in, shape [n]; 0: none."""
-        return np.asarray(self.blobs[self.view.raster.nearest(local)])
-
 
 def relief(view: View, panel: FlatPanel) -> FrontRelief:
     """Tell a panel's face from its protrusions."""
@@ -72,7 +68,7 @@ def handles(face: FrontRelief, local: FloatArray) -> tuple[Hull, ...]:
     Points of the panel's surface, shape [n, 3], are in that frame too [m].
     """
     above = face.above(local)
-    blob = face.blob(local)
+    blob = face.blobs[face.view.raster.nearest(local)]
     numbers = range(1, face.count + 1)
     found = (hull_of(local[(blob == number) & (above > -0.001)]) for number in numbers)
     return tuple(limit_vertices(hull, MOST_CORNERS) for hull in found if hull is not None)

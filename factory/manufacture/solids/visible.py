@@ -59,9 +59,8 @@ def panel_surfaces(work: Workpiece, part: int) -> None:
             walls = inside_of(hollows, hollows[0].low[2])
             depth = hollows[-1].high[2] - hollows[0].low[2]
             work.add(0, walls, "hollow", "walls", panel=panel, thickness=wall, depth=depth)
-        boards = work.shelves.get(part, ())
-        if boards:
-            work.add(0, outside_of(boards), "shelf", "usual", panel=panel, thickness=SHELF_M)
+        shelves = outside_of(work.shelves.get(part, ()))
+        work.add(0, shelves, "shelf", "usual", panel=panel, thickness=SHELF_M)
     if inner:
         walls = inside_of(inner, inner[0].high[2])
         depth = inner[0].high[2] - inner[-1].low[2]

@@ -91,31 +91,25 @@ class Workpiece:
         """Tell whether the space behind a panel is filled, so that its opening ends in a face."""
         return not self.panels[part].through and self.filled.get(part, True)
 
-    def take(self, part: int, span: Span) -> None:
-        """Make cells nobody's that are a part's."""
-        owner = self.owner[span]
-        owner[owner == part] = -1
+    def cells_of(self, panel: FlatPanel, box: Box) -> Span:
+        """Return the cells whose centres lie in a box of a panel's frame."""
+        return self.lattice.span(box.turned(panel.side.frame.T))
 
-    def clear_way(self, part: int, passed: BoolArray) -> None:
+    def clear_way(self, part: int, passed: BoolArray | Span, weight: int = PATH) -> None:
         """Keep a part's pieces out of cells that something passes, and make its own nobody's."""
-        self.block(part, passed, PATH)
-        self.owner[passed & (self.owner == part)] = -1
+        self.block(part, passed, weight)
+        owner = self.owner[passed]
+        self.owner[passed] = np.where(owner == part, -1, owner)
 
     def add_boards(self, part: int, boards: Iterable[Box], panel: FlatPanel) -> None:
         """Add boards, in a panel's frame, to a part's pieces."""
         hulls = (board.turned(panel.side.frame.T).hull() for board in boards)
         self.hulls[part] += tuple(hull for hull in hulls if hull is not None)
 
-    def block(self, part: int, cells: BoolArray, weight: int) -> None:
-        """Mark how badly cells must stay free of a part's pieces; earlier marks stay."""
+    def block(self, part: int, cells: BoolArray | Span, weight: int) -> None:
+        """Mark how badly cells must stay free of a part's pieces; worse marks stay."""
         known = self.blocked(part)
-        self.free[part] = np.where(cells, np.maximum(known, weight), known).astype(np.uint8)
-
-    def block_box(self, part: int, box: Box, weight: int) -> None:
-        """Say how badly the cells in a box must stay free of a part's pieces."""
-        known = self.blocked(part)
-        span = self.lattice.span(box)
-        known[span] = np.maximum(known[span], weight)
+        known[cells] = np.maximum(known[cells], weight)
 
     def blocked(self, part: int) -> Weights:
         """Return how badly cells must stay free of a part's pieces, 0 where they need not."""

@@ -6,8 +6,8 @@ import numpy as np
 
 from ...articulation import Joint
 from ...asset import Asset, StandingPlace, Target
+from ...geometry.posing import closed_values
 from ...mesh import FloatArray
-from ..poses import closed_values
 from .shape import middle_of
 
 #: Radius of the base, and what is left free around it [m].

@@ -27,13 +27,11 @@ class Surroundings:
         triangles: visible surfaces and collision hulls [m], shape [triangle_count, 3, 3].
         parts: whose each one is, shape [triangle_count].
         hulls: all of them.
-        hull_boxes: lower and upper corner of each hull [m], shape [hull_count, 2, 3].
     """
 
     triangles: FloatArray
     parts: IntArray
     hulls: tuple[Hull, ...]
-    hull_boxes: FloatArray
 
     @cached_property
     def boxes(self) -> tuple[FloatArray, FloatArray]:
@@ -45,10 +43,14 @@ class Surroundings:
         """Return the box around everything [m], shape [2, 3]."""
         return np.stack([self.boxes[0].min(axis=0), self.boxes[1].max(axis=0)])
 
+    @cached_property
+    def hull_boxes(self) -> FloatArray:
+        """Return the box around each hull [m], shape [hull_count, 2, 3]."""
+        return np.reshape([hull.bounds for hull in self.hulls], (-1, 2, 3))
+
     def is_inside(self, point: FloatArray) -> bool:
         """Return whether a point [m], shape [3], lies within a hull, deeper than a touch."""
-        low = self.hull_boxes[:, 0]
-        high = self.hull_boxes[:, 1]
+        low, high = np.moveaxis(self.hull_boxes, 1, 0)
         # Most hulls are nowhere near, and asking all of their planes is what takes long.
         near = np.flatnonzero(((low <= point) & (high >= point)).all(axis=1)).tolist()
         return any(depth_below(self.hulls[hull], point[None])[0] > THINNEST_M for hull in near)
@@ -79,9 +81,7 @@ def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]])
         corners += [hull.vertices[hull.faces] for hull in pieces]
         owners += [np.full(len(hull.faces), part) for hull in pieces]
     solid = tuple(chain.from_iterable(hulls))
-    boxes = [[hull.vertices.min(axis=0), hull.vertices.max(axis=0)] for hull in solid]
-    ends = np.reshape(boxes, (-1, 2, 3)).astype(np.float64)
-    return Surroundings(np.concatenate(corners), np.concatenate(owners), solid, ends)
+    return Surroundings(np.concatenate(corners), np.concatenate(owners), solid)
 
 
 @dataclass(frozen=True)

@@ -55,12 +55,13 @@ CLOSED = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 def test_every_edge_of_a_closed_surface_is_shared_by_two_faces_wound_alike():
     shared = shared_edges(CLOSED)
     assert shared.vertices.tolist() == [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]
-    assert shared.alike.all()
+    assert (shared.forward.sum(axis=1) == 1).all()
     for edge, faces in zip(shared.vertices, shared.faces, strict=True):
         assert all(np.isin(edge, CLOSED[face]).all() for face in faces)
     # A face turned round is not wound as its neighbours.
     shared = shared_edges(np.vstack([CLOSED[:1, ::-1], CLOSED[1:]]))
-    assert (shared.alike == ~(shared.faces == 0).any(axis=1)).all()
+    alike = shared.forward[:, 0] != shared.forward[:, 1]
+    assert (alike == ~(shared.faces == 0).any(axis=1)).all()
 
 
 def test_edges_of_one_or_three_faces_are_not_shared():

@@ -11,10 +11,9 @@ from plain_solids import sized_hull
 from asset_factory.factory.config import SeparateConfig
 from asset_factory.factory.manufacture.decompose.solids import thickness_m
 from asset_factory.factory.manufacture.separate.budget import (
-    Excuse,
+    CutSide,
     Loss,
     SeenSurface,
-    loss,
     overdone,
     too_bare,
 )
@@ -22,23 +21,19 @@ from asset_factory.factory.manufacture.separate.clip import SHEET_M, clipped
 
 CONFIG = SeparateConfig()
 LIMITS = {"free_m": 0.006, "trimmed_m": 0.025}
-NOTHING = Loss(*[0.0] * 7)
+NOTHING = Loss("flap", *[0.0] * 7)
 
 
 def judged(lost, solid):
-    return overdone(("flap", "bin"), (lost, NOTHING), (solid, True), CONFIG, **LIMITS)
-
-
-def test_a_cut_that_takes_nothing_is_fine():
-    assert judged(NOTHING, solid=True) is None
+    return overdone((lost, replace(NOTHING, part="bin")), (solid, True), CONFIG, **LIMITS)
 
 
 @pytest.mark.parametrize(("name", "most"), [("bared_m", 0.006), ("trimmed_m", 0.025)])
 def test_depths_are_limited_for_both_parts_together(name, most):
     within = replace(NOTHING, **{name: 0.5 * most})
-    both = [within, replace(NOTHING, **{name: 0.6 * most})]
+    both = [within, replace(NOTHING, part="bin", **{name: 0.6 * most})]
     assert judged(within, solid=False) is None
-    told = overdone(("flap", "bin"), both, (False, True), CONFIG, **LIMITS)
+    told = overdone(both, (False, True), CONFIG, **LIMITS)
     assert "most of it off 'bin'" in told
 
 
@@ -62,7 +57,7 @@ def plate():
 
 
 def lost_by(surface, before, after):
-    return loss(surface, [before], [after], Excuse((), False, ()), CONFIG)
+    return CutSide("flap", surface, [before], (), False, (), CONFIG).loss([after])
 
 
 def test_a_plate_cut_to_a_knife_s_edge_is_bared_though_no_plane_cuts_deep():
@@ -74,7 +69,7 @@ def test_a_plate_cut_to_a_knife_s_edge_is_bared_though_no_plane_cuts_deep():
     assert lost.bared_m == pytest.approx(0.004, abs=1e-4)
     assert lost.area == pytest.approx(0.295 / 0.6, abs=0.03)
     assert lost.untouched == pytest.approx(0.29 / 0.6, abs=0.03)
-    assert "outside its collision geometry" in too_bare(("flap",), [lost], CONFIG)
+    assert "outside its collision geometry" in too_bare([lost], CONFIG)
 
 
 def test_cuts_that_take_a_little_each_may_not_bare_much_together():
@@ -84,11 +79,11 @@ def test_cuts_that_take_a_little_each_may_not_bare_much_together():
         cut = clipped(left, np.array([*normal, 0.0]), end)
         lost = lost_by(surface, left, cut)
         assert lost.area < CONFIG.planed_area
-        told.append(too_bare(("flap",), [lost], CONFIG) is not None)
+        told.append(too_bare([lost], CONFIG) is not None)
         left = cut
     assert told == [False, False, False, True]
     # What was bare before is no fault of a cut that bares nothing.
-    assert too_bare(("flap",), [lost_by(surface, left, left)], CONFIG) is None
+    assert too_bare([lost_by(surface, left, left)], CONFIG) is None
 
 
 def test_a_thin_board_counts_as_a_sheet_and_a_thick_one_does_not():

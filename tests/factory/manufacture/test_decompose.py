@@ -16,7 +16,7 @@ from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.errors import Unjudged
 from asset_factory.factory.manufacture.decompose import ladder, methods
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of, surface_points
-from asset_factory.factory.manufacture.decompose.halving import halve
+from asset_factory.factory.manufacture.decompose.cut import halve
 from asset_factory.factory.manufacture.decompose.methods import SolidPieces, split_closely
 from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.room import NOWHERE

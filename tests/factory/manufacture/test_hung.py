@@ -66,7 +66,7 @@ STOP = box((-0.02, 0.1, 0.28), (0.02, 0.14, 0.338))
 
 def test_what_a_lever_scrapes_on_its_way_is_cut_back():
     _, _, result = cut_free([*POST, STOP], LEVER, SWING)
-    assert 0.005 < max(each.depth_m for each in result.trimmed[PAIR]) < CONFIG.scraped_m
+    assert 0.005 < max(each.deepest_m for each in result.trimmed[PAIR]) < CONFIG.scraped_m
 
 
 SHIFT = 0.05 * 0.7

@@ -33,7 +33,7 @@ def test_a_hinge_in_the_edge_gets_the_room_that_its_corner_needs():
     _, _, result = cut_free(CASE, [DOOR], HINGE, poses=200)
     trimmed = result.trimmed[PAIR]
     # Half the thickness and the clearance, less the gap that is there, off either.
-    assert 0.005 < sum(each.depth_m for each in trimmed) < THICK / 2 + CONFIG.clearance_m
+    assert 0.005 < sum(each.deepest_m for each in trimmed) < THICK / 2 + CONFIG.clearance_m
     assert all(each.area < CONFIG.planed_area for each in trimmed)
 
 

@@ -113,7 +113,7 @@ def test_a_slot_in_something_large_may_be_as_deep_as_it_is_large():
     assert result.refused == {}
     assert result.pieces[1].hulls[0].volume == pytest.approx(tongue.volume, rel=1e-6)
     (slot,) = result.trimmed[PAIR]
-    assert slot.depth_m == pytest.approx(0.025 + CONFIG.clearance_m, abs=1e-4)
+    assert slot.deepest_m == pytest.approx(0.025 + CONFIG.clearance_m, abs=1e-4)
     assert slot.area < 0.01
 
 
@@ -253,7 +253,3 @@ def test_tiles_around_a_hole_become_four_walls_and_the_hole_stays_open():
 def test_tiles_further_apart_than_rounding_stay_apart():
     apart = [hull((0.1, 0.1, 0.02)), hull((0.1, 0.1, 0.02), (0.101, 0.0, 0.0))]
     assert len(with_hulls(PANEL, apart, 64).hulls) == 2
-
-
-def test_a_part_that_was_not_cut_is_the_same():
-    assert with_hulls(PANEL, list(PANEL.hulls), 64) is PANEL

@@ -12,14 +12,15 @@ from manifold3d import Manifold
 from plain_solids import sized_box as box
 from plain_solids import sized_hull
 
+from asset_factory.factory.config import DecomposeConfig
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of, limit_vertices
-from asset_factory.factory.manufacture.decompose.cut import as_one, cut_along_faces
+from asset_factory.factory.manufacture.decompose.cut import cut_along_faces
 from asset_factory.factory.manufacture.decompose.merge import merge
 from asset_factory.factory.manufacture.decompose.openings import capped
 from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.pockets import fills_little
 from asset_factory.factory.manufacture.decompose.sheets import slabs
-from asset_factory.factory.manufacture.decompose.simplify import simplified
+from asset_factory.factory.manufacture.decompose.simplify import smoothed
 from asset_factory.factory.manufacture.decompose.solids import (
     OpenSurface,
     closes,
@@ -129,7 +130,7 @@ def test_a_pipe_with_hidden_open_ends_is_closed_and_a_box_without_a_lid_is_not()
 def test_simplifying_keeps_a_closed_solid_of_nearly_the_same_volume():
     sphere = trimesh.creation.icosphere(subdivisions=4, radius=0.2)
     solid = manifold_of(np.array(sphere.vertices), np.array(sphere.faces))
-    light = simplified(solid, 400, 0.0005)
+    light = smoothed(solid, 0.005, DecomposeConfig(max_faces=400))
     assert light.num_tri() <= 400
     assert light.volume() == pytest.approx(solid.volume(), rel=0.03)
 
@@ -190,19 +191,14 @@ def test_a_hull_may_fill_dents_and_slots_within_the_error_and_nothing_wider():
         (round_hole(0.005), True),
         (round_hole(0.04), False),
     ):
-        assert fills_little(hull_box((0.4, 0.3, 0.1)), board - cut, 0.005) is allowed
-
-
-def test_a_box_is_exact():
-    whole = as_one(solid_box((0.4, 0.3, 0.1)), 0.005)
-    assert (whole.method, len(whole.hulls)) == ("exact", 1)
+        assert fills_little(hull_box((0.4, 0.3, 0.1)), board - cut, 0.005, 0.01) is allowed
 
 
 def test_boards_and_the_bars_of_a_frame_are_cut_exactly():
     boards = solid_box((0.4, 0.3, 0.02)) + solid_box((0.02, 0.3, 0.4))
     bars = solid_box((1.0, 0.05, 2.0)) - solid_box((0.8, 0.05, 1.8), (0.1, 0.0, 0.1))
     for shape, count in ((boards, 2), (bars, 4)):
-        cut = cut_along_faces(shape, 0.005, 16)
+        cut = cut_along_faces(shape, 0.005, 16, 0.01)
         assert (cut.method, len(cut.hulls)) == ("exact", count)
         assert sum(hull.volume for hull in cut.hulls) == pytest.approx(shape.volume(), rel=1e-9)
 
@@ -211,8 +207,8 @@ def test_cutting_gives_up_beyond_the_limit():
     comb = solid_box((0.5, 0.1, 0.02))
     for tooth in range(8):
         comb = comb + solid_box((0.02, 0.1, 0.2), (0.06 * tooth, 0, 0))
-    assert cut_along_faces(comb, 0.005, 4) is None
-    assert cut_along_faces(comb, 0.005, 32) is not None
+    assert cut_along_faces(comb, 0.005, 4, 0.01) is None
+    assert cut_along_faces(comb, 0.005, 32, 0.01) is not None
 
 
 def test_halves_of_a_board_are_joined_and_the_legs_of_a_table_are_not():

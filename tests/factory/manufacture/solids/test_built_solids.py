@@ -260,7 +260,7 @@ HOLLOW = Box(np.array([-0.3, 0.1, 0.0]), np.array([0.3, 1.0, 0.5]))
 
 @pytest.mark.parametrize(("spacing", "count"), [(0.3, 2), (0.4, 1), (0.7, 0), (2.0, 0)])
 def test_shelves_divide_a_hollow_evenly(spacing, count):
-    boards = shelf_boards([HOLLOW], spacing)
+    boards = shelf_boards(HOLLOW, spacing)
     assert len(boards) == count
     edges = [0.1, *((board.low[1] + board.high[1]) / 2.0 for board in boards), 1.0]
     np.testing.assert_allclose(np.diff(edges), 0.9 / (count + 1))
@@ -269,7 +269,7 @@ def test_shelves_divide_a_hollow_evenly(spacing, count):
         assert board.low[2] > HOLLOW.low[2]
         np.testing.assert_array_equal(board.size[[0]], HOLLOW.size[[0]])
     too_shallow = Box(HOLLOW.low, np.array([0.3, 1.0, 0.05]))
-    assert shelf_boards([too_shallow], spacing) == ()
+    assert shelf_boards(too_shallow, spacing) == ()
 
 
 def test_a_cupboard_has_shelves():
