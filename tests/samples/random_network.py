@@ -7,7 +7,7 @@ from asset_factory.factory.models.particulate.prediction import Prediction
 PARTS = 16
 
 
-def random_network(cloud, context):
+def random_network(cloud, context, least_confidence=0.0):
     """The same answer for the same points."""
     points = cloud.points
     assert np.isfinite(points).all()
@@ -24,7 +24,5 @@ def random_network(cloud, context):
         revolute_range=rng.normal(size=(PARTS, 2)),
         prismatic_direction=rng.normal(size=(PARTS, 3)),
         prismatic_range=rng.normal(size=(PARTS, 2)) * 0.3,
-        closest_points=lambda part_ids, rows=None: (
-            points[slice(None) if rows is None else rows] * 0.1
-        ).astype("f4"),
+        closest_points=points * 0.1,
     )

@@ -127,14 +127,14 @@ def decode(
 
 
 def require_finite(prediction: Prediction) -> None:
-    """Refuse an answer with NaN or infinity in it.
+    """Refuse an answer with NaN or infinity in it; votes are refused where a part counts them.
 
     Raises:
         InputRejected: ``prediction_not_finite``, naming the field.
     """
     for each in fields(prediction):
         value = getattr(prediction, each.name)
-        if isinstance(value, np.ndarray):
+        if value is not None and each.name != "closest_points":
             require_finite_numbers(value, each.name)
 
 

@@ -23,10 +23,14 @@ MOST_SAMPLES = 64
 class Network(Protocol):
     """Whatever answers for a cloud of points."""
 
-    def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
+    def __call__(self, cloud: Cloud, context: Cloud, least_confidence: float = 0.0) -> Prediction:
         """Return the answer for one cloud, all in the network's frame.
 
-        ``cloud`` is to label; features are computed from ``context``, more of the same surface.
+        Args:
+            cloud: points to label.
+            context: more of the same surface, from which features are computed.
+            least_confidence: as for :func:`~.decoding.assigned`, which gives every point the part
+                whose axis it is asked for.
         """
         ...
 
@@ -57,7 +61,8 @@ def infer(
         for number in range(config.samples):
             rng = np.random.default_rng((config.seed, number))
             seen = sample(proxy.surface, *counts, rng)
-            answer = network(seen.cloud.inside(seen.box), seen.context.inside(seen.box))
+            both = (seen.cloud.inside(seen.box), seen.context.inside(seen.box))
+            answer = network(*both, config.least_confidence)
             yield decode(surface, proxy, seen, answer, config)
 
     return consensus(tuple(readings()), surface.areas)

@@ -26,11 +26,6 @@ from asset_factory.factory.models.particulate.surface import Surface
 UNIT = UnitBox(np.zeros(3), 1.0)
 
 
-def picked(points):
-    """Closest points as the network would compute them, from stored ones."""
-    return lambda part_ids, rows=None: points if rows is None else points[rows]
-
-
 def prediction_of(held):
     """The logits behind stored decisions."""
     mask = np.zeros((len(held["part_ids"]), 16))
@@ -47,7 +42,7 @@ def prediction_of(held):
         revolute_range=held["revolute_range"],
         prismatic_direction=held["prismatic_axis"],
         prismatic_range=held["prismatic_range"],
-        closest_points=picked(held["closest_point_on_axis"]),
+        closest_points=held["closest_point_on_axis"],
     )
 
 
@@ -99,7 +94,7 @@ def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, r
 
 def forward_prediction(held):
     given = {name: held[original][0] for name, original in OUTPUTS.items()}
-    return Prediction(**given, closest_points=picked(held["closest_point_on_axis"][0]))
+    return Prediction(**given, closest_points=held["closest_point_on_axis"][0])
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
@@ -184,18 +179,22 @@ def test_the_margin_is_that_between_the_two_likeliest_kinds():
     assert undecided.margin == pytest.approx(1 / 6, abs=1e-6)
 
 
+def voting(votes):
+    """The same one part, whose points say where its axis is."""
+    given = {"closest_points": votes, "revolute_moment": None}
+    held = turning(direction=(0.0, 0.0, 2.0))
+    return replace(held, mask_logits=np.zeros((len(votes), 1)), **given)
+
+
 def test_votes_for_an_axis_are_robust_and_their_spread_is_measured():
     """A third of the votes are wild; the median does not move."""
     rng = np.random.default_rng(0)
     votes = rng.normal([0.2, -0.1, 0.0], [0.01, 0.01, 0.3], (300, 3)).astype(np.float32)
     votes[:90, :2] = rng.uniform(-3, 3, (90, 2))
-    held = turning(direction=(0.0, 0.0, 2.0))
-    prediction = replace(held, closest_points=picked(votes), revolute_moment=None)
-    axis = only_motion(prediction, 300).axis
+    axis = only_motion(voting(votes), 300).axis
     assert np.allclose(axis.point[:2], [0.2, -0.1], atol=0.01)
     assert 0.005 < axis.spread < 0.03
-    tight = replace(prediction, closest_points=picked(np.full((300, 3), 0.5, dtype=np.float32)))
-    assert only_motion(tight, 300).axis.spread == 0.0
+    assert only_motion(voting(np.full((300, 3), 0.5)), 300).axis.spread == 0.0
 
 
 @pytest.mark.parametrize(
@@ -212,9 +211,7 @@ def test_broken_weights_are_a_reason_not_an_answer(field):
 
 
 def test_broken_votes_are_a_reason_too():
-    votes = np.full((1, 3), np.inf, dtype=np.float32)
-    prediction = replace(turning(), closest_points=picked(votes), revolute_moment=None)
-    found = refusal(only_motion, prediction)
+    found = refusal(only_motion, voting(np.full((1, 3), np.inf)))
     assert (found.code, "votes" in found.message) == ("prediction_not_finite", True)
 
 

@@ -15,6 +15,7 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.layers import Attention
 from asset_factory.factory.models.network.shape import AxisForm, product_dtype
 from asset_factory.factory.models.network.streaming import QueryPass, drive, embed_chunks
+from asset_factory.factory.models.particulate.decoding import assigned
 from asset_factory.factory.models.particulate.model import Particulate, PointCloud, load_model
 from asset_factory.factory.models.particulate.sampling import Cloud
 
@@ -50,7 +51,7 @@ def test_streamed_is_plain(shape):
         np.testing.assert_allclose(prediction.revolute_moment, moment, **CLOSE)
     else:
         assert prediction.revolute_moment is None
-        np.testing.assert_allclose(prediction.closest_points(masks.argmax(1)), closest, **CLOSE)
+        np.testing.assert_allclose(prediction.closest_points, closest, **CLOSE)
 
 
 def test_of_several_mask_heads_the_first_answers():
@@ -85,8 +86,8 @@ def test_a_batch_is_its_clouds_one_by_one():
     for number, cloud in enumerate(clouds):
         prediction = model.predict(cloud)
         np.testing.assert_allclose(prediction.mask_logits, masks[number].numpy(), **CLOSE)
-        own = prediction.closest_points(masks[number].argmax(-1).numpy())
-        np.testing.assert_allclose(own, closest[number].numpy(), **CLOSE)
+        own = closest[number].numpy()
+        np.testing.assert_allclose(prediction.closest_points, own, **CLOSE)
 
 
 def test_a_cloud_that_drives_itself_is_predicted():
@@ -123,17 +124,19 @@ def test_few_driving_points_always_give_the_same_answer_for_all():
     assert errors[0] > errors[1] > errors[2] > 0.0
 
 
-def test_closest_points_of_some_rows_are_those_of_all():
-    prediction = tiny_model().predict(random_cloud(90))
-    part_ids = prediction.mask_logits.argmax(1)
-    rows = np.array([3, 3, 88, 0])
-    closest = prediction.closest_points(part_ids)
-    np.testing.assert_allclose(prediction.closest_points(part_ids, rows), closest[rows], **CLOSE)
-    assert prediction.closest_points(part_ids, np.zeros(0, dtype=int)).shape == (0, 3)
-    other = prediction.closest_points((part_ids + 1) % 16)
-    assert np.abs(other - closest).min(axis=0).max() > 0.0
-    with pytest.raises(ValueError, match=r"want \[90\]"):
-        prediction.closest_points(part_ids[:5])
+def test_points_of_parts_that_are_dissolved_say_where_the_axis_of_the_next_one_is():
+    model = tiny_model()
+    cloud = random_cloud(90)
+    sure = model.predict(cloud)
+    less = model.predict(cloud, least_confidence=0.4)
+    assert np.array_equal(less.mask_logits, sure.mask_logits)
+    owners = [assigned(sure.mask_logits, least).parts for least in (0.0, 0.4)]
+    moved = owners[0] != owners[1]
+    assert 0 < moved.sum() < 90
+    _, closest, _ = plainly(model, cloud, owners[1])
+    np.testing.assert_allclose(less.closest_points, closest, **CLOSE)
+    np.testing.assert_allclose(less.closest_points[~moved], sure.closest_points[~moved], **CLOSE)
+    assert (np.abs(less.closest_points - sure.closest_points)[moved].max(axis=1) > 0.0).all()
 
 
 def test_bfloat16_stays_within_two_percent_of_the_largest_logit():
