@@ -17,8 +17,8 @@ from asset_factory.sim_checks.processes.isolation import (
 )
 
 from ..assets import listed, read_registry
+from ..robots import ROBOTS
 from .attempt import Attempt
-from .robots import SOLVERS
 
 #: The task and what it is made with; another registry and robot are all that changes.
 TASK = "asset_factory.envs:OpenJoint-v1"
@@ -102,8 +102,8 @@ def attempted(task: SolveTask) -> Attempt:
 
 def _require_there(registry: str | Path, asset_id: str, joint: str, robot: str) -> None:
     """Raise what :func:`solve_joint` raises, before a process is started to find out."""
-    if robot not in SOLVERS:
-        raise ConfigError(f"no robot {robot!r}; want one of {', '.join(SOLVERS)}")
+    if robot not in ROBOTS:
+        raise ConfigError(f"no robot {robot!r}; want one of {', '.join(ROBOTS)}")
     assets = read_registry(registry)
     if asset_id not in assets:
         there = listed(sorted(assets))

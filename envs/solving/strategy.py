@@ -6,11 +6,11 @@ from collections.abc import Set
 from dataclasses import dataclass, replace
 
 from ..assets import FloatArray
+from ..robots import CLOSED, OPEN
 from .attempt import Attempt
 from .driving import OVERLOAD, Driver, Stopped, sustained
 from .grips import drags, grasps, pushes, unobstructed
 from .planning import ArmPlan, plans
-from .robots import CLOSED, OPEN
 from .transit import transit
 
 #: Grips in one episode, and ways to get to a grip that are searched for.
