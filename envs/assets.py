@@ -43,8 +43,6 @@ class OpenableJoint:
         rest_point: the same place in the object frame with every joint at 0 [m], shape [3].
         normal: outward there, object frame with every joint at 0, shape [3].
         pull: in which direction a pull there opens, same frame, shape [3].
-        finger_opening: how wide a gripper has to open there [m]; ``None`` where nobody has measured
-            it.
     """
 
     name: str
@@ -59,7 +57,6 @@ class OpenableJoint:
     rest_point: FloatArray
     normal: FloatArray
     pull: FloatArray
-    finger_opening: float | None = None
 
     @property
     def lever(self) -> float:
@@ -210,9 +207,7 @@ def _openable(joint: ManifestJoint, manifest: Manifest) -> OpenableJoint | str:
     if limits is None:
         return f"its limits are [{joint.lower}, {joint.upper}], want finite ones, lower below upper"
     targets = (target for target in manifest.targets if target.joint == joint.name)
-    target = max(targets, key=lambda target: target.score, default=None)
-    handle = _handle(joint, manifest)
-    held = target or handle
+    held = max(targets, key=lambda target: target.score, default=None) or _handle(joint, manifest)
     if held is None:
         return "nothing that it moves can be held"
 
@@ -231,7 +226,6 @@ def _openable(joint: ManifestJoint, manifest: Manifest) -> OpenableJoint | str:
         rest_point=np.array(held.point) + np.array(origins[link]),
         normal=np.array(held.normal),
         pull=np.array(held.pull),
-        finger_opening=None if target is None else target.opening_m,
     )
 
 
