@@ -37,7 +37,7 @@ class Attempt:
     Attributes:
         asset, digest: which asset, and the SHA-256 of its manifest.
         joint, robot: the joint to open, and the robot that tried.
-        seed, options: of the reset.
+        seed: of the reset, as :attr:`options` are.
         solved: the task's own ``success`` was true after the last action.
         reason, message: why not, a code of ``REASONS`` and a sentence with a number; empty when
             solved.
@@ -58,7 +58,6 @@ class Attempt:
     joint: str
     robot: str
     seed: int
-    options: dict[str, Any]
     solved: bool
     reason: str = ""
     message: str = ""
@@ -72,6 +71,11 @@ class Attempt:
         default_factory=lambda: np.zeros((0, 0), np.float32), repr=False, compare=False
     )
     seconds: float = 0.0
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """Return the options of the reset; a rebuilt scene keeps nothing of an earlier episode."""
+        return {"asset": self.asset, "joint": self.joint, "reconfigure": True}
 
     @property
     def steps(self) -> int:

@@ -139,7 +139,7 @@ def replay(
     Returns:
         The task's ``success`` after the last action, and how far the joint is open.
     """
-    environment.reset(seed=attempt.seed, options=dict(attempt.options))
+    environment.reset(seed=attempt.seed, options=attempt.options)
     success = False
     share = 0.0
     if watch is not None:
@@ -183,13 +183,11 @@ def _try(
     from .strategy import act
     from .world import read_world
 
-    environment.reset(seed=blank.seed, options=dict(blank.options))
+    environment.reset(seed=blank.seed, options=blank.options)
     task = environment.unwrapped
     driver = Driver(environment, read_world(task), STEPS)
     return act(driver, replace(blank, digest=task.asset_record.digest), avoided)
 
 
 def _nothing(task: SolveTask) -> Attempt:
-    # A rebuilt scene keeps nothing of an earlier episode.
-    options = {"asset": task.asset_id, "joint": task.joint, "reconfigure": True}
-    return Attempt(task.asset_id, "", task.joint, task.robot, task.seed, options, solved=False)
+    return Attempt(task.asset_id, "", task.joint, task.robot, task.seed, solved=False)
