@@ -18,7 +18,8 @@ from asset_factory.factory.export.manifest import (
     ManifestJoint,
     ManifestTarget,
 )
-from asset_factory.factory.registry.report_file import StoredReport, read_report
+from asset_factory.factory.registry.report_file import StoredReport, file_digests, read_report
+from asset_factory.factory.runtime.layout import MANIFEST
 from asset_factory.factory.runtime.store import digest_bytes
 
 FloatArray = npt.NDArray[np.float64]
@@ -138,7 +139,7 @@ def read_registry(registry: str | Path) -> dict[str, RegisteredAsset]:
     if not folder.is_dir():
         remedy = "`factory build --output` makes one"
         raise RegistryError(f"{registry}: no registry here (no folder 'assets'); {remedy}")
-    manifests = sorted(folder.glob("*/asset.json"))
+    manifests = sorted(folder.glob(f"*/{MANIFEST}"))
     if not manifests:
         remedy = f"`factory build --output {registry}` adds some"
         raise RegistryError(f"{registry}: a registry without assets; {remedy}")
@@ -164,6 +165,35 @@ def named(
             raise RegistryError(f"{found} {id!r} in {registry}; there are {there}")
         whole |= {begun[0]}
     return {id: assets[id] for id in sorted(whole or assets)}
+
+
+def check_unaltered(asset: RegisteredAsset) -> None:
+    """Raise RegistryError if the asset was deleted or altered since it was registered.
+
+    The report's ``files``, where it has them, are the digests at registration; else the manifest
+    must be what it was when the registry was read.
+    """
+    name = f"asset {asset.id!r}"
+    try:
+        manifest = digest_bytes((asset.folder / MANIFEST).read_bytes())
+        asset.urdf.stat()
+    except OSError as error:
+        there = sorted(path.parent.name for path in asset.folder.parent.glob(f"*/{MANIFEST}"))
+        gone = f"{error.filename} is gone since the registry was read"
+        raise RegistryError(f"{name}: {gone}; there are {listed(there)}") from error
+    if manifest != asset.digest:
+        changed = f"{MANIFEST} changed since the registry was read"
+        raise RegistryError(f"{name}: {changed}; make the task again")
+    try:
+        registered = read_report(asset.folder).files
+    except (RegistryError, ValueError):
+        return
+    found = file_digests(asset.folder)
+    files = registered.keys() | found.keys()
+    wrong = sorted(file for file in files if registered.get(file) != found.get(file))
+    if wrong:
+        words = f"{listed(wrong)} not as registered (SHA-256)"
+        raise RegistryError(f"{name}: {words}; build it again")
 
 
 def listed(names: list[str]) -> str:

@@ -35,8 +35,7 @@ from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry.entry import Split
 from asset_factory.sim_checks.simulators.sapien_backend import couple_as_written
 
-from .assets import FloatArray, RegisteredAsset, read_registry
-from .integrity import check_unaltered
+from .assets import FloatArray, RegisteredAsset, check_unaltered, read_registry
 from .loading import invisible_robots, replaced, resist
 from .placement import facing_of
 from .selection import Wanted, select
