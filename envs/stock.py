@@ -107,8 +107,6 @@ class RegistryCabinets:
     registry: ClassVar[str | Path]
     handle_types: ClassVar[list[str]]
     scene: Any
-    #: What ManiSkill's loader is told of an asset.
-    described = staticmethod(described)
 
     def __init__(
         self,
@@ -127,7 +125,7 @@ class RegistryCabinets:
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         self._sources = {}
         for record in select(read_registry(root), wanted).values():
-            tree = self.described(record)
+            tree = described(record)
             if any(joint.get("type") in kinds for joint in tree.iter("joint")):
                 path = folder / f"{record.id}.urdf"
                 ElementTree.ElementTree(tree).write(path, encoding="utf-8", xml_declaration=True)
