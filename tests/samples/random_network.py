@@ -3,8 +3,17 @@
 import numpy as np
 
 from asset_factory.factory.models.particulate.prediction import Prediction
+from asset_factory.factory.models.particulate.sampling import Cloud
 
 PARTS = 16
+
+
+def cloud_of(count, seed=0):
+    """Points that are on nothing, of three components."""
+    rng = np.random.default_rng(seed)
+    numbers = rng.integers(0, 3, count)
+    points, normals = rng.uniform(-0.5, 0.5, (2, count, 3)).astype(np.float32)
+    return Cloud(points, normals, numbers, numbers > 0, numbers)
 
 
 def random_network(cloud, context, least_confidence=0.0):

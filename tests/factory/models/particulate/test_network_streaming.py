@@ -8,6 +8,7 @@ import pytest
 import torch  # noqa: TID253
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from random_network import cloud_of
 from tiny_checkpoint import write_checkpoint
 from tiny_model import TINY, plainly, random_cloud, tiny_model
 
@@ -17,7 +18,6 @@ from asset_factory.factory.models.network.shape import AxisForm, product_dtype
 from asset_factory.factory.models.network.streaming import QueryPass, drive, embed_chunks
 from asset_factory.factory.models.particulate.decoding import assigned
 from asset_factory.factory.models.particulate.model import Particulate, PointCloud, load_model
-from asset_factory.factory.models.particulate.sampling import Cloud
 
 CLOSE = {"rtol": 1e-4, "atol": 1e-4}
 PART_FIELDS = ("hierarchy_logits", "motion_logits")
@@ -178,18 +178,12 @@ def test_gradients_reach_every_weight():
     assert not [name for name, grad in gradients.items() if grad is None or not grad.any()]
 
 
-def nowhere(count):
-    """So many points in one place."""
-    none = np.zeros(count, dtype=np.int64)
-    return Cloud(np.zeros((count, 3)), np.zeros((count, 3)), none, none.astype(bool), none)
-
-
 def test_a_network_without_its_features_says_where_they_are():
     with pytest.raises(ConfigError, match="NON-COMMERCIAL"):
         Particulate(tiny_model())
     with pytest.raises(ConfigError, match="and none are given"):
         tiny_model().predict(PointCloud(np.zeros((3, 3)), np.zeros((3, 3))))
-    answer = Particulate(tiny_model(replace(TINY, features=0)))(nowhere(4), nowhere(9))
+    answer = Particulate(tiny_model(replace(TINY, features=0)))(cloud_of(4), cloud_of(9))
     assert answer.mask_logits.shape == (4, 16)
 
 

@@ -11,25 +11,17 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from random_network import random_network
+from random_network import cloud_of, random_network
 from tiny_checkpoint import write_checkpoint
 
 from asset_factory.factory.articulate.particulate import load_articulator
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.models.particulate.loading import load_network
 from asset_factory.factory.models.particulate.prediction import Prediction
-from asset_factory.factory.models.particulate.sampling import Cloud
 from asset_factory.factory.models.service import Address, ModelService, asking, network_for, wire
 from asset_factory.factory.models.service.answering import Answering, LoadedNetwork
 from asset_factory.factory.models.service.process import answer_all, listening_socket
 from asset_factory.factory.models.service.wire import Message, WireError, pack, unpack
-
-
-def cloud_of(count, seed=0):
-    rng = np.random.default_rng(seed)
-    numbers = rng.integers(0, 3, count)
-    points, normals = rng.uniform(-0.5, 0.5, (2, count, 3)).astype(np.float32)
-    return Cloud(points, normals, numbers, numbers > 0, numbers)
 
 
 def equal(one, other):
