@@ -164,7 +164,7 @@ def read_world(task: Any) -> RobotWorld:
     object_links = [link.name for link in part.links]
     degrees = {joint.name: i for i, joint in enumerate(agent.active_joints)}
     record = task.asset_record
-    joint = record.openable[int(task.targets.slot[0])]
+    joint = task.target
     fingers = tuple(links.index(name) for name in robot.fingers)
     free = tuple(degrees[name] for name in robot.joints)
     moving = [index for index in range(len(links)) if chain.depends(index, free)]
