@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import partial
 from typing import Any
 
@@ -50,16 +50,10 @@ class PointCloud:
     features: Float32Array | None = None
 
     def __post_init__(self) -> None:
-        for name in ("points", "normals", "features"):
-            value = getattr(self, name)
-            if value is None:
-                continue
-            array = np.asarray(value, dtype=np.float32)
-            wide = array.shape[-1] if name == "features" and array.ndim == 2 else 3
-            if array.shape != (len(self.points), wide) or not len(array):
-                want = f"want [{len(self.points)}, {wide}] with some points"
-                raise ValueError(f"{name}: shape {array.shape}, {want}")
-            object.__setattr__(self, name, array)
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if value is not None:
+                object.__setattr__(self, each.name, np.asarray(value, dtype=np.float32))
 
     def take(self, rows: IntArray) -> PointCloud:
         """Return some of the points."""
@@ -116,13 +110,7 @@ class Model:
         return self._read(driven, self._embed(cloud), driven.updates, least_confidence)
 
     def _embed(self, cloud: PointCloud) -> Any:
-        wanted = self.shape.features
-        given = cloud.features
-        if wanted and (given is None or given.shape[1] != wanted):
-            have = "none are given" if given is None else f"{given.shape[1]} are given"
-            have = f"{have}; {PARTFIELD.source} has them"
-            raise ConfigError(f"this network wants {wanted} features per point, and {have}")
-        features = cloud.features if wanted else None
+        features = cloud.features if self.shape.features else None
         normals = cloud.normals if self.shape.normals else None
         return embed_chunks(self._network, cloud.points, normals, features)
 
