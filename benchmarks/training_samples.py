@@ -21,7 +21,6 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.models.particulate import sampling
 from asset_factory.factory.models.particulate.components import component_features
-from asset_factory.factory.models.particulate.sampling import sharp_edges
 from asset_factory.factory.models.particulate.surface import Surface
 from asset_factory.learn.objects import CATEGORIES, MixtureSettings, sample_object
 from asset_factory.learn.samples.sample import DrawSettings, draw
@@ -62,7 +61,7 @@ def anew(category: str, seed: int) -> float:
     }
     mesh = posed(articulation, values).mesh
     surface = Surface.of(mesh.vertices, mesh.faces)
-    cloud = sampling.draw(surface, sharp_edges(surface), SETTINGS.points, rng, most_covered=0)
+    cloud = sampling.draw(surface, SETTINGS.points, rng, most_covered=0)
     component_features(cloud.points / mesh.extents.max(), cloud.normals, cloud.components)
     return time.process_time() - started
 

@@ -18,7 +18,8 @@ from asset_factory.factory.export.manifest import (
     ManifestJoint,
     ManifestTarget,
 )
-from asset_factory.factory.registry.report_file import StoredReport, read_report
+from asset_factory.factory.registry.report_file import StoredReport, file_digests, read_report
+from asset_factory.factory.runtime.layout import MANIFEST
 from asset_factory.factory.runtime.store import digest_bytes
 
 FloatArray = npt.NDArray[np.float64]
@@ -43,8 +44,6 @@ class OpenableJoint:
         rest_point: the same place in the object frame with every joint at 0 [m], shape [3].
         normal: outward there, object frame with every joint at 0, shape [3].
         pull: in which direction a pull there opens, same frame, shape [3].
-        finger_opening: how wide a gripper has to open there [m]; ``None`` where nobody has measured
-            it.
     """
 
     name: str
@@ -59,7 +58,6 @@ class OpenableJoint:
     rest_point: FloatArray
     normal: FloatArray
     pull: FloatArray
-    finger_opening: float | None = None
 
     @property
     def lever(self) -> float:
@@ -141,7 +139,7 @@ def read_registry(registry: str | Path) -> dict[str, RegisteredAsset]:
     if not folder.is_dir():
         remedy = "`factory build --output` makes one"
         raise RegistryError(f"{registry}: no registry here (no folder 'assets'); {remedy}")
-    manifests = sorted(folder.glob("*/asset.json"))
+    manifests = sorted(folder.glob(f"*/{MANIFEST}"))
     if not manifests:
         remedy = f"`factory build --output {registry}` adds some"
         raise RegistryError(f"{registry}: a registry without assets; {remedy}")
@@ -167,6 +165,35 @@ def named(
             raise RegistryError(f"{found} {id!r} in {registry}; there are {there}")
         whole |= {begun[0]}
     return {id: assets[id] for id in sorted(whole or assets)}
+
+
+def check_unaltered(asset: RegisteredAsset) -> None:
+    """Raise RegistryError if the asset was deleted or altered since it was registered.
+
+    The report's ``files``, where it has them, are the digests at registration; else the manifest
+    must be what it was when the registry was read.
+    """
+    name = f"asset {asset.id!r}"
+    try:
+        manifest = digest_bytes((asset.folder / MANIFEST).read_bytes())
+        asset.urdf.stat()
+    except OSError as error:
+        there = sorted(path.parent.name for path in asset.folder.parent.glob(f"*/{MANIFEST}"))
+        gone = f"{error.filename} is gone since the registry was read"
+        raise RegistryError(f"{name}: {gone}; there are {listed(there)}") from error
+    if manifest != asset.digest:
+        changed = f"{MANIFEST} changed since the registry was read"
+        raise RegistryError(f"{name}: {changed}; make the task again")
+    try:
+        registered = read_report(asset.folder).files
+    except (RegistryError, ValueError):
+        return
+    found = file_digests(asset.folder)
+    files = registered.keys() | found.keys()
+    wrong = sorted(file for file in files if registered.get(file) != found.get(file))
+    if wrong:
+        words = f"{listed(wrong)} not as registered (SHA-256)"
+        raise RegistryError(f"{name}: {words}; build it again")
 
 
 def listed(names: list[str]) -> str:
@@ -210,9 +237,7 @@ def _openable(joint: ManifestJoint, manifest: Manifest) -> OpenableJoint | str:
     if limits is None:
         return f"its limits are [{joint.lower}, {joint.upper}], want finite ones, lower below upper"
     targets = (target for target in manifest.targets if target.joint == joint.name)
-    target = max(targets, key=lambda target: target.score, default=None)
-    handle = _handle(joint, manifest)
-    held = target or handle
+    held = max(targets, key=lambda target: target.score, default=None) or _handle(joint, manifest)
     if held is None:
         return "nothing that it moves can be held"
 
@@ -231,7 +256,6 @@ def _openable(joint: ManifestJoint, manifest: Manifest) -> OpenableJoint | str:
         rest_point=np.array(held.point) + np.array(origins[link]),
         normal=np.array(held.normal),
         pull=np.array(held.pull),
-        finger_opening=None if target is None else target.opening_m,
     )
 
 

@@ -12,9 +12,8 @@ from defusedxml.ElementTree import fromstring
 
 from asset_factory.sim_checks.simulators.sapien_backend import couple_as_written
 
-from .assets import RegisteredAsset
+from .assets import RegisteredAsset, check_unaltered
 from .geometry import drop_visuals
-from .integrity import check_unaltered
 
 #: Skin, wood and plastic against a rubber fingertip.
 SURFACE_FRICTION = 1.0

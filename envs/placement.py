@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from .geometry import (
     hull_boxes,
     opening_values,
 )
+from .robots import Robot
 
 #: Free space between a robot and the object, before the start is shaken by a few centimetres [m].
 MARGIN = 0.06
@@ -33,72 +34,6 @@ OVERLAP_COST = 100.0
 #: As many candidates at once are tried with the whole arm.
 ARM_TRIALS = 96
 CAMERA_FOV = 1.0
-
-
-@dataclass(frozen=True)
-class RobotShape:
-    """A robot's size in its rest pose, in its base frame: x ahead, z up.
-
-    Attributes:
-        mobile: whether it drives; others are mounted at a height that suits the handle.
-        shoulder: what the arm reaches from [m], shape [3].
-        lift: how far the shoulder can be lowered [m].
-        near, far: comfortable distances between shoulder and gripper [m].
-        body: radius and height of a cylinder around the base [m].
-        arm: points of the arm [m], shape [count, 3]; everything is within ``arm_radius`` of them or
-            the body.
-        rest: joint values [rad] or [m] of that pose, in ManiSkill's order.
-    """
-
-    mobile: bool
-    shoulder: tuple[float, float, float]
-    lift: float
-    near: float
-    far: float
-    body: tuple[float, float]
-    arm: FloatArray = field(repr=False, compare=False)
-    arm_radius: float
-    rest: tuple[float, ...]
-
-
-#: Measured on ManiSkill's robots: Fetch in its rest keyframe, Panda in its maker's ready pose,
-#: which reaches out less. Rows of an arm are x, y and z of its points.
-ROBOTS = {
-    "panda": RobotShape(
-        mobile=False,
-        shoulder=(0.0, 0.0, 0.333),
-        lift=0.0,
-        near=0.3,
-        far=0.85,
-        body=(0.14, 0.45),
-        arm=np.column_stack(
-            [
-                [-0.2, -0.19, -0.05, 0.1, 0.22, *[0.307] * 7],
-                [0, 0, 0, 0, 0, 0, -0.08, -0.08, 0, 0, 0.08, 0.08],
-                [0.5, 0.6, 0.65, 0.68, 0.7, 0.66, *[0.49, 0.55] * 3],
-            ]
-        ),
-        arm_radius=0.07,
-        rest=(0, -math.pi / 4, 0, -3 * math.pi / 4, 0, math.pi / 2, math.pi / 4, 0.04, 0.04),
-    ),
-    "fetch": RobotShape(
-        mobile=True,
-        shoulder=(0.033, 0.0, 1.112),
-        lift=0.386,
-        near=0.35,
-        far=0.9,
-        body=(0.29, 1.15),
-        arm=np.column_stack(
-            [
-                [0.1, 0.25, 0.31, 0.5, 0.62, 0.57, 0.51, 0.51, 0.51],
-                [0, -0.08, -0.11, -0.07, -0.05, -0.03, 0, 0.06, -0.06],
-                [1.4, 1.36, 1.47, 1.51, 1.53, 1.4, 1.25, 1.25, 1.25],
-            ]
-        ),
-        arm_radius=0.08,
-        rest=(0, 0, 0, 0.386, 0, -0.37, 0.562, -1.032, 0.695, 0.955, -0.1, 2.077, 0, 0.015, 0.015),
-    ),
-}
 
 
 @dataclass(frozen=True)
@@ -123,7 +58,7 @@ class Place:
 def find_place(
     asset: RegisteredAsset,
     joint: OpenableJoint,
-    robot: str,
+    robot: Robot,
     *,
     start: float = 0.0,
     spread: float = 0.0,
@@ -137,17 +72,11 @@ def find_place(
     Args:
         asset: the object, standing on the ground, its root at the origin.
         joint: to be moved; everything else is closed.
-        robot: one of :data:`ROBOTS`.
+        robot: who is put there.
         start: how far the joint is open when the robot arrives, a share of its range.
         spread: how much more or less than that it may be.
     """
     starts = np.clip([start - spread, start, start + spread], 0.0, 1.0)
-    return _search(asset, joint, ROBOTS[robot], starts)
-
-
-def _search(
-    asset: RegisteredAsset, joint: OpenableJoint, robot: RobotShape, starts: FloatArray
-) -> Place:
     shares = np.linspace(0.0, 1.0, STATIONS)
     begin = handle_path(asset, joint, starts[1:2])
     path = begin if robot.mobile else np.concatenate([begin, handle_path(asset, joint, shares)])
@@ -156,7 +85,7 @@ def _search(
     still = hull_boxes(asset, closed_values(asset), others)
     opened = (opening_values(asset, joint, at) for at in (shares, np.unique(starts)))
     boxes = ((hull_boxes(asset, values, moving) for values in each) for each in opened)
-    swept, start = (np.concatenate([still, *each]) for each in boxes)
+    swept, begun = (np.concatenate([still, *each]) for each in boxes)
 
     places, turns = _candidates(path, facing_of(asset, joint), robot)
     directions = path[0, :2] - places[:, :2]
@@ -175,7 +104,7 @@ def _search(
     for tried in np.array_split(np.argsort(cost, kind="stable"), math.ceil(len(cost) / ARM_TRIALS)):
         if cost[tried[0]] >= least:
             break
-        arm_clear = _arm_clearance(places[tried], yaws[tried], start, robot)
+        arm_clear = _arm_clearance(places[tried], yaws[tried], begun, robot)
         total = cost[tried] + OVERLAP_COST * np.maximum(MARGIN - arm_clear, 0.0)
         first = int(np.argmin(total))
         if total[first] < least:
@@ -187,7 +116,7 @@ def _search(
 
 
 def _candidates(
-    path: FloatArray, facing: FloatArray, robot: RobotShape
+    path: FloatArray, facing: FloatArray, robot: Robot
 ) -> tuple[FloatArray, FloatArray]:
     """Return the base positions [m], shape [count, 3], and headings [rad], shape [count].
 
@@ -213,9 +142,7 @@ def _in_world(places: FloatArray, yaws: FloatArray, points: FloatArray) -> Float
     return np.asarray(turned + places[:, None])
 
 
-def _stretch(
-    places: FloatArray, yaws: FloatArray, path: FloatArray, robot: RobotShape
-) -> FloatArray:
+def _stretch(places: FloatArray, yaws: FloatArray, path: FloatArray, robot: Robot) -> FloatArray:
     """Return how far the path gets out of comfortable reach [m], shape [place]."""
     shoulders = _in_world(places, yaws, np.array([robot.shoulder]))
     offset = path[None] - shoulders
@@ -226,7 +153,7 @@ def _stretch(
     return np.asarray(np.maximum(beyond, 0.0).max(axis=1))
 
 
-def _body_clearance(places: FloatArray, boxes: FloatArray, robot: RobotShape) -> FloatArray:
+def _body_clearance(places: FloatArray, boxes: FloatArray, robot: Robot) -> FloatArray:
     """Return the upright body's level distance to all boxes at its height [m], shape [place]."""
     radius, height = robot.body
     low, high = boxes.transpose(1, 0, 2)
@@ -243,7 +170,7 @@ def _distance(gap: FloatArray) -> FloatArray:
 
 
 def _arm_clearance(
-    places: FloatArray, yaws: FloatArray, boxes: FloatArray, robot: RobotShape
+    places: FloatArray, yaws: FloatArray, boxes: FloatArray, robot: Robot
 ) -> FloatArray:
     """Return the distance between the arm at rest and all boxes [m], shape [place]."""
     points = _in_world(places, yaws, robot.arm)[:, :, None]

@@ -35,8 +35,7 @@ from asset_factory.factory.errors import RegistryError
 from asset_factory.factory.registry.entry import Split
 from asset_factory.sim_checks.simulators.sapien_backend import couple_as_written
 
-from .assets import FloatArray, RegisteredAsset, read_registry
-from .integrity import check_unaltered
+from .assets import FloatArray, RegisteredAsset, check_unaltered, read_registry
 from .loading import invisible_robots, replaced, resist
 from .placement import facing_of
 from .selection import Wanted, select
@@ -108,8 +107,6 @@ class RegistryCabinets:
     registry: ClassVar[str | Path]
     handle_types: ClassVar[list[str]]
     scene: Any
-    #: What ManiSkill's loader is told of an asset.
-    described = staticmethod(described)
 
     def __init__(
         self,
@@ -128,7 +125,7 @@ class RegistryCabinets:
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         self._sources = {}
         for record in select(read_registry(root), wanted).values():
-            tree = self.described(record)
+            tree = described(record)
             if any(joint.get("type") in kinds for joint in tree.iter("joint")):
                 path = folder / f"{record.id}.urdf"
                 ElementTree.ElementTree(tree).write(path, encoding="utf-8", xml_declaration=True)

@@ -68,7 +68,7 @@ def _act(environment: Any, registry: str, attempt: Attempt, settings: Settings) 
         return replay(environment, attempt)[0]
     from .converting import act_converted
 
-    reset: dict[str, Any] = {"seed": attempt.seed, "options": dict(attempt.options)}
+    reset: dict[str, Any] = {"seed": attempt.seed, "options": attempt.options}
     environment.reset(**reset)
     original = _make(registry, replace(settings, control_mode=SOLVED_IN, obs_mode="none"))
     try:

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from .attempt import REASONS, Attempt
+from .attempt import Attempt
 from .solve import make_episodes, replay, solve_joint
 
-__all__ = ["REASONS", "Attempt", "make_episodes", "replay", "solve_joint"]
+__all__ = ["Attempt", "make_episodes", "replay", "solve_joint"]

@@ -11,21 +11,6 @@ import numpy.typing as npt
 #: What says how an episode is solved, for keys of what came of it.
 SOLVER = ("asset_factory.envs.solving", "asset_factory.envs.tasks")
 
-#: Why a joint was not opened, by code.
-REASONS = {
-    "no_target": "nothing on it can be grasped by this hand, and no surface of it can be pushed on",
-    "unreachable": "the arm cannot get its hand to any grip, or cannot follow the joint from there",
-    "blocked": "every way to a grip runs into the object or the ground",
-    "slipped": "the hand lost the part on its way",
-    "stuck": "it was held and did not move",
-    "short": "it moved, and the arm could not bring it all the way",
-    "forced": "it was levered open by more than the arm can bear",
-    "irreproducible": "it opened, and the same actions did not open it again",
-    "crashed": "the simulator died",
-    "timeout": "no answer in time",
-    "failed": "the episode could not be run",
-}
-
 
 @dataclass(frozen=True)
 class Attempt:
@@ -37,10 +22,10 @@ class Attempt:
     Attributes:
         asset, digest: which asset, and the SHA-256 of its manifest.
         joint, robot: the joint to open, and the robot that tried.
-        seed, options: of the reset.
+        seed: of the reset, as :attr:`options` are.
         solved: the task's own ``success`` was true after the last action.
-        reason, message: why not, a code of ``REASONS`` and a sentence with a number; empty when
-            solved.
+        reason, message: why not, a code of ``docs/solving.md`` and a sentence with a number; empty
+            when solved.
         open_fraction: of the joint's range, at the end.
         peak_force, mean_force: that the wrist carries while the robot touches the object [N]; the
             peak is the greatest mean over a quarter of a second.
@@ -58,7 +43,6 @@ class Attempt:
     joint: str
     robot: str
     seed: int
-    options: dict[str, Any]
     solved: bool
     reason: str = ""
     message: str = ""
@@ -72,6 +56,11 @@ class Attempt:
         default_factory=lambda: np.zeros((0, 0), np.float32), repr=False, compare=False
     )
     seconds: float = 0.0
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """Return the options of the reset; a rebuilt scene keeps nothing of an earlier episode."""
+        return {"asset": self.asset, "joint": self.joint, "reconfigure": True}
 
     @property
     def steps(self) -> int:

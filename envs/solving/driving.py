@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..assets import FloatArray
+from ..robots import CLOSED, OPEN
 from .grips import PRESS_ON
 from .planning import ArmPlan
-from .robots import CLOSED, OPEN
 from .world import RobotWorld
 
 #: The hand's way per control step while it holds something [m], and a joint's [rad].
@@ -193,18 +193,18 @@ class Driver:
         Solved from where the base really is.
         """
         goal = _planned(values, self.command, self.world.free)
-        if not self.world.robot.drives and not press.any():
+        if not self.world.robot.mobile and not press.any():
             return goal
         hand = self.world.hand(self.world.chain.forward(goal[None], self.world.root))[0]
         hand[:3, 3] += press
-        if self.world.robot.drives:
+        if self.world.robot.mobile:
             goal[:3] = self.values()[:3]
         found, _ = self.world.reach(hand[None], goal[None], 4)
         return np.asarray(found[0])
 
     def _drive(self, now: FloatArray) -> FloatArray:
         """Return speeds that bring a base that was pushed away back [m/s], [rad/s]."""
-        if not self.world.robot.drives:
+        if not self.world.robot.mobile:
             return np.zeros(2)
         offset = self._home - now[:3]
         ahead = offset[0] * np.cos(now[2]) + offset[1] * np.sin(now[2])

@@ -20,8 +20,8 @@ from asset_factory.factory.display.scene import SceneGraph, SceneSurface, put_to
 from asset_factory.factory.display.shading import light_direction, still
 
 from ..assets import FloatArray
+from ..robots import ROBOTS
 from .attempt import Attempt
-from .robots import SOLVERS
 from .solve import make_episodes, replay
 from .world import matrix_of
 
@@ -98,7 +98,7 @@ def read_film(registry: str, attempt: Attempt) -> FilmScene:
         environment.close()
     parts = {"robot": (robot, poses["robot"]), "asset": (asset, poses["asset"])}
     scene = put_together(attempt.asset, parts)
-    hand = SOLVERS[attempt.robot]
+    hand = ROBOTS[attempt.robot]
     moved = next(joint.child for joint in scene.joints if joint.name == f"asset/{attempt.joint}")
     watched = {scene.links.index(f"robot/{name}") for name in (hand.palm, *hand.fingers)}
     scene = replace(scene, visuals=(*scene.visuals, *_post(poses["robot"][:3, 3])))

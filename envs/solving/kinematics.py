@@ -28,8 +28,7 @@ class Chain:
     """An articulation without its simulator.
 
     Attributes:
-        links: names, parents first.
-        parents: index of each link's parent, -1 for the root.
+        parents: index of each link's parent, which comes before it; -1 for the root.
         before: joint frame in the parent's frame, shape [link, 4, 4]; a joint acts about or along
             its x axis.
         after: the link's frame in the moved joint frame, shape [link, 4, 4].
@@ -38,7 +37,6 @@ class Chain:
         limits: lowest and highest joint values [rad] or [m], shape [degree, 2].
     """
 
-    links: tuple[str, ...]
     parents: tuple[int, ...]
     before: FloatArray
     after: FloatArray
@@ -56,8 +54,8 @@ class Chain:
             root: pose of the root link, shape [4, 4].
             only: links to fill in, parents first; the others' poses mean nothing.
         """
-        poses = np.empty((len(values), len(self.links), 4, 4))
-        for index in range(len(self.links)) if only is None else only:
+        poses = np.empty((len(values), len(self.parents), 4, 4))
+        for index in range(len(self.parents)) if only is None else only:
             parent = self.parents[index]
             if parent < 0:
                 poses[:, index] = root
@@ -73,19 +71,17 @@ class Chain:
         columns = np.zeros((len(poses), 6, len(free)))
         place = {degree: column for column, degree in enumerate(free)}
         at = poses[:, tip, :3, 3]
-        index = tip
-        while index >= 0:
-            parent = self.parents[index]
-            column = place.get(self.degree[index], -1)
-            if parent >= 0 and self.degree[index] >= 0 and column >= 0:
-                frame = poses[:, parent] @ self.before[index]
-                axis = frame[:, :3, 0]
-                if self.slides[index]:
-                    columns[:, :3, column] = axis
-                else:
-                    columns[:, :3, column] = cross(axis, at - frame[:, :3, 3])
-                    columns[:, 3:, column] = axis
-            index = parent
+        for index in self.line(tip):
+            column = place.get(self.degree[index])
+            if column is None:
+                continue
+            frame = poses[:, self.parents[index]] @ self.before[index]
+            axis = frame[:, :3, 0]
+            if self.slides[index]:
+                columns[:, :3, column] = axis
+            else:
+                columns[:, :3, column] = cross(axis, at - frame[:, :3, 3])
+                columns[:, 3:, column] = axis
         return columns
 
     def line(self, link: int) -> tuple[int, ...]:
@@ -111,7 +107,6 @@ def read_chain(articulation: Any) -> Chain:
     before = [link.joint.pose_in_parent.to_transformation_matrix() for link in links]
     after = [link.joint.pose_in_child.inv().to_transformation_matrix() for link in links]
     return Chain(
-        tuple(link.name for link in links),
         tuple(-1 if link.parent is None else index[link.parent.name] for link in links),
         np.array(before, dtype=float),
         np.array(after, dtype=float),

@@ -42,8 +42,7 @@ class ArmPlan:
 
     Attributes:
         grip: which.
-        before: joint values in front of it, of all joints, shape [degree].
-        entry: from there to the grip, shape [station, degree].
+        entry: from in front of it to the grip, values of all joints, shape [station, degree].
         way: on the joint's way, shape [station, degree].
         shares: how far open the joint is at each, shape [station].
         hands: hand frames on the way, shape [station, 4, 4].
@@ -51,7 +50,6 @@ class ArmPlan:
     """
 
     grip: Grip
-    before: FloatArray
     entry: FloatArray
     way: FloatArray
     shares: FloatArray
@@ -172,10 +170,9 @@ def _ways(
         grip = grips[row[index]]
         worth = (shares[stations - 1] - now) / (1.0 - now) * (0.3 + grip.score) - 0.03 * lag[index]
         way = np.array([step[index] for step in steps[:stations]])
-        start = values[row[index]]
+        start = values[row[index]][None]
         hands = goals[:stations, index]
-        reached = shares[:stations]
-        found.append(ArmPlan(grip, start, start[None], way, reached, hands, float(worth)))
+        found.append(ArmPlan(grip, start, way, shares[:stations], hands, float(worth)))
     return found
 
 
@@ -219,7 +216,7 @@ def _of_each_grip(candidates: list[ArmPlan], most: int) -> list[ArmPlan]:
 def _check(
     world: RobotWorld, plan: ArmPlan, closed: FloatArray, object_values: FloatArray
 ) -> ArmPlan | None:
-    before = _gripped(world, plan.before[None], plan.grip, opened=True)
+    before = _gripped(world, plan.entry[:1], plan.grip, opened=True)
     if world.hits(before, closed[None])[0]:
         return None
     poses = np.array([world.object_poses(object_values, share) for share in plan.shares])
@@ -235,7 +232,7 @@ def _check(
 
 def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
     """Return the plans whose grips the arm reaches along a straight line."""
-    starts = np.array([plan.before for plan in plans])
+    starts = np.array([plan.entry[0] for plan in plans])
     hands = np.array([plan.grip.hand for plan in plans])
     fine = np.ones(len(plans), dtype=bool)
     steps = [starts]
@@ -248,8 +245,7 @@ def _entered(world: RobotWorld, plans: list[ArmPlan]) -> list[ArmPlan]:
         current = following
         steps.append(current)
     entries = np.array(steps[::-1]).transpose(1, 0, 2)
-    entered = [(plans[i], entries[i]) for i in np.flatnonzero(fine)]
-    return [replace(plan, before=entry[0], entry=entry) for plan, entry in entered]
+    return [replace(plans[i], entry=entries[i]) for i in np.flatnonzero(fine)]
 
 
 def _gripped(world: RobotWorld, values: FloatArray, grip: Grip, opened: bool) -> FloatArray:

@@ -71,7 +71,7 @@ def attempt_row(attempt: Attempt, tries: int) -> dict[str, Any]:
         "joint": attempt.joint,
         "robot": attempt.robot,
         "seed": attempt.seed,
-        "options": dict(attempt.options),
+        "options": attempt.options,
         "solved": attempt.solved,
         "reason": attempt.reason,
         "message": attempt.message,

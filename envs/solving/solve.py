@@ -17,8 +17,8 @@ from asset_factory.sim_checks.processes.isolation import (
 )
 
 from ..assets import listed, read_registry
+from ..robots import ROBOTS
 from .attempt import Attempt
-from .robots import SOLVERS
 
 #: The task and what it is made with; another registry and robot are all that changes.
 TASK = "asset_factory.envs:OpenJoint-v1"
@@ -102,8 +102,8 @@ def attempted(task: SolveTask) -> Attempt:
 
 def _require_there(registry: str | Path, asset_id: str, joint: str, robot: str) -> None:
     """Raise what :func:`solve_joint` raises, before a process is started to find out."""
-    if robot not in SOLVERS:
-        raise ConfigError(f"no robot {robot!r}; want one of {', '.join(SOLVERS)}")
+    if robot not in ROBOTS:
+        raise ConfigError(f"no robot {robot!r}; want one of {', '.join(ROBOTS)}")
     assets = read_registry(registry)
     if asset_id not in assets:
         there = listed(sorted(assets))
@@ -139,7 +139,7 @@ def replay(
     Returns:
         The task's ``success`` after the last action, and how far the joint is open.
     """
-    environment.reset(seed=attempt.seed, options=dict(attempt.options))
+    environment.reset(seed=attempt.seed, options=attempt.options)
     success = False
     share = 0.0
     if watch is not None:
@@ -183,13 +183,11 @@ def _try(
     from .strategy import act
     from .world import read_world
 
-    environment.reset(seed=blank.seed, options=dict(blank.options))
+    environment.reset(seed=blank.seed, options=blank.options)
     task = environment.unwrapped
     driver = Driver(environment, read_world(task), STEPS)
     return act(driver, replace(blank, digest=task.asset_record.digest), avoided)
 
 
 def _nothing(task: SolveTask) -> Attempt:
-    # A rebuilt scene keeps nothing of an earlier episode.
-    options = {"asset": task.asset_id, "joint": task.joint, "reconfigure": True}
-    return Attempt(task.asset_id, "", task.joint, task.robot, task.seed, options, solved=False)
+    return Attempt(task.asset_id, "", task.joint, task.robot, task.seed, solved=False)

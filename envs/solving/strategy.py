@@ -6,11 +6,11 @@ from collections.abc import Set
 from dataclasses import dataclass, replace
 
 from ..assets import FloatArray
+from ..robots import CLOSED, OPEN
 from .attempt import Attempt
 from .driving import OVERLOAD, Driver, Stopped, sustained
 from .grips import drags, grasps, pushes, unobstructed
 from .planning import ArmPlan, plans
-from .robots import CLOSED, OPEN
 from .transit import transit
 
 #: Grips in one episode, and ways to get to a grip that are searched for.
@@ -115,7 +115,7 @@ def _best(
         return _Nothing("unreachable", f"{opened}, none of {free} grips is within the arm's reach")
     found.sort(key=lambda plan: -plan.worth)
     for route, plan in enumerate(found[:ROUTES]):
-        path = transit(world, driver.values(), plan.before, poses, seed + route)
+        path = transit(world, driver.values(), plan.entry[0], poses, seed + route)
         if path is not None:
             return plan, path
     best = f"the best {min(ROUTES, len(found))} of {len(found)} grips"

@@ -13,8 +13,8 @@ from asset_factory.factory.export.manifest import ManifestTarget
 
 from ..assets import FloatArray, OpenableJoint, RegisteredAsset
 from ..geometry import carried_links
+from ..robots import ROBOTS, Robot
 from .kinematics import Chain, reach, read_chain
-from .robots import SOLVERS, Robot
 from .solids import Balls, LinkHulls, object_pieces, robot_balls
 
 BoolArray = npt.NDArray[np.bool_]
@@ -153,7 +153,7 @@ def read_world(task: Any) -> RobotWorld:
         task: a :class:`~asset_factory.envs.tasks.joint_task.JointTask` after ``reset``, with one
             environment.
     """
-    robot = SOLVERS[str(task.robot_uids)]
+    robot = ROBOTS[str(task.robot_uids)]
     agent = task.agent.robot
     part = task._parts[0]
     arm = agent._objs[0]
@@ -164,7 +164,7 @@ def read_world(task: Any) -> RobotWorld:
     object_links = [link.name for link in part.links]
     degrees = {joint.name: i for i, joint in enumerate(agent.active_joints)}
     record = task.asset_record
-    joint = record.openable[int(task.targets.slot[0])]
+    joint = task.target
     fingers = tuple(links.index(name) for name in robot.fingers)
     free = tuple(degrees[name] for name in robot.joints)
     moving = [index for index in range(len(links)) if chain.depends(index, free)]

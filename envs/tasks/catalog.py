@@ -24,8 +24,8 @@ class Task:
 
 
 TASKS: tuple[Task, ...] = (
-    Task("OpenDrawer-v1", "open_drawer", "OpenDrawerEnv"),
-    Task("OpenDoor-v1", "open_door", "OpenDoorEnv"),
+    Task("OpenDrawer-v1", "open_joint", "OpenDrawerEnv"),
+    Task("OpenDoor-v1", "open_joint", "OpenDoorEnv"),
     Task("OpenJoint-v1", "open_joint", "OpenJointEnv"),
     Task("CloseJoint-v1", "close_joint", "CloseJointEnv"),
     Task("SetJoint-v1", "set_joint", "SetJointEnv"),

@@ -19,6 +19,7 @@ from asset_factory.factory.registry.entry import Split
 from ..assets import OpenableJoint, RegisteredAsset, read_registry
 from ..loading import build_ground, invisible_robots, load_asset, resist, warn_of_hulls
 from ..placement import CAMERA_FOV, Place, camera_place, facing_of, find_place
+from ..robots import ROBOTS
 from ..selection import Wanted, select
 from ..targets import Targets
 from . import arguments
@@ -54,7 +55,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
             render.
     """
 
-    SUPPORTED_ROBOTS: ClassVar[list[str]] = ["panda", "fetch", "none"]
+    SUPPORTED_ROBOTS: ClassVar[list[str]] = [*ROBOTS, "none"]
     #: What the task is about; a user's ``joint_type`` narrows it further.
     joint_types: ClassVar[tuple[str, ...]] = ()
     min_lever: ClassVar[float] = 0.0
@@ -202,7 +203,7 @@ class JointScene(BaseEnv):  # type: ignore[misc]
         key = (asset.id, joint.name, start)
         if key not in self._places:
             spread = 0.5 / (len(self.starts) - 1) if len(self.starts) > 1 else 0.0
-            robot = str(self.robot_uids)
+            robot = ROBOTS[str(self.robot_uids)]
             self._places[key] = find_place(asset, joint, robot, start=start, spread=spread)
         return self._places[key]
 

@@ -11,7 +11,8 @@ from mani_skill.utils.geometry.rotation_conversions import quaternion_apply  # n
 from mani_skill.utils.structs import Pose  # noqa: TID253
 
 from ..assets import OpenableJoint, RegisteredAsset
-from ..placement import ROBOTS, Place
+from ..placement import Place
+from ..robots import ROBOTS
 from ..targets import named_slot
 from .arguments import check_share
 from .joint_scene import JointScene

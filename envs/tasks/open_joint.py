@@ -1,4 +1,4 @@
-"""``OpenJoint-v1``: open one door, drawer, lid or knob of an asset from a registry."""
+"""``OpenJoint-v1``, ``OpenDoor-v1``, ``OpenDrawer-v1``: open one joint of an asset."""
 
 from __future__ import annotations
 
@@ -33,3 +33,21 @@ class OpenJointEnv(JointTask):
     def at_goal(self, share: torch.Tensor, goal: torch.Tensor) -> torch.Tensor:
         """Open by ``min_open_frac`` of the goal or more."""
         return share >= self.min_open_frac * goal
+
+
+@known_to_maniskill
+class OpenDoorEnv(OpenJointEnv):
+    """A robot swings one door, lid or flap open.
+
+    Knobs and dials, which are held close to their axis, do not count.
+    """
+
+    joint_types = ("revolute",)
+    min_lever = 0.08
+
+
+@known_to_maniskill
+class OpenDrawerEnv(OpenJointEnv):
+    """A robot pulls out one drawer, tray or sliding door."""
+
+    joint_types = ("prismatic",)

@@ -10,7 +10,7 @@ import torch  # noqa: TID253 - this module is only imported to train
 from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.models.detector.canvas import OPENING, SIDES, SORTS
 from asset_factory.factory.models.detector.decode import Found, found_parts, overlaps
-from asset_factory.factory.models.detector.detect import dense_of
+from asset_factory.factory.models.detector.detect import first_of
 from asset_factory.factory.models.detector.network import cues_of
 
 from .sides import Instances
@@ -31,7 +31,7 @@ def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
         with torch.no_grad():
             answers = network(cues)
         table = batch.table[0].cpu().numpy()
-        told = found_parts(dense_of(answers), FLOOR)
+        told = found_parts(first_of(answers), FLOOR)
         found = [part for part in told if SORTS.index(part.sort) < OPENING]
         counts += compared(found, table[table[:, 0] >= 0])
         fronts += int(answers.front.argmax() == front) * opens

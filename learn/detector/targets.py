@@ -9,7 +9,7 @@ import torch  # noqa: TID253 - this module is only imported to train
 from torch.nn import functional  # noqa: TID253
 
 from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS, STRIDE
-from asset_factory.factory.models.detector.network import DenseAnswers
+from asset_factory.factory.models.detector.decode import Dense
 
 from .looks import Shown
 
@@ -93,7 +93,7 @@ def targets_of(shown: Shown) -> CellTargets:
     )
 
 
-def loss_of(answers: DenseAnswers, targets: CellTargets) -> tuple[Tensor, dict[str, Tensor]]:
+def loss_of(answers: Dense, targets: CellTargets) -> tuple[Tensor, dict[str, Tensor]]:
     """Return how far answers are from the truth, and its terms."""
     there = (targets.sort >= 0) & ~targets.ignored
     weight = targets.weight * there

@@ -18,7 +18,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.limits import require_at_most
 from asset_factory.factory.mesh import FloatArray, IntArray, read_only
 from asset_factory.factory.models.particulate.prediction import MotionClass
-from asset_factory.factory.models.particulate.sampling import Cloud, draw, sharp_edges
+from asset_factory.factory.models.particulate.sampling import Cloud, draw
 from asset_factory.factory.models.particulate.surface import BoolArray, Surface
 from asset_factory.factory.runtime.store import write_whole
 
@@ -93,7 +93,7 @@ def sampled_from(
         InputRejected: as :func:`sampled_at`, ``zero_size``.
     """
     surface = Surface.of(articulation.mesh.vertices, articulation.mesh.faces)
-    cloud = draw(surface, sharp_edges(surface), points, rng, most_covered=int(COVERED * points))
+    cloud = draw(surface, points, rng, most_covered=int(COVERED * points))
     return sampled_at(cloud, articulation, name)
 
 

@@ -1,13 +1,16 @@
-"""What the tasks read from a registry; no simulator."""
+"""What the tasks read from a registry, and what is refused as altered since; no simulator."""
 
 import json
+import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
 from openable_samples import cabinet, oven, valve, write_registry
 
-from asset_factory.envs.assets import read_registry
+from asset_factory.envs.assets import check_unaltered, read_registry
 from asset_factory.factory.errors import RegistryError
+from asset_factory.factory.registry.report_file import file_digests
 
 
 def edited(registry, asset, change):
@@ -59,8 +62,7 @@ def test_the_surest_interaction_target_is_held_rather_than_the_handle(tmp_path):
     slide = asset.joint("slide")
     assert slide.point.tolist() == [0.2, -0.01, 0.1]
     assert np.allclose(slide.rest_point, [0.2, -0.222, 0.75])
-    assert (slide.handle_link, slide.finger_opening) == ("part_2", 0.03)
-    assert asset.joint("hinge").finger_opening is None
+    assert slide.handle_link == "part_2"
 
 
 def test_what_is_no_registry_and_a_damaged_manifest_are_told(tmp_path):
@@ -73,3 +75,32 @@ def test_what_is_no_registry_and_a_damaged_manifest_are_told(tmp_path):
     (registry / "assets/oven/asset.json").write_text(json.dumps({"joints": []}))
     with pytest.raises(RegistryError, match=r"oven.asset\.json: not a manifest.*missing"):
         read_registry(registry)
+
+
+def spoil(path):
+    path.write_text(path.read_text().replace("v ", "v 1", 1))
+
+
+def extend(path):
+    path.write_text(path.read_text() + " ")
+
+
+@pytest.mark.parametrize(
+    ("place", "change", "told"),
+    [
+        (".", shutil.rmtree, r"'oven': .*asset\.json is gone.*there are 'cabinet'"),
+        ("asset.json", extend, r"asset\.json changed since the registry was read"),
+        ("meshes/collision/{hull}", spoil, "{hull}' not as registered"),
+        ("meshes/collision/{hull}", Path.unlink, "{hull}' not as registered"),
+        ("meshes/collision/more.obj", Path.touch, "more.obj' not as registered"),
+    ],
+)
+def test_what_is_not_as_registered_or_gone_is_named(tmp_path, place, change, told):
+    asset = read_registry(write_registry(tmp_path, cabinet(), oven()))["oven"]
+    check_unaltered(asset)
+    (asset.folder / "report.json").write_text(json.dumps({"files": file_digests(asset.folder)}))
+    check_unaltered(asset)
+    hull = sorted(path.name for path in (asset.folder / "meshes/collision").iterdir())[0]
+    change(asset.folder / place.format(hull=hull))
+    with pytest.raises(RegistryError, match=told.format(hull=hull)):
+        check_unaltered(asset)

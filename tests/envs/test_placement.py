@@ -8,7 +8,8 @@ from openable_samples import cabinet, oven, train, valve, write_registry
 
 from asset_factory.envs.assets import read_registry
 from asset_factory.envs.geometry import carried_links, handle_path, hull_boxes, links_of
-from asset_factory.envs.placement import MARGIN, ROBOTS, find_place
+from asset_factory.envs.placement import MARGIN, find_place
+from asset_factory.envs.robots import ROBOTS
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +57,7 @@ def test_a_robot_stands_clear_within_reach_and_looks_at_the_handle(
 ):
     asset = assets[name]
     target = asset.joint(joint)
-    place = find_place(asset, target, robot, start=start, spread=0.1)
+    place = find_place(asset, target, ROBOTS[robot], start=start, spread=0.1)
     handle = handle_path(asset, target, np.array([start]))[0]
     heading = np.array([np.cos(place.yaw), np.sin(place.yaw)])
     ahead = handle[:2] - place.position[:2]
@@ -68,7 +69,7 @@ def test_a_robot_stands_clear_within_reach_and_looks_at_the_handle(
 
 def test_no_moving_part_reaches_the_base(assets):
     asset = assets["oven"]
-    place = find_place(asset, asset.joint("door"), "fetch")
+    place = find_place(asset, asset.joint("door"), ROBOTS["fetch"])
     radius = ROBOTS["fetch"].body[0]
     for value in np.linspace(0.0, 1.5, 20):
         (box,) = hull_boxes(asset, {"door": value}, frozenset({"part_1"}))

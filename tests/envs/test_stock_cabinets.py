@@ -62,7 +62,9 @@ def test_the_front_faces_the_stock_robot_and_an_opened_drawer_is_the_stock_succe
 
 
 def test_a_joint_follows_another_at_the_ratio_of_its_file(household, monkeypatch):
-    from asset_factory.envs.stock import RegistryCabinets, described
+    from asset_factory.envs import stock as module
+
+    described = module.described
 
     def coupled(asset):
         robot = described(asset)
@@ -73,7 +75,7 @@ def test_a_joint_follows_another_at_the_ratio_of_its_file(household, monkeypatch
         return robot
 
     names = []
-    monkeypatch.setattr(RegistryCabinets, "described", staticmethod(coupled))
+    monkeypatch.setattr(module, "described", coupled)
     import torch
 
     env = drawers(household, asset="cabinet")

@@ -4,6 +4,7 @@ import numpy as np
 
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.models.particulate.decoding import assigned
 from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.models.particulate.proxy import proxy_of
 from asset_factory.factory.models.particulate.sampling import sample
@@ -32,7 +33,7 @@ class Oracle:
         self.owner = face_parts(truth)
         self.calls = []
 
-    def __call__(self, shown, context):
+    def __call__(self, shown, context, least_confidence=0.0):
         points = shown.points
         seen = self._sample(len(self.calls))
         self.calls.append((shown, context))
@@ -52,16 +53,11 @@ class Oracle:
         fields["mask_logits"] = mask
         if self.change:
             self.change(fields, self.queries, len(self.calls) - 1)
-        direction = fields["revolute_direction"]
-        place = fields.pop("place")
-
-        def closest(part_ids, rows=None):
-            rows = np.arange(len(points)) if rows is None else rows
-            unit = direction[part_ids[rows]]
-            along = np.einsum("ij,ij->i", points[rows] - place[part_ids[rows]], unit)
-            return (place[part_ids[rows]] + along[:, None] * unit).astype(np.float32)
-
-        return Prediction(**fields, closest_points=closest)
+        asked = assigned(fields["mask_logits"], least_confidence).parts
+        place = fields.pop("place")[asked]
+        unit = fields["revolute_direction"][asked]
+        along = np.einsum("ij,ij->i", points - place, unit)
+        return Prediction(**fields, closest_points=place + along[:, None] * unit)
 
     def _sample(self, number):
         mesh = self.truth.mesh

@@ -3,11 +3,20 @@
 import numpy as np
 
 from asset_factory.factory.models.particulate.prediction import Prediction
+from asset_factory.factory.models.particulate.sampling import Cloud
 
 PARTS = 16
 
 
-def random_network(cloud, context):
+def cloud_of(count, seed=0):
+    """Points that are on nothing, of three components."""
+    rng = np.random.default_rng(seed)
+    numbers = rng.integers(0, 3, count)
+    points, normals = rng.uniform(-0.5, 0.5, (2, count, 3)).astype(np.float32)
+    return Cloud(points, normals, numbers, numbers > 0, numbers)
+
+
+def random_network(cloud, context, least_confidence=0.0):
     """The same answer for the same points."""
     points = cloud.points
     assert np.isfinite(points).all()
@@ -24,7 +33,5 @@ def random_network(cloud, context):
         revolute_range=rng.normal(size=(PARTS, 2)),
         prismatic_direction=rng.normal(size=(PARTS, 3)),
         prismatic_range=rng.normal(size=(PARTS, 2)) * 0.3,
-        closest_points=lambda part_ids, rows=None: (
-            points[slice(None) if rows is None else rows] * 0.1
-        ).astype("f4"),
+        closest_points=points * 0.1,
     )

@@ -7,10 +7,9 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
+from random_network import cloud_of
 
 from asset_factory.factory.articulate.particulate import load_articulator
-from asset_factory.factory.models.particulate.sampling import Cloud
 from asset_factory.factory.models.service import Address, asking
 
 
@@ -51,11 +50,7 @@ def fill(source, staging, size):
 
 def answer(config, address):
     """What the network says of some points, whether it was loaded here, and where it was asked."""
-    rng = np.random.default_rng(0)
-    points = rng.uniform(-0.5, 0.5, (300, 3)).astype(np.float32)
-    cloud = Cloud(
-        points, points, np.zeros(300, np.int64), np.zeros(300, np.bool_), np.zeros(300, np.int64)
-    )
+    cloud = cloud_of(300)
     with asking(address if isinstance(address, Address) else None):
         network = load_articulator(config).network
     said = network(cloud, cloud).mask_logits.tobytes()

@@ -55,8 +55,11 @@ def random_cloud(count, shape=TINY, seed=0):
     return PointCloud(rng.uniform(-0.5, 0.5, (count, 3)), normals, features)
 
 
-def plainly(model, cloud):
-    """Mask logits, closest points (best part or nothing) and part outputs, in training form."""
+def plainly(model, cloud, owners=None):
+    """Mask logits, closest points (best part or nothing) and part outputs, in training form.
+
+    ``owners``: the part of each point, if it is not the best.
+    """
     network = model._network
     batch = [
         None if each is None else torch.tensor(each)[None]
@@ -65,10 +68,8 @@ def plainly(model, cloud):
     with torch.no_grad():
         hidden, queries = network(*batch)
         masks = network.mask_logits(hidden, queries)
-        has_points = hasattr(network, "point_motion_decoder")
-        closest = (
-            network.closest_points(hidden, queries, masks.argmax(-1))[0].numpy()
-            if has_points
-            else None
-        )
+        ids = masks.argmax(-1) if owners is None else torch.tensor(owners)[None]
+        closest = None
+        if hasattr(network, "point_motion_decoder"):
+            closest = network.closest_points(hidden, queries, ids)[0].numpy()
         return masks[0].numpy(), closest, network.part_outputs(queries)

@@ -15,8 +15,8 @@ from typing import Any
 from ...config import ParticulateConfig
 from ...models.particulate.device import device_for
 from ...models.service import Address
-from ...models.service.answering import Answering, LateAnswering, refusal
-from ...models.service.process import answer_all, listening_socket, load_answering
+from ...models.service.answering import Answering, LoadedNetwork, refusal
+from ...models.service.process import answer_all, listening_socket, load_named
 from ...models.weights.sources import weights_at
 from .weights import SentWeights, arrived
 
@@ -79,18 +79,18 @@ class NodeNetwork:
     """A network in a Ray process."""
 
     def __init__(self, config: ParticulateConfig, weights: SentWeights) -> None:
-        self._answering = LateAnswering(partial(_load, config, weights))
+        self._answering = Answering(partial(_load, config, weights))
 
     def answer(self, question: bytes) -> bytes:
-        """See :class:`...models.service.answering.LateAnswering`."""
+        """See :class:`...models.service.answering.Answering`."""
         return self._answering(question)
 
 
-def _load(config: ParticulateConfig, weights: SentWeights) -> Answering:
+def _load(config: ParticulateConfig, weights: SentWeights) -> LoadedNetwork:
     import ray
 
     with weights_at(arrived(ray, weights)):
-        return load_answering(config)
+        return load_named(config)
 
 
 class NodeSocket:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.special import expit, softmax
@@ -19,19 +20,29 @@ MOST_PARTS = 100
 
 @dataclass(frozen=True, eq=False)
 class Dense:
-    """What the network says of one object, as arrays [5, ..., 64, 64]; see ``DenseAnswers``.
+    """What the network says: of a batch of n objects as tensors, of one as arrays without n.
+
+    Dense answers are per stride of 4 pixels, [n, 5, ..., 64, 64].
 
     Attributes:
-        sort, way, quality: log-odds.
-        edges: distances to the box's edges [pixels].
-        opened: share of the range.
+        sort: log-odds of each sort of part.
+        edges: distances to the left, lower, right and upper edge of the part there [pixels].
+        way: log-odds of each way to open.
+        quality: log-odds of how well the box fits.
+        opened: share of its range by which it stands open.
+        kind: log-odds of kinds of object, [n, kinds].
+        opens: log-odds that anything opens, [n].
+        front: log-odds of each upright side that it is the front, [n, 4].
     """
 
-    sort: FloatArray
-    edges: FloatArray
-    way: FloatArray
-    quality: FloatArray
-    opened: FloatArray
+    sort: Any
+    edges: Any
+    way: Any
+    quality: Any
+    opened: Any
+    kind: Any
+    opens: Any
+    front: Any
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ from ..weights.safetensors import read_safetensors
 from ..weights.sources import shipped_file
 from .canvas import KINDS, look_at
 from .decode import Dense, Found, found_parts
-from .network import DenseAnswers, Detector, cues_of
+from .network import Detector, cues_of
 
 WEIGHTS = shipped_file("detector.safetensors")
 
@@ -28,7 +28,7 @@ class Detection:
     """One object as the detector sees it.
 
     Attributes:
-        dense: answers for every cell of 4 pixels.
+        dense: what the network says.
         faces: the nearest triangle at the middle of every cell, -1 for none, shape [5, 64, 64].
         kinds: probability of each kind of object, shape [kind_count].
         opens: probability that anything opens.
@@ -55,18 +55,13 @@ def detect(mesh: Mesh) -> Detection:
     """Return the detections on a mesh, z up, of at least one triangle."""
     canvases = look_at(mesh)
     cues = cues_of(torch.from_numpy(canvases.color), torch.from_numpy(canvases.depth))
-    answers = _network()(cues[None])
-    return Detection(
-        dense_of(answers),
-        canvases.cells,
-        softmax(_array(answers.kind)),
-        float(expit(_array(answers.opens))),
-        softmax(_array(answers.front)),
-    )
+    dense = first_of(_network()(cues[None]))
+    kinds = softmax(dense.kind)
+    return Detection(dense, canvases.cells, kinds, float(expit(dense.opens)), softmax(dense.front))
 
 
-def dense_of(answers: DenseAnswers) -> Dense:
-    """Return the dense answers on the first object of a batch."""
+def first_of(answers: Dense) -> Dense:
+    """Return the answers on the first object of a batch, as arrays."""
     return Dense(*(_array(getattr(answers, field.name)) for field in fields(Dense)))
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import torch  # noqa: TID253 - loaded by whoever runs the network
@@ -10,6 +9,7 @@ from torch import nn  # noqa: TID253
 from torch.nn import functional  # noqa: TID253
 
 from .canvas import CANVAS, DEPTH_STEPS, LONGEST, NOTHING, SIDES, SORTS, WAYS
+from .decode import Dense
 
 Tensor = Any
 #: Channels of what the network is given.
@@ -33,31 +33,6 @@ _WIDE = 96
 _TOKEN = 256
 _HEADS = 8
 _LAYERS = 3
-
-
-@dataclass(frozen=True, eq=False)
-class DenseAnswers:
-    """What the network says; dense ones per stride of 4 pixels, [n, 5, ..., 64, 64].
-
-    Attributes:
-        sort: log-odds of each sort of part.
-        edges: distances to the left, lower, right and upper edge of the part there [pixels].
-        way: log-odds of each way to open.
-        quality: log-odds of how well the box fits.
-        opened: share of its range by which it stands open.
-        kind: log-odds of kinds of object, [n, kinds].
-        opens: log-odds that anything opens, [n].
-        front: log-odds of each upright side that it is the front, [n, 4].
-    """
-
-    sort: Tensor
-    edges: Tensor
-    way: Tensor
-    quality: Tensor
-    opened: Tensor
-    kind: Tensor
-    opens: Tensor
-    front: Tensor
 
 
 def cues_of(color: Tensor, depth: Tensor) -> Tensor:
@@ -137,7 +112,7 @@ class Detector(nn.Module):  # type: ignore[misc]
             self.answer.bias[: len(SORTS)] = -4.0
             self.answer.bias[len(SORTS) : len(SORTS) + 4] = 3.0
 
-    def forward(self, cues: Tensor) -> DenseAnswers:
+    def forward(self, cues: Tensor) -> Dense:
         """Return the detections; ``cues`` [n, 5, CUES, 256, 256]."""
         count, views = cues.shape[:2]
         levels = self.backbone(cues.flatten(0, 1))
@@ -154,7 +129,7 @@ class Detector(nn.Module):  # type: ignore[misc]
         sort, edges, way, quality, opened = dense.split((len(SORTS), 4, len(WAYS), 1, 1), 2)
         sides = tokens.mean(2)
         whole = self.whole(sides.mean(1))
-        return DenseAnswers(
+        return Dense(
             sort,
             edges.float().clamp(-1.0, 6.0).exp(),
             way,

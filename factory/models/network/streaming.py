@@ -204,7 +204,6 @@ class PairHead:
         self._of_parts = split_first_layer(head, queries, first=False)
         self._dtype = dtype
         self.parts = len(queries)
-        self.outputs = head[2].out_features
 
     @torch.inference_mode()  # type: ignore[untyped-decorator]
     def every_part(self, hidden: Tensor) -> Tensor:
@@ -219,21 +218,14 @@ class PairHead:
         return logits.add_(self._last.bias)
 
     @torch.inference_mode()  # type: ignore[untyped-decorator]
-    def own_parts(
-        self, hidden: Tensor, part_ids: IntArray, rows: IntArray | None = None
-    ) -> Float32Array:
-        """Return the head for some points and their parts, shape [row_count, outputs].
-
-        Arguments: see :class:`..particulate.prediction.ClosestPoints`.
-        """
-        if np.shape(part_ids) != (len(hidden),):
-            raise ValueError(f"part_ids: shape {np.shape(part_ids)}, want [{len(hidden)}]")
-        picked = np.arange(len(hidden)) if rows is None else np.asarray(rows)
-        ids = torch.tensor(np.asarray(part_ids)[picked], device=hidden.device)
-        found = np.empty((len(picked), self.outputs), dtype=np.float32)
-        for some in chunks(len(picked), CHUNK):
-            of_points = self._of_points(hidden[picked[some]]).add_(self._of_parts[ids[some]])
-            found[some] = self._last(F.silu(of_points, inplace=True)).cpu().numpy()
+    def own_parts(self, hidden: Tensor, part_ids: IntArray) -> Float32Array:
+        """Return the head for every point and its part, [n, width] and [n] to [n, outputs]."""
+        found = np.empty((len(hidden), self._last.out_features), dtype=np.float32)
+        for part in np.unique(part_ids):
+            rows = np.flatnonzero(part_ids == part)
+            for some in chunks(len(rows), CHUNK):
+                few = self._of_points(hidden[rows[some]]).add_(self._of_parts[part])
+                found[rows[some]] = self._last(F.silu(few, inplace=True)).cpu().numpy()
         return found
 
     def _of_points(self, hidden: Tensor) -> Tensor:

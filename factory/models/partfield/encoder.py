@@ -9,7 +9,7 @@ import torch.nn.functional as F  # noqa: N812, TID253
 from torch import nn  # noqa: TID253
 
 from ..network.layers import named
-from .shape import POINT_CHANNELS, PartFieldShape
+from .shape import POINT_CHANNELS, SDF_CHANNELS, PartFieldShape
 from .unet import PlaneUNet
 
 Tensor = Any
@@ -194,7 +194,6 @@ class PartFieldEncoder(nn.Module):  # type: ignore[misc]
 
     def __init__(self, shape: PartFieldShape) -> None:
         super().__init__()
-        self.shape = shape
         self.pvcnn = PointsToPlanes(shape)
         self.triplane_transformer = TriplaneTransformer(shape)
 
@@ -211,7 +210,7 @@ class PartFieldEncoder(nn.Module):  # type: ignore[misc]
             Planes xy, yz and xz, shape [3, features, resolution, resolution].
         """
         planes = self.triplane_transformer(self.pvcnn(points))
-        return planes[0, :, self.shape.sdf_channels :]
+        return planes[0, :, SDF_CHANNELS:]
 
 
 def sample_field(planes: Tensor, points: Tensor) -> Tensor:

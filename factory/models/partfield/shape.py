@@ -12,6 +12,8 @@ from ..network.shape import Shape, check_tensors
 
 POINT_CHANNELS = 8
 NORM_GROUPS = 32
+#: The first channels of the finished planes hold a distance field and no features; no tensor tells.
+SDF_CHANNELS = 64
 # Heads of the training losses and three layers whose result the release computes and throws away.
 _LAYERS = tuple(f"pvcnn.pc_encoder.encoder.{number}." for number in (1, 2, 3))
 UNUSED = ("logit_scale", "sdf_decoder.", *_LAYERS)
@@ -29,8 +31,6 @@ class PartFieldShape:
         layers: of the transformer.
         heads: of its attention; no tensor tells.
         plane_channels: of the finished planes.
-        sdf_channels: the first of them, which hold a distance field and no features; no tensor
-            tells.
     """
 
     channels: int = 256
@@ -40,12 +40,11 @@ class PartFieldShape:
     layers: int = 6
     heads: int = 8
     plane_channels: int = 512
-    sdf_channels: int = 64
 
     @property
     def features(self) -> int:
         """Return the channels of a point's feature."""
-        return self.plane_channels - self.sdf_channels
+        return self.plane_channels - SDF_CHANNELS
 
     @property
     def coarse(self) -> int:

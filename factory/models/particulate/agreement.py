@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,7 +31,7 @@ class Consensus:
     part_agreement: tuple[float, ...] | None
 
 
-def consensus(readings: tuple[Decoded, ...], areas: npt.ArrayLike) -> Consensus:
+def consensus(readings: Sequence[Decoded], areas: npt.ArrayLike) -> Consensus:
     """Return the answer that agrees most with the others on average, the first of equals.
 
     ``areas`` are those of the mesh's faces, shape [face_count].

@@ -97,7 +97,11 @@ def decode(
     Raises:
         InputRejected: ``prediction_not_finite``, naming the field.
     """
-    require_finite(prediction)
+    for each in fields(prediction):
+        value = getattr(prediction, each.name)
+        # Votes are looked at where a part counts them.
+        if value is not None and each.name != "closest_points":
+            require_finite_numbers(value, each.name)
     points = assigned(prediction.mask_logits, config.least_confidence)
     labels = voted(sample.cloud.faces, points.parts, len(proxy.surface.faces))
     labels = carried_back(proxy, labels, surface.faces)
@@ -124,18 +128,6 @@ def decode(
         box=sample.box,
         notes=_notes(len(points.present) - len(owners), fused, proxy, surface),
     )
-
-
-def require_finite(prediction: Prediction) -> None:
-    """Refuse an answer with NaN or infinity in it.
-
-    Raises:
-        InputRejected: ``prediction_not_finite``, naming the field.
-    """
-    for each in fields(prediction):
-        value = getattr(prediction, each.name)
-        if isinstance(value, np.ndarray):
-            require_finite_numbers(value, each.name)
 
 
 def _tree(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Protocol
 
 import numpy as np
@@ -11,7 +10,7 @@ from ...config import ParticulateConfig
 from ...errors import InputRejected
 from ...mesh import FloatArray, IntArray
 from .agreement import Consensus, consensus
-from .decoding import Decoded, decode
+from .decoding import decode
 from .prediction import Prediction
 from .proxy import proxy_of
 from .sampling import Cloud, sample
@@ -23,10 +22,14 @@ MOST_SAMPLES = 64
 class Network(Protocol):
     """Whatever answers for a cloud of points."""
 
-    def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
+    def __call__(self, cloud: Cloud, context: Cloud, least_confidence: float = 0.0) -> Prediction:
         """Return the answer for one cloud, all in the network's frame.
 
-        ``cloud`` is to label; features are computed from ``context``, more of the same surface.
+        Args:
+            cloud: points to label.
+            context: more of the same surface, from which features are computed.
+            least_confidence: as for :func:`~.decoding.assigned`, which gives every point the part
+                whose axis it is asked for.
         """
         ...
 
@@ -52,12 +55,12 @@ def infer(
     surface = Surface.of(vertices, faces)
     proxy = proxy_of(surface, config.max_faces)
 
-    def readings() -> Iterator[Decoded]:
-        counts = (config.points, config.context_points, config.max_faces)
-        for number in range(config.samples):
-            rng = np.random.default_rng((config.seed, number))
-            seen = sample(proxy.surface, *counts, rng)
-            answer = network(seen.cloud.inside(seen.box), seen.context.inside(seen.box))
-            yield decode(surface, proxy, seen, answer, config)
-
-    return consensus(tuple(readings()), surface.areas)
+    counts = (config.points, config.context_points, config.max_faces)
+    readings = []
+    for number in range(config.samples):
+        rng = np.random.default_rng((config.seed, number))
+        seen = sample(proxy.surface, *counts, rng)
+        both = (seen.cloud.inside(seen.box), seen.context.inside(seen.box))
+        answer = network(*both, config.least_confidence)
+        readings.append(decode(surface, proxy, seen, answer, config))
+    return consensus(readings, surface.areas)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import partial
 from typing import Any
 
@@ -23,6 +23,7 @@ from ..network.transformer import PartArticulationTransformer
 from ..weights.checkpoint import filled, load_tensors, open_checkpoint
 from ..weights.sources import PARTFIELD, fetch
 from .components import COMPONENT_FEATURES, component_features
+from .decoding import assigned
 from .field import FeatureField
 from .prediction import Prediction
 from .sampling import Cloud
@@ -49,16 +50,10 @@ class PointCloud:
     features: Float32Array | None = None
 
     def __post_init__(self) -> None:
-        for name in ("points", "normals", "features"):
-            value = getattr(self, name)
-            if value is None:
-                continue
-            array = np.asarray(value, dtype=np.float32)
-            wide = array.shape[-1] if name == "features" and array.ndim == 2 else 3
-            if array.shape != (len(self.points), wide) or not len(array):
-                want = f"want [{len(self.points)}, {wide}] with some points"
-                raise ValueError(f"{name}: shape {array.shape}, {want}")
-            object.__setattr__(self, name, array)
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if value is not None:
+                object.__setattr__(self, each.name, np.asarray(value, dtype=np.float32))
 
     def take(self, rows: IntArray) -> PointCloud:
         """Return some of the points."""
@@ -82,58 +77,56 @@ class Model:
     _network: Any = field(repr=False)
     upright: bool = False
 
-    def predict(self, cloud: PointCloud, *, driving: int | None = None) -> Prediction:
+    def predict(
+        self, cloud: PointCloud, *, driving: int | None = None, least_confidence: float = 0.0
+    ) -> Prediction:
         """Return what the network says about a cloud.
 
         Args:
             cloud: of any size.
             driving: how many of the points the parts are told from, drawn at random but always the
                 same ones; the others are only labelled, for less work. All of them by default.
+            least_confidence: see :class:`.inference.Network`.
         """
         if driving is not None and driving < len(cloud.points):
             rows = np.random.default_rng(_DRIVING_SEED).permutation(len(cloud.points))[:driving]
-            return self.decode(self.encode(cloud.take(np.sort(rows))), cloud)
+            return self.decode(self.encode(cloud.take(np.sort(rows))), cloud, least_confidence)
         hidden = self._embed(cloud)
         driven = drive(self._network, hidden, self.dtype)
-        return self._read(driven, hidden, driven.updates[-1:])
+        return self._read(driven, hidden, driven.updates[-1:], least_confidence)
 
     def encode(self, cloud: PointCloud) -> Driven:
         """Encode a cloud's parts: enough to label other points of the same surface."""
         driven: Driven = drive(self._network, self._embed(cloud), self.dtype)
         return driven
 
-    def decode(self, driven: Driven, cloud: PointCloud) -> Prediction:
+    def decode(
+        self, driven: Driven, cloud: PointCloud, least_confidence: float = 0.0
+    ) -> Prediction:
         """Return what the network says about points, given what others told about the parts.
 
         Every point is answered for alone: more or fewer of them change nothing.
         """
-        return self._read(driven, self._embed(cloud), driven.updates)
+        return self._read(driven, self._embed(cloud), driven.updates, least_confidence)
 
     def _embed(self, cloud: PointCloud) -> Any:
-        wanted = self.shape.features
-        given = cloud.features
-        if wanted and (given is None or given.shape[1] != wanted):
-            have = "none are given" if given is None else f"{given.shape[1]} are given"
-            have = f"{have}; {PARTFIELD.source} has them"
-            raise ConfigError(f"this network wants {wanted} features per point, and {have}")
-        features = cloud.features if wanted else None
+        features = cloud.features if self.shape.features else None
         normals = cloud.normals if self.shape.normals else None
         return embed_chunks(self._network, cloud.points, normals, features)
 
-    def _read(self, driven: Driven, hidden: Any, updates: tuple[Any, ...]) -> Prediction:
+    def _read(
+        self, driven: Driven, hidden: Any, updates: tuple[Any, ...], least_confidence: float
+    ) -> Prediction:
         masks = PairHead(self._network.mask_head, driven.queries, self.dtype)
         mask_logits = finish(hidden, updates, masks)
         parts = part_outputs(self._network, driven.queries)
         if self.upright:
             parts = _opening(parts)
-        moment = parts.pop("revolute_moment")
         closest = None
-        if moment is None:
+        if parts["revolute_moment"] is None:
             head = PairHead(self._network.point_motion_decoder, driven.queries, self.dtype)
-            closest = partial(head.own_parts, hidden)
-        return Prediction(
-            mask_logits=mask_logits, closest_points=closest, revolute_moment=moment, **parts
-        )
+            closest = head.own_parts(hidden, assigned(mask_logits, least_confidence).parts)
+        return Prediction(mask_logits=mask_logits, closest_points=closest, **parts)
 
 
 def _opening(parts: dict[str, Any]) -> dict[str, Any]:
@@ -172,12 +165,12 @@ class Particulate:
             advice = f"load the weights of {PARTFIELD.network} beside it, {PARTFIELD.source}"
             raise ConfigError(f"{wants}: {advice}. {PARTFIELD.terms}")
 
-    def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
+    def __call__(self, cloud: Cloud, context: Cloud, least_confidence: float = 0.0) -> Prediction:
         """Return the answer for one cloud, see :class:`.inference.Network`."""
         points = np.asarray(cloud.points, np.float32)
         normals = np.asarray(cloud.normals, np.float32)
         shown = PointCloud(points, normals, self._features(cloud, context))
-        return self.model.predict(shown, driving=self.driving)
+        return self.model.predict(shown, driving=self.driving, least_confidence=least_confidence)
 
     def _features(self, cloud: Cloud, context: Cloud) -> Float32Array | None:
         if not self.model.shape.features:

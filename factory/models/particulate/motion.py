@@ -66,7 +66,7 @@ def read_motion(prediction: Prediction, part: int, part_ids: IntArray) -> Predic
     """Return the motion of one part that has points.
 
     Args:
-        prediction: finite.
+        prediction: finite, but for votes.
         part: whose motion.
         part_ids: the part of every point, shape [point_count]; its points vote for the place of its
             axis.
@@ -130,30 +130,17 @@ def _axis(prediction: Prediction, part: int, part_ids: IntArray) -> Line | None:
     direction = unit(prediction.revolute_direction[part])
     if direction is None:
         return None
-    if prediction.revolute_moment is not None:
+    if prediction.closest_points is None:
+        assert prediction.revolute_moment is not None, "a prediction has the one or the other"  # noqa: S101
         raw = np.asarray(prediction.revolute_direction[part], dtype=np.float64)
         moment = np.asarray(prediction.revolute_moment[part], dtype=np.float64)
         return Line(direction, np.cross(moment, raw) / float(raw @ raw), None)
-    votes = votes_for(prediction, part, part_ids)
+    votes = np.asarray(prediction.closest_points[part_ids == part], dtype=np.float64)
+    require_finite_numbers(votes, "votes for an axis")
     point = np.median(votes, axis=0)
     off = votes - point
     away = off - np.outer(off @ direction, direction)
     return Line(direction, point, float(np.median(np.linalg.norm(away, axis=1))))
-
-
-def votes_for(prediction: Prediction, part: int, part_ids: IntArray) -> FloatArray:
-    """Return where each of a part's points thinks its axis is nearest, shape [vote_count, 3].
-
-    Raises:
-        InputRejected: ``prediction_not_finite``.
-    """
-    if prediction.closest_points is None:
-        raise ValueError("this network gives its axes by their moments; it has no votes")
-    votes = np.asarray(
-        prediction.closest_points(part_ids, np.flatnonzero(part_ids == part)), dtype=np.float64
-    )
-    require_finite_numbers(votes, "votes for an axis")
-    return votes
 
 
 def require_finite_numbers(values: npt.NDArray[np.floating[Any]], what: str) -> None:

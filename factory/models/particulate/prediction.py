@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
 from enum import IntEnum
-from typing import Protocol
 
 import numpy as np
 
-from ...mesh import Float32Array, IntArray, read_only
+from ...mesh import Float32Array, read_only
 
 
 class MotionClass(IntEnum):
@@ -30,22 +29,6 @@ class MotionClass(IntEnum):
         return self in (MotionClass.PRISMATIC, MotionClass.BOTH)
 
 
-class ClosestPoints(Protocol):
-    """Where on its part's axis each point's nearest point lies, as the network sees it."""
-
-    def __call__(self, part_ids: IntArray, rows: IntArray | None = None) -> Float32Array:
-        """Return the closest points, network frame, shape [row_count, 3].
-
-        Args:
-            part_ids: the part of every point of the cloud, 0 to part_count - 1, shape
-                [point_count].
-            rows: the points wanted, indices into the cloud, shape [row_count]; all of them by
-                default. Each costs about as much as its mask logits did, so ask for the points of
-                turning parts.
-        """
-        ...
-
-
 @dataclass(frozen=True)
 class Prediction:
     """The network's answer for one cloud: logits and regressed numbers, nothing decided yet.
@@ -62,8 +45,8 @@ class Prediction:
         revolute_range: lowest and highest turn by the right-hand rule [rad], shape [part_count, 2].
         prismatic_direction: of the slide, not normalised, shape [part_count, 3].
         prismatic_range: lowest and highest slide, shape [part_count, 2].
-        closest_points: computes a point on the axis for each point of the cloud, once the parts are
-            decided; ``None`` for the networks that give the axis by its moment instead.
+        closest_points: the nearest point on the axis of each point's part, shape [point_count, 3];
+            ``None`` for the networks that give the axis by its moment instead.
         revolute_moment: direction x point on the axis, in this order, not normalised, shape
             [part_count, 3]; ``None`` for the networks that give closest points.
     """
@@ -75,7 +58,7 @@ class Prediction:
     revolute_range: Float32Array
     prismatic_direction: Float32Array
     prismatic_range: Float32Array
-    closest_points: ClosestPoints | None = field(default=None, repr=False)
+    closest_points: Float32Array | None = field(default=None, repr=False)
     revolute_moment: Float32Array | None = None
 
     def __post_init__(self) -> None:
@@ -88,11 +71,12 @@ class Prediction:
             "revolute_range": (parts, 2),
             "prismatic_direction": (parts, 3),
             "prismatic_range": (parts, 2),
+            "closest_points": (len(self.mask_logits), 3),
             "revolute_moment": (parts, 3),
         }
         for each in fields(self):
             value = getattr(self, each.name)
-            if each.name == "closest_points" or value is None:
+            if value is None:
                 continue
             array = read_only(value, np.float32)
             if array.shape != shapes[each.name]:

@@ -12,14 +12,6 @@ from .frames import UnitBox
 from .surface import BoolArray, Surface
 
 SHARP_SHARE = 0.5
-LEAST_FOLD = np.deg2rad(30.0)
-MOST_FOLD = np.deg2rad(150.0)
-"""Angle between two faces' normals at a sharp edge [rad]: lower and upper end.
-
-The paper names only the lower end; the released network saw nothing above the upper one, which
-also leaves out the two sides of a sheet and neighbours wound against one another."""
-MOST_FACES_COMPARED = 8
-"""Of the faces along one edge, so a thousand sheets on one edge do not make a million pairs."""
 
 
 @dataclass(frozen=True)
@@ -78,22 +70,18 @@ def sample(
     Raises:
         InputRejected: ``zero_size``: no face has an area.
     """
-    folds = sharp_edges(surface)
-    cloud = draw(surface, folds, points, rng, most_covered)
-    context = draw(surface, folds, context_points, rng, most_covered=0)
+    cloud = draw(surface, points, rng, most_covered)
+    context = draw(surface, context_points, rng, most_covered=0)
     mesh_box = UnitBox.around(surface.vertices[np.unique(surface.faces)])
     both = np.concatenate([context.points, cloud.points])
     return CloudSample(cloud, context, mesh_box.then(UnitBox.around(mesh_box.inside(both))))
 
 
-def draw(
-    surface: Surface, folds: SharpEdges, count: int, rng: np.random.Generator, most_covered: int
-) -> Cloud:
+def draw(surface: Surface, count: int, rng: np.random.Generator, most_covered: int) -> Cloud:
     """Draw ``count`` points: half on sharp edges, by length, and half on faces, by area.
 
     Args:
-        surface: any frame.
-        folds: of that surface; if there are none, all points lie on faces.
+        surface: any frame; if it has no sharp edge, all points lie on faces.
         count: how many; the half on faces grows to one for each that is sure of one, where it must.
         rng: source of chance.
         most_covered: so many of the largest faces get a point before the others are drawn; faces
@@ -106,8 +94,8 @@ def draw(
     if not len(solid):
         why = f"none of {len(surface.faces)} faces has an area, so there is nothing to see"
         raise InputRejected("zero_size", why, value=0.0)
-    sharp_count = int(SHARP_SHARE * count) if len(folds.edges) else 0
-    on_edges = _on_edges(surface, folds, sharp_count, rng)
+    sharp_count = int(SHARP_SHARE * count) if len(surface.sharp.edges) else 0
+    on_edges = _on_edges(surface, sharp_count, rng)
     if len(solid) > most_covered:
         solid = solid[np.argsort(-surface.areas[solid], kind="stable")[:most_covered]]
     covered = rng.permutation(solid)
@@ -115,9 +103,9 @@ def draw(
     return _joined(on_edges, _on_faces(surface, np.concatenate([covered, weighted]), rng))
 
 
-def _on_edges(surface: Surface, folds: SharpEdges, count: int, rng: np.random.Generator) -> Cloud:
-    chosen = _weighted(folds.lengths, count, rng)
-    edges = folds.edges[chosen]
+def _on_edges(surface: Surface, count: int, rng: np.random.Generator) -> Cloud:
+    chosen = _weighted(surface.sharp.lengths, count, rng)
+    edges = surface.sharp.edges[chosen]
     ends = surface.vertices[surface.edges.ends[edges]]
     along = rng.random(len(edges))[:, None]
     # Any of the faces there, also in the half that decides where labels go.
@@ -125,7 +113,7 @@ def _on_edges(surface: Surface, folds: SharpEdges, count: int, rng: np.random.Ge
     face = surface.edges.first[edges] + any_of.astype(np.int64)
     return Cloud(
         points=ends[:, 0] * (1.0 - along) + ends[:, 1] * along,
-        normals=folds.normals[chosen],
+        normals=surface.sharp.normals[chosen],
         faces=surface.edges.faces[face],
         sharp=np.ones(len(edges), dtype=np.bool_),
         components=surface.components[surface.edges.faces[face]],
@@ -159,48 +147,3 @@ def _weighted(weights: FloatArray, count: int, rng: np.random.Generator) -> IntA
 def _joined(one: Cloud, other: Cloud) -> Cloud:
     names = [each.name for each in fields(Cloud)]
     return Cloud(*(np.concatenate([getattr(c, name) for c in (one, other)]) for name in names))
-
-
-@dataclass(frozen=True)
-class SharpEdges:
-    """Where a surface folds.
-
-    Attributes:
-        edges: indices into the surface's edges, shape [sharp_count].
-        normals: mean of two unit face normals there, *not* normalised, as the network knows it,
-            shape [sharp_count, 3].
-        lengths: [length units], shape [sharp_count].
-    """
-
-    edges: IntArray
-    normals: FloatArray
-    lengths: FloatArray
-
-
-def sharp_edges(surface: Surface) -> SharpEdges:
-    """Return the edges where some two faces fold by more than 30 and less than 150 degrees."""
-    edges = surface.edges
-    chosen = np.full(len(edges.ends), -1)
-    other = np.full(len(edges.ends), -1)
-    counts = edges.counts
-    for i in range(min(int(counts.max(initial=0)), MOST_FACES_COMPARED) - 1):
-        for j in range(i + 1, min(int(counts.max()), MOST_FACES_COMPARED)):
-            open_ = np.flatnonzero((counts > j) & (chosen < 0))
-            one = edges.faces[edges.first[open_] + i]
-            two = edges.faces[edges.first[open_] + j]
-            folds = _folds(surface, one, two)
-            chosen[open_[folds]] = one[folds]
-            other[open_[folds]] = two[folds]
-    sharp = np.flatnonzero(chosen >= 0)
-    ends = surface.vertices[edges.ends[sharp]]
-    return SharpEdges(
-        edges=sharp,
-        normals=(surface.normals[chosen[sharp]] + surface.normals[other[sharp]]) / 2.0,
-        lengths=np.asarray(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)),
-    )
-
-
-def _folds(surface: Surface, one: IntArray, two: IntArray) -> IntArray:
-    cosine = np.einsum("ij,ij->i", surface.normals[one], surface.normals[two])
-    solid = (surface.areas[one] > 0.0) & (surface.areas[two] > 0.0)
-    return np.flatnonzero(solid & (np.cos(MOST_FOLD) < cosine) & (cosine < np.cos(LEAST_FOLD)))

@@ -19,6 +19,15 @@ WELD_SHARE = 1e-8
 LEAST_HEIGHT = 1e-9
 """A face no higher than this share of its longest edge has no area, and no normal."""
 
+LEAST_FOLD = np.deg2rad(30.0)
+MOST_FOLD = np.deg2rad(150.0)
+"""Angle between two faces' normals at a sharp edge [rad]: lower and upper end.
+
+The paper names only the lower end; the released network saw nothing above the upper one, which
+also leaves out the two sides of a sheet and neighbours wound against one another."""
+MOST_FACES_COMPARED = 8
+"""Of the faces along one edge, so a thousand sheets on one edge do not make a million pairs."""
+
 FLAT_DEG = 0.05
 SHARP_DEG = 15.0
 """Two faces that turn less lie in one plane; two that turn more meet in an edge [deg]."""
@@ -46,6 +55,22 @@ class Edges:
     def counts(self) -> IntArray:
         """Return how many faces lie along each edge, shape [edge_count]."""
         return np.diff(self.first)
+
+
+@dataclass(frozen=True)
+class SharpEdges:
+    """Where a surface folds.
+
+    Attributes:
+        edges: indices into the surface's edges, shape [sharp_count].
+        normals: mean of two unit face normals there, *not* normalised, as the network knows it,
+            shape [sharp_count, 3].
+        lengths: [length units], shape [sharp_count].
+    """
+
+    edges: IntArray
+    normals: FloatArray
+    lengths: FloatArray
 
 
 @dataclass(frozen=True)
@@ -104,6 +129,29 @@ class Surface:
         return Edges(ends[order[starts]], np.append(starts, len(key)), owner[order])
 
     @cached_property
+    def sharp(self) -> SharpEdges:
+        """Return the edges where some two faces fold by more than 30 and less than 150 degrees."""
+        edges = self.edges
+        chosen = np.full(len(edges.ends), -1)
+        other = np.full(len(edges.ends), -1)
+        counts = edges.counts
+        for i in range(min(int(counts.max(initial=0)), MOST_FACES_COMPARED) - 1):
+            for j in range(i + 1, min(int(counts.max()), MOST_FACES_COMPARED)):
+                open_ = np.flatnonzero((counts > j) & (chosen < 0))
+                one = edges.faces[edges.first[open_] + i]
+                two = edges.faces[edges.first[open_] + j]
+                folds = _folds(self, one, two)
+                chosen[open_[folds]] = one[folds]
+                other[open_[folds]] = two[folds]
+        sharp = np.flatnonzero(chosen >= 0)
+        ends = self.vertices[edges.ends[sharp]]
+        return SharpEdges(
+            edges=sharp,
+            normals=(self.normals[chosen[sharp]] + self.normals[other[sharp]]) / 2.0,
+            lengths=np.asarray(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)),
+        )
+
+    @cached_property
     def neighbours(self) -> IntArray:
         """Return the pairs of faces that border on one another, shape [pair_count, 2].
 
@@ -152,3 +200,9 @@ def has_three_corners(faces: IntArray) -> BoolArray:
 
 def _squared(vectors: FloatArray) -> FloatArray:
     return np.asarray(np.einsum("ij,ij->i", vectors, vectors))
+
+
+def _folds(surface: Surface, one: IntArray, two: IntArray) -> IntArray:
+    cosine = np.einsum("ij,ij->i", surface.normals[one], surface.normals[two])
+    solid = (surface.areas[one] > 0.0) & (surface.areas[two] > 0.0)
+    return np.flatnonzero(solid & (np.cos(MOST_FOLD) < cosine) & (cosine < np.cos(LEAST_FOLD)))

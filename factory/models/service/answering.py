@@ -2,101 +2,73 @@
 
 from __future__ import annotations
 
-import itertools
 import threading
-from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from ...config import ParticulateConfig
 from ..particulate.device import device_for
 from ..particulate.inference import Network
-from ..particulate.prediction import ClosestPoints, Prediction
+from ..particulate.prediction import Prediction
 from ..particulate.sampling import Cloud
 from .wire import Message, WireError, pack, unpack
 
 Answer = Callable[[bytes], bytes]
 
-#: Answers of which closest points may still be asked; the oldest is dropped first.
-HELD = 64
+
+@dataclass(frozen=True)
+class LoadedNetwork:
+    """A network, ready for questions.
+
+    Attributes:
+        network: answers for one cloud.
+        identity: of that network; whoever asks for another one is refused.
+        places: as many as clouds are worked on at the same time; the others wait.
+    """
+
+    network: Network
+    identity: str
+    places: threading.BoundedSemaphore
 
 
 class Answering:
-    """Answers questions; for several threads at once.
+    """Answers questions, for several threads at once.
 
     Args:
-        network: answers for one cloud.
-        identity: of that network; whoever asks for another one is refused.
-        at_once: how many clouds are worked on at the same time; the others wait.
+        load: loads the network at the first question, as the cache may answer all of a job; once
+            more at the next one, where it fails.
     """
 
-    def __init__(self, network: Network, identity: str, at_once: int) -> None:
-        self._network = network
-        self._identity = identity
-        self._working = threading.BoundedSemaphore(at_once)
-        self._held: OrderedDict[str, ClosestPoints] = OrderedDict()
-        self._holding = threading.Lock()
-        self._numbers = itertools.count()
-
-    def __call__(self, question: bytes) -> bytes:
-        """Return the answer to a packed question; an error is an answer of the kind ``refused``."""
-        try:
-            asked = unpack(question)
-            if asked.texts.get("identity") != self._identity:
-                raise WireError("another network is asked for")
-            with self._working:
-                answer = self._closest(asked) if asked.kind == "closest" else self._predict(asked)
-            return pack(answer)
-        except Exception as error:  # noqa: BLE001 - who asks will ask itself, and meet the same error at home
-            return refusal(error)
-
-    def _predict(self, asked: Message) -> Message:
-        prediction = self._network(_cloud(asked, "cloud"), _cloud(asked, "context"))
-        texts = {}
-        if prediction.closest_points is not None:
-            texts["token"] = str(next(self._numbers))
-            with self._holding:
-                self._held[texts["token"]] = prediction.closest_points
-                if len(self._held) > HELD:
-                    self._held.popitem(last=False)
-        told = {each.name: getattr(prediction, each.name) for each in fields(Prediction)}
-        del told["closest_points"]
-        arrays = {name: values for name, values in told.items() if values is not None}
-        return Message("prediction", texts, arrays)
-
-    def _closest(self, asked: Message) -> Message:
-        with self._holding:
-            closest = self._held.get(asked.texts["token"])
-        if closest is None:
-            raise WireError("that answer is not held any more")
-        points = closest(asked.arrays["part_ids"], asked.arrays["rows"])
-        return Message("points", {}, {"points": points})
-
-
-class LateAnswering:
-    """Answers by a network loaded at the first question, as the cache may answer all of a job."""
-
-    def __init__(self, load: Callable[[], Answering]) -> None:
+    def __init__(self, load: Callable[[], LoadedNetwork]) -> None:
         self._load = load
         self._loading = threading.Lock()
-        self._answering: Answering | None = None
+        self._loaded: LoadedNetwork | None = None
 
     def __call__(self, question: bytes) -> bytes:
-        """See :class:`Answering`; a refusal while the network cannot be loaded."""
+        """Return the answer to a packed question; an error is an answer too, a refusal."""
         try:
             with self._loading:
-                if self._answering is None:
-                    self._answering = self._load()
-        except Exception as error:  # noqa: BLE001 - who asks will ask at home
+                if self._loaded is None:
+                    self._loaded = self._load()
+            asked = unpack(question)
+            if asked.texts.get("identity") != self._loaded.identity:
+                raise WireError("another network is asked for")
+            clouds = _cloud(asked, "cloud"), _cloud(asked, "context")
+            with self._loaded.places:
+                told = self._loaded.network(*clouds, float(asked.texts["least_confidence"]))
+            named = {each.name: getattr(told, each.name) for each in fields(Prediction)}
+            return pack(
+                Message({}, {name: said for name, said in named.items() if said is not None})
+            )
+        except Exception as error:  # noqa: BLE001 - who asks will ask itself, and meet the same error at home
             return refusal(error)
-        return self._answering(question)
 
 
 def refusal(error: Exception) -> bytes:
     """Return the answer of who has none."""
-    return pack(Message("refused", {"why": f"{type(error).__name__}: {error}"[:2000]}))
+    return pack(Message({"refused": f"{type(error).__name__}: {error}"[:2000]}))
 
 
 def _cloud(asked: Message, name: str) -> Cloud:

@@ -5,16 +5,14 @@ from __future__ import annotations
 import socket
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...mesh import Float32Array, IntArray
 from ..particulate.inference import Network
 from ..particulate.prediction import Prediction
 from ..particulate.sampling import Cloud
@@ -67,56 +65,26 @@ class ServedNetwork:
         self._load = own
         self._own: Network | None = None
 
-    def __call__(self, cloud: Cloud, context: Cloud) -> Prediction:
+    def __call__(self, cloud: Cloud, context: Cloud, least_confidence: float = 0.0) -> Prediction:
         """See :class:`..inference.Network`."""
         if self._own is None:
-            given = {**_seen("cloud", cloud), **_seen("context", context)}
-            try:
-                answer = self._ask("predict", {}, given)
-                token = answer.texts.get("token")
-                if len(answer.arrays.get("mask_logits", ())) != len(cloud.points):
-                    raise WireError("the answer is about another cloud")
-                closest = None if token is None else partial(self._closest, token, cloud, context)
-                return Prediction(closest_points=closest, **answer.arrays)
-            except (OSError, WireError, ValueError, TypeError):
-                pass
-        return self._at_home()(cloud, context)
-
-    def _ask(self, kind: str, texts: dict[str, str], arrays: dict[str, Any]) -> Message:
-        deadline = time.monotonic() + self._address.answer_s
-        question = pack(Message(kind, {"identity": self._identity, **texts}, arrays))
-        with _connected(self._address) as connection:
-            send(connection, question, deadline)
-            answer = unpack(receive(connection, deadline))
-        if answer.kind == "refused":
-            raise WireError(answer.texts.get("why", "no answer"))
-        return answer
-
-    def _closest(
-        self,
-        token: str,
-        cloud: Cloud,
-        context: Cloud,
-        part_ids: IntArray,
-        rows: IntArray | None = None,
-    ) -> Float32Array:
-        """See :class:`..prediction.ClosestPoints`; asked at home where the answer is not held."""
-        picked = np.arange(len(cloud.points)) if rows is None else np.asarray(rows)
-        try:
-            wanted = {"part_ids": np.asarray(part_ids), "rows": picked}
-            found = self._ask("closest", {"token": token}, wanted).arrays["points"]
-            if found.shape == (len(picked), 3):
-                return found
-        except (OSError, WireError, KeyError):
-            pass
-        again = self._at_home()(cloud, context).closest_points
-        assert again is not None, "the same network gives the same kind of answer"  # noqa: S101
-        return again(part_ids, picked)
-
-    def _at_home(self) -> Network:
-        if self._own is None:
+            with suppress(OSError, WireError, ValueError, TypeError):
+                return self._ask(cloud, context, least_confidence)
             self._own = self._load()
-        return self._own
+        return self._own(cloud, context, least_confidence)
+
+    def _ask(self, cloud: Cloud, context: Cloud, least_confidence: float) -> Prediction:
+        deadline = time.monotonic() + self._address.answer_s
+        texts = {"identity": self._identity, "least_confidence": repr(float(least_confidence))}
+        asked = Message(texts, {**_seen("cloud", cloud), **_seen("context", context)})
+        with _connected(self._address) as connection:
+            send(connection, pack(asked), deadline)
+            answer = unpack(receive(connection, deadline))
+        if "refused" in answer.texts:
+            raise WireError(answer.texts["refused"])
+        if len(answer.arrays.get("mask_logits", ())) != len(cloud.points):
+            raise WireError("the answer is about another cloud")
+        return Prediction(**answer.arrays)
 
 
 @contextmanager

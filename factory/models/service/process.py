@@ -20,7 +20,7 @@ from ...runtime.store import digest_file
 from ..particulate.device import device_for
 from ..particulate.loading import load_network, weight_files
 from ..weights.sources import fetch
-from .answering import Answer, Answering, LateAnswering, identity_of
+from .answering import Answer, Answering, LoadedNetwork, identity_of
 from .asking import Address
 from .wire import WireError, receive, send
 
@@ -122,10 +122,10 @@ class ModelService:
 
 def serve(config: ParticulateConfig, path: str) -> None:
     """Answer at a socket for ever; the main of the service's process."""
-    answer_all(listening_socket(path), LateAnswering(partial(load_answering, config)))
+    answer_all(listening_socket(path), Answering(partial(load_named, config)))
 
 
-def load_answering(config: ParticulateConfig) -> Answering:
+def load_named(config: ParticulateConfig) -> LoadedNetwork:
     """Return the network that a configuration names, ready for questions.
 
     It works on as many clouds at the same time as there are processors, on another device on one.
@@ -135,4 +135,5 @@ def load_answering(config: ParticulateConfig) -> Answering:
     """
     at_once = processors() if device_for(config.device) == "cpu" else 1
     digests = tuple(digest_file(fetch(file)) for file in weight_files(config))
-    return Answering(load_network(config), identity_of(config, digests), at_once)
+    places = threading.BoundedSemaphore(at_once)
+    return LoadedNetwork(load_network(config), identity_of(config, digests), places)

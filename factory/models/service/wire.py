@@ -1,7 +1,7 @@
-"""Messages between a service and its clients: a word, short texts, plain arrays; no code.
+"""Messages between a service and its clients: short texts and plain arrays; no code.
 
-A message is a safetensors file in memory, whose metadata are the word and the texts, and ends where
-its sender stops sending.
+A message is a safetensors file in memory, whose metadata are the texts, and ends where its sender
+stops sending.
 """
 
 from __future__ import annotations
@@ -32,13 +32,11 @@ class Message:
     """One question or answer.
 
     Attributes:
-        kind: of the question or answer.
         texts: short ones, by name.
         arrays: float32 or int64, by name.
     """
 
-    kind: str
-    texts: Mapping[str, str] = field(default_factory=dict)
+    texts: Mapping[str, str]
     arrays: Mapping[str, npt.NDArray[Any]] = field(default_factory=dict)
 
 
@@ -47,7 +45,7 @@ def pack(message: Message) -> bytes:
     from safetensors.numpy import save
 
     arrays = {name: np.asarray(array, order="C") for name, array in message.arrays.items()}
-    data = save(arrays, {**message.texts, "kind": message.kind})
+    data = save(arrays, dict(message.texts))
     _check_length(len(data))
     return data
 
@@ -63,7 +61,7 @@ def unpack(data: bytes) -> Message:
     try:
         arrays = load(data)
         texts = json.loads(data[_LENGTH_BYTES : _LENGTH_BYTES + length])["__metadata__"]
-        return Message(texts.pop("kind"), texts, arrays)
+        return Message(texts, arrays)
     except (SafetensorError, ValueError, KeyError, TypeError) as error:
         raise WireError(f"it cannot be read: {type(error).__name__}: {error}") from error
 

@@ -98,9 +98,9 @@ def describe(file: Path) -> WeightsInfo:
         file=file,
         network=provenance.network,
         details=details,
-        tensors=len(checkpoint.tensors),
+        tensors=len(checkpoint.shapes),
         parameters=parameter_count(checkpoint.shapes),
-        dtypes=tuple(sorted({tensor.dtype for tensor in checkpoint.tensors.values()})),
+        dtypes=tuple(sorted(set(checkpoint.dtypes.values()))),
         terms=own or f"{UNSTATED} {provenance.terms}",
         outputs=checkpoint.metadata.get("outputs", "" if own else provenance.outputs),
     )

@@ -10,7 +10,7 @@ import json
 import os
 import struct
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
@@ -27,38 +27,22 @@ Shape = tuple[int, ...]
 
 
 @dataclass(frozen=True)
-class StoredTensor:
-    """One tensor of a file.
-
-    Attributes:
-        dtype: its type, as the safetensors format names it, e.g. ``F32``.
-        shape: elements per dimension.
-    """
-
-    dtype: str
-    shape: Shape
-
-
-@dataclass(frozen=True)
 class Checkpoint:
     """A file of tensors.
 
     Attributes:
         file: where, as messages name it.
         stored: the safetensors file that holds the tensors.
-        tensors: by name.
+        shapes: elements per dimension, by name.
+        dtypes: types, as the safetensors format names them, e.g. ``F32``, by name.
         metadata: what the file says about itself.
     """
 
     file: Path
     stored: Path
-    tensors: Mapping[str, StoredTensor]
-    metadata: Mapping[str, str] = field(default_factory=dict)
-
-    @property
-    def shapes(self) -> dict[str, Shape]:
-        """Name to shape."""
-        return {name: tensor.shape for name, tensor in self.tensors.items()}
+    shapes: Mapping[str, Shape]
+    dtypes: Mapping[str, str]
+    metadata: Mapping[str, str]
 
     def read(self, reader: Callable[[Mapping[str, Shape]], T]) -> T:
         """Return what a reader makes of the shapes; what it raises names the file."""
@@ -77,7 +61,7 @@ class Checkpoint:
         """
         from safetensors import SafetensorError, safe_open
 
-        names = [name for name in self.tensors if not name.startswith(leave)]
+        names = [name for name in self.shapes if not name.startswith(leave)]
         try:
             with safe_open(self.stored, framework=framework) as opened:
                 return {name: opened.get_tensor(name) for name in names}
@@ -107,8 +91,9 @@ def read_safetensors(file: Path) -> Checkpoint:
         json.loads(header, object_pairs_hook=_without_doubles)
     except (SafetensorError, ValueError) as error:
         raise _unreadable(file, error) from error
-    tensors = {n: StoredTensor(p.get_dtype(), tuple(p.get_shape())) for n, p in parts.items()}
-    return Checkpoint(file, file, tensors, metadata)
+    shapes = {name: tuple(part.get_shape()) for name, part in parts.items()}
+    dtypes = {name: part.get_dtype() for name, part in parts.items()}
+    return Checkpoint(file, file, shapes, dtypes, metadata)
 
 
 def write_safetensors(

@@ -74,8 +74,7 @@ def test_only_what_the_task_calls_success_is_one(shard, registry, tmp_path):
     """Actions that stop too early, by a solver that claims to have opened it."""
     with h5py.File(shard) as file:
         actions = file["traj_0/actions"][:-20]
-    options = {"asset": "drawer", "joint": "slide", "reconfigure": True}
-    claimed = Attempt("drawer", "", "slide", "panda", 0, options, True, actions=actions)
+    claimed = Attempt("drawer", "", "slide", "panda", 0, True, actions=actions)
     episode = Episode("drawer", "", "slide", 0)
     settings = Settings(keep_failures=True)
     before = Taken(episode, True, steps=len(actions))

@@ -18,9 +18,8 @@ def arm(links, seed):
     limits = np.tile([-2.5, 2.5], (links, 1))
     limits[-1] = [0.0, 0.4]
     slides = (False,) * links + (True,)
-    names = tuple(map(str, range(links + 1)))
     parents = (-1, *range(links))
-    return Chain(names, parents, before, after, parents, slides, limits)
+    return Chain(parents, before, after, parents, slides, limits)
 
 
 @pytest.mark.parametrize("seed", range(4))

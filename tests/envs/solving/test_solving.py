@@ -9,7 +9,7 @@ import pytest
 from making import UNWARNED
 from openable_samples import fin, write_registry
 
-from asset_factory.envs.solving import REASONS, driving, film, make_episodes, replay, solve_joint
+from asset_factory.envs.solving import driving, film, make_episodes, replay, solve_joint
 from asset_factory.envs.solving.solve import SolveTask, attempted
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.sim_checks.processes.isolation import WarmChild
@@ -118,7 +118,6 @@ def test_what_is_out_of_reach_is_said_to_be(registry, child):
     attempt = solve_joint(registry, "tower", "slide", robot="fetch", tries=1, child=child)
     assert not attempt.solved
     assert attempt.reason == "unreachable"
-    assert attempt.reason in REASONS
     assert attempt.steps == 0
 
 

@@ -19,8 +19,7 @@ pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 
 
 def found(asset, joint, robot="panda", **facts):
-    attempt = Attempt(asset, "d", joint, robot, 0, {"asset": asset, "joint": joint}, False)
-    return replace(attempt, **facts)
+    return replace(Attempt(asset, "d", joint, robot, 0, solved=False), **facts)
 
 
 @pytest.fixture

@@ -14,8 +14,8 @@ from asset_factory.learn.objects import make_object
 torch = pytest.importorskip("torch")
 
 from asset_factory.factory.models.detector.canvas import KINDS  # noqa: E402
-from asset_factory.factory.models.detector.decode import Found  # noqa: E402
-from asset_factory.factory.models.detector.network import DenseAnswers, Detector  # noqa: E402
+from asset_factory.factory.models.detector.decode import Dense, Found  # noqa: E402
+from asset_factory.factory.models.detector.network import Detector  # noqa: E402
 from asset_factory.factory.views.raster import Side  # noqa: E402
 from asset_factory.learn.detector.evaluate import compared  # noqa: E402
 from asset_factory.learn.detector.looks import show  # noqa: E402
@@ -111,7 +111,7 @@ def test_answers_that_say_the_truth_cost_less(shown):
     def cost(scale):
         edges = targets.edges.clamp(min=0.1) * scale
         quality = torch.full(there.shape, 8.0 if scale == 1.0 else 0.0)
-        said = DenseAnswers(sort, edges, way, quality, targets.opened, whole, whole, whole)
+        said = Dense(sort, edges, way, quality, targets.opened, whole, whole, whole)
         return float(loss_of(said, targets)[0])
 
     assert cost(1.0) < 0.2

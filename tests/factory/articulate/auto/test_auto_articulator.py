@@ -46,7 +46,7 @@ class Labeller:
         ]
         self.parents = [-1] + [joint.parent for joint in truth.joints]
 
-    def __call__(self, cloud, context):
+    def __call__(self, cloud, context, least_confidence=0.0):
         rng = np.random.default_rng(len(cloud.points) + int(1e6 * abs(cloud.points[0]).sum()))
         mask = np.zeros((len(cloud.points), QUERIES))
         mask[np.arange(len(mask)), self.owner[cloud.faces]] = SURE
@@ -63,9 +63,7 @@ class Labeller:
             mask_logits=mask, hierarchy_logits=tree, motion_logits=motion,
             revolute_direction=nowhere, revolute_range=np.tile([0.0, 1.5], (QUERIES, 1)),
             prismatic_direction=nowhere, prismatic_range=np.tile([0.0, 0.3], (QUERIES, 1)),
-            closest_points=lambda parts, rows=None: np.zeros_like(
-                cloud.points if rows is None else cloud.points[rows], np.float32
-            ),
+            closest_points=np.zeros_like(cloud.points),
         )  # fmt: skip
 
 
@@ -189,9 +187,9 @@ def test_views_are_told_in_the_objects_own_frame():
     truth = turned(make_object("fridge", 2), 0.3)
 
     class Upright(Labeller):
-        def __call__(self, cloud, context):
+        def __call__(self, *asked):
             along = np.tile([1.0, 0.0, 0.0], (QUERIES, 1))
-            return replace(super().__call__(cloud, context), revolute_direction=along)
+            return replace(super().__call__(*asked), revolute_direction=along)
 
     first, second = look_around(truth.mesh, Upright(truth), SHOWN, 2)
     assert np.array_equal(first.face_part, second.face_part)

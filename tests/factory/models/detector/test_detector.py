@@ -33,6 +33,7 @@ def dense_with(boxes):
         np.zeros((5, len(WAYS), CELLS, CELLS)),
         np.full((5, CELLS, CELLS), 3.0),
         np.zeros((5, CELLS, CELLS)),
+        *(None,) * 3,
     )
     center = (np.arange(CELLS) + 0.5) * STRIDE
     for view, (left, low, right, high), sort, way in boxes:

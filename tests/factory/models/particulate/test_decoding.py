@@ -1,10 +1,13 @@
 """From the network's numbers to parts, tree and motions: as the release, and where we leave it."""
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
 from plain_solids import surface_of
 from refusing import refusal
 from stored_arrays import OUTPUTS, arrays
@@ -14,6 +17,8 @@ from asset_factory.factory.models.particulate.decoding import (
     TreeOver,
     assigned,
     decode,
+    induced,
+    spanning_arborescence,
 )
 from asset_factory.factory.models.particulate.frames import UnitBox
 from asset_factory.factory.models.particulate.labels import Refinement
@@ -24,11 +29,6 @@ from asset_factory.factory.models.particulate.sampling import Cloud, CloudSample
 from asset_factory.factory.models.particulate.surface import Surface
 
 UNIT = UnitBox(np.zeros(3), 1.0)
-
-
-def picked(points):
-    """Closest points as the network would compute them, from stored ones."""
-    return lambda part_ids, rows=None: points if rows is None else points[rows]
 
 
 def prediction_of(held):
@@ -47,7 +47,7 @@ def prediction_of(held):
         revolute_range=held["revolute_range"],
         prismatic_direction=held["prismatic_axis"],
         prismatic_range=held["prismatic_range"],
-        closest_points=picked(held["closest_point_on_axis"]),
+        closest_points=held["closest_point_on_axis"],
     )
 
 
@@ -99,7 +99,7 @@ def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, r
 
 def forward_prediction(held):
     given = {name: held[original][0] for name, original in OUTPUTS.items()}
-    return Prediction(**given, closest_points=picked(held["closest_point_on_axis"][0]))
+    return Prediction(**given, closest_points=held["closest_point_on_axis"][0])
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
@@ -184,18 +184,22 @@ def test_the_margin_is_that_between_the_two_likeliest_kinds():
     assert undecided.margin == pytest.approx(1 / 6, abs=1e-6)
 
 
+def voting(votes):
+    """The same one part, whose points say where its axis is."""
+    given = {"closest_points": votes, "revolute_moment": None}
+    held = turning(direction=(0.0, 0.0, 2.0))
+    return replace(held, mask_logits=np.zeros((len(votes), 1)), **given)
+
+
 def test_votes_for_an_axis_are_robust_and_their_spread_is_measured():
     """A third of the votes are wild; the median does not move."""
     rng = np.random.default_rng(0)
     votes = rng.normal([0.2, -0.1, 0.0], [0.01, 0.01, 0.3], (300, 3)).astype(np.float32)
     votes[:90, :2] = rng.uniform(-3, 3, (90, 2))
-    held = turning(direction=(0.0, 0.0, 2.0))
-    prediction = replace(held, closest_points=picked(votes), revolute_moment=None)
-    axis = only_motion(prediction, 300).axis
+    axis = only_motion(voting(votes), 300).axis
     assert np.allclose(axis.point[:2], [0.2, -0.1], atol=0.01)
     assert 0.005 < axis.spread < 0.03
-    tight = replace(prediction, closest_points=picked(np.full((300, 3), 0.5, dtype=np.float32)))
-    assert only_motion(tight, 300).axis.spread == 0.0
+    assert only_motion(voting(np.full((300, 3), 0.5)), 300).axis.spread == 0.0
 
 
 @pytest.mark.parametrize(
@@ -212,9 +216,7 @@ def test_broken_weights_are_a_reason_not_an_answer(field):
 
 
 def test_broken_votes_are_a_reason_too():
-    votes = np.full((1, 3), np.inf, dtype=np.float32)
-    prediction = replace(turning(), closest_points=picked(votes), revolute_moment=None)
-    found = refusal(only_motion, prediction)
+    found = refusal(only_motion, voting(np.full((1, 3), np.inf)))
     assert (found.code, "votes" in found.message) == ("prediction_not_finite", True)
 
 
@@ -255,3 +257,78 @@ def test_one_tree_over_parts_with_faces_also_when_the_root_has_none(over):
     assert any("lost every face" in note for note in found.notes)
     assert found.parts[1].parent_probability is None
     assert found.parts[0].parent_probability == pytest.approx(1 / (1 + np.exp(-1.0)))
+
+
+def weight(logits, edges):
+    return -sum(np.logaddexp(0.0, -float(logits[i, j])) for i, j in edges)
+
+
+def every_tree(parts):
+    """All rooted trees over ``parts``, as (parent, child)."""
+    for root in parts:
+        others = [p for p in parts if p != root]
+        for parents in itertools.product(parts, repeat=len(others)):
+            above = dict(zip(others, parents, strict=True))
+            if all(leads_to(root, part, above) for part in others):
+                yield [(parent, child) for child, parent in above.items()]
+
+
+def leads_to(root, part, above):
+    for _ in above:
+        part = above[part]
+        if part == root:
+            return True
+    return False
+
+
+@pytest.mark.parametrize("index", range(12))
+def test_the_tree_is_that_of_the_release_or_a_likelier_one(fixtures, index):
+    held = arrays(fixtures / "geometry" / "arborescence.npz")
+    logits = held[f"m{index}_logits"]
+    edges = [tuple(e) for e in held[f"m{index}_edges"].tolist()]
+    found = spanning_arborescence(logits, np.arange(len(logits)))
+    assert weight(logits, edges) == pytest.approx(float(held[f"m{index}_weight"]), abs=1e-5)
+    if index < 11:
+        assert sorted(found) == sorted(edges)
+    else:
+        # Single precision, as the release has it, cannot tell the best of these.
+        assert weight(logits, found) >= weight(logits, edges)
+
+
+@given(st.integers(0, 10**6), st.integers(1, 4))
+def test_no_tree_is_likelier(seed, count):
+    logits = np.random.default_rng(seed).normal(size=(count, count)) * 5
+    found = spanning_arborescence(logits, np.arange(count))
+    best = max((weight(logits, edges) for edges in every_tree(list(range(count)))), default=0.0)
+    assert weight(logits, found) == pytest.approx(best)
+    assert len(found) == count - 1
+    assert len({child for _, child in found}) == count - 1
+
+
+def test_only_the_parts_asked_for_take_part():
+    logits = np.zeros((5, 5))
+    logits[2, :] = 9.0
+    logits[1, 3] = 5.0
+    assert spanning_arborescence(logits, np.array([1, 3])) == ((1, 3),)
+    assert spanning_arborescence(logits, np.array([3])) == ()
+    assert spanning_arborescence(logits, np.array([], dtype=int)) == ()
+
+
+def test_a_lost_parts_children_go_to_its_nearest_surviving_ancestor():
+    chain = ((0, 1), (1, 2), (2, 3), (1, 4))
+    assert induced(chain, np.array([0, 3, 4])) == ((0, 3), (0, 4))
+    assert induced(chain, np.array([0, 2, 3])) == ((0, 2), (2, 3))
+    assert induced(chain, np.arange(5)) == ((0, 1), (1, 2), (2, 3), (1, 4))
+    assert induced(chain, np.array([2, 4])) == (), "without the root there may be several trees"
+
+
+def test_the_paper_and_the_release_read_different_trees():
+    """In the paper a part that nobody sees can still stand between two others."""
+    logits = np.full((3, 3), -2.0)
+    logits[0, 1] = logits[1, 2] = 6.0
+    logits[2, 0] = -1.0
+    present = np.array([0, 2])
+    paper = induced(spanning_arborescence(logits, np.arange(3)), present)
+    released = spanning_arborescence(logits, present)
+    assert paper == ((0, 2),)
+    assert released == ((2, 0),)

@@ -9,7 +9,6 @@ torch = pytest.importorskip("torch")
 from ray_calls import answer  # noqa: E402 - after the skip
 
 from asset_factory.factory.config import ParticulateConfig  # noqa: E402
-from asset_factory.factory.models.network.shape import product_dtype  # noqa: E402
 
 if not torch.cuda.is_available():
     pytest.skip("no GPU here: torch sees no CUDA device", allow_module_level=True)
@@ -24,9 +23,3 @@ def test_a_gpu_says_what_a_processor_says(tmp_path, precision, share):
         for more in ({}, {"device": "cuda", "precision": precision})
     )
     assert np.abs(there - here).max() < share * max(np.abs(here).max(), 1.0)
-
-
-def test_the_faster_type_of_a_gpu_that_has_it_is_bfloat16():
-    if not torch.cuda.is_bf16_supported():
-        pytest.skip("this GPU has no bfloat16")
-    assert product_dtype("auto", "cuda") is torch.bfloat16

@@ -35,8 +35,9 @@ def assert_same(prediction, wanted):
     for name, original in OUTPUTS.items():
         found = getattr(prediction, name)
         np.testing.assert_allclose(found, wanted[original], err_msg=name, **CLOSE)
-    closest = prediction.closest_points(wanted["part_ids_argmax"])
-    np.testing.assert_allclose(closest, wanted["closest_point_on_axis"], **CLOSE)
+    assert np.array_equal(prediction.mask_logits.argmax(1), wanted["part_ids_argmax"])
+    closest = wanted["closest_point_on_axis"]
+    np.testing.assert_allclose(prediction.closest_points, closest, **CLOSE)
 
 
 def cloud_of(wanted):

@@ -8,6 +8,7 @@ import pytest
 import torch  # noqa: TID253
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from random_network import cloud_of
 from tiny_checkpoint import write_checkpoint
 from tiny_model import TINY, plainly, random_cloud, tiny_model
 
@@ -15,8 +16,8 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.network.layers import Attention
 from asset_factory.factory.models.network.shape import AxisForm, product_dtype
 from asset_factory.factory.models.network.streaming import QueryPass, drive, embed_chunks
+from asset_factory.factory.models.particulate.decoding import assigned
 from asset_factory.factory.models.particulate.model import Particulate, PointCloud, load_model
-from asset_factory.factory.models.particulate.sampling import Cloud
 
 CLOSE = {"rtol": 1e-4, "atol": 1e-4}
 PART_FIELDS = ("hierarchy_logits", "motion_logits")
@@ -50,7 +51,7 @@ def test_streamed_is_plain(shape):
         np.testing.assert_allclose(prediction.revolute_moment, moment, **CLOSE)
     else:
         assert prediction.revolute_moment is None
-        np.testing.assert_allclose(prediction.closest_points(masks.argmax(1)), closest, **CLOSE)
+        np.testing.assert_allclose(prediction.closest_points, closest, **CLOSE)
 
 
 def test_of_several_mask_heads_the_first_answers():
@@ -85,8 +86,8 @@ def test_a_batch_is_its_clouds_one_by_one():
     for number, cloud in enumerate(clouds):
         prediction = model.predict(cloud)
         np.testing.assert_allclose(prediction.mask_logits, masks[number].numpy(), **CLOSE)
-        own = prediction.closest_points(masks[number].argmax(-1).numpy())
-        np.testing.assert_allclose(own, closest[number].numpy(), **CLOSE)
+        own = closest[number].numpy()
+        np.testing.assert_allclose(prediction.closest_points, own, **CLOSE)
 
 
 def test_a_cloud_that_drives_itself_is_predicted():
@@ -123,17 +124,19 @@ def test_few_driving_points_always_give_the_same_answer_for_all():
     assert errors[0] > errors[1] > errors[2] > 0.0
 
 
-def test_closest_points_of_some_rows_are_those_of_all():
-    prediction = tiny_model().predict(random_cloud(90))
-    part_ids = prediction.mask_logits.argmax(1)
-    rows = np.array([3, 3, 88, 0])
-    closest = prediction.closest_points(part_ids)
-    np.testing.assert_allclose(prediction.closest_points(part_ids, rows), closest[rows], **CLOSE)
-    assert prediction.closest_points(part_ids, np.zeros(0, dtype=int)).shape == (0, 3)
-    other = prediction.closest_points((part_ids + 1) % 16)
-    assert np.abs(other - closest).min(axis=0).max() > 0.0
-    with pytest.raises(ValueError, match=r"want \[90\]"):
-        prediction.closest_points(part_ids[:5])
+def test_points_of_parts_that_are_dissolved_say_where_the_axis_of_the_next_one_is():
+    model = tiny_model()
+    cloud = random_cloud(90)
+    sure = model.predict(cloud)
+    less = model.predict(cloud, least_confidence=0.4)
+    assert np.array_equal(less.mask_logits, sure.mask_logits)
+    owners = [assigned(sure.mask_logits, least).parts for least in (0.0, 0.4)]
+    moved = owners[0] != owners[1]
+    assert 0 < moved.sum() < 90
+    _, closest, _ = plainly(model, cloud, owners[1])
+    np.testing.assert_allclose(less.closest_points, closest, **CLOSE)
+    np.testing.assert_allclose(less.closest_points[~moved], sure.closest_points[~moved], **CLOSE)
+    assert (np.abs(less.closest_points - sure.closest_points)[moved].max(axis=1) > 0.0).all()
 
 
 def test_bfloat16_stays_within_two_percent_of_the_largest_logit():
@@ -175,25 +178,11 @@ def test_gradients_reach_every_weight():
     assert not [name for name, grad in gradients.items() if grad is None or not grad.any()]
 
 
-def nowhere(count):
-    """So many points in one place."""
-    none = np.zeros(count, dtype=np.int64)
-    return Cloud(np.zeros((count, 3)), np.zeros((count, 3)), none, none.astype(bool), none)
-
-
 def test_a_network_without_its_features_says_where_they_are():
     with pytest.raises(ConfigError, match="NON-COMMERCIAL"):
         Particulate(tiny_model())
-    with pytest.raises(ConfigError, match="and none are given"):
-        tiny_model().predict(PointCloud(np.zeros((3, 3)), np.zeros((3, 3))))
-    answer = Particulate(tiny_model(replace(TINY, features=0)))(nowhere(4), nowhere(9))
+    answer = Particulate(tiny_model(replace(TINY, features=0)))(cloud_of(4), cloud_of(9))
     assert answer.mask_logits.shape == (4, 16)
-
-
-@pytest.mark.parametrize("points", [np.zeros((0, 3)), np.zeros((3, 2)), np.zeros(3)])
-def test_what_is_no_cloud_is_refused(points):
-    with pytest.raises(ValueError, match="points: shape"):
-        PointCloud(points, points)
 
 
 def test_precision_is_what_is_asked_for_on_every_machine():

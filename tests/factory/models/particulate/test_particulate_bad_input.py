@@ -98,7 +98,7 @@ def test_what_has_no_surface_is_rejected_with_a_reason(vertices, faces, code):
 def test_points_and_memory_are_bounded_however_many_faces_there_are():
     asked_for = []
 
-    def counting(cloud, context):
+    def counting(cloud, context, least_confidence):
         asked_for.append((len(cloud.points), len(context.points)))
         return random_network(cloud, context)
 

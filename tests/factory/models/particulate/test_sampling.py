@@ -15,7 +15,7 @@ from asset_factory.factory.models.particulate.components import (
     component_features,
 )
 from asset_factory.factory.models.particulate.frames import UnitBox
-from asset_factory.factory.models.particulate.sampling import draw, sample, sharp_edges
+from asset_factory.factory.models.particulate.sampling import draw, sample
 from asset_factory.factory.models.particulate.surface import Surface
 
 SHARP_MESHES = ("box", "cyl10", "ico", "plus", "thin_wedge")
@@ -39,7 +39,7 @@ def test_sharp_edges_are_those_the_network_was_trained_on(fixtures, name):
     vertices = held[f"{name}_vertices"]
     faces = held[f"{name}_faces"]
     surface = Surface.of(vertices, faces)
-    found = sharp_edges(surface)
+    found = surface.sharp
     ours = by_place(surface.vertices[surface.edges.ends[found.edges]], found.normals)
     edges = held[f"{name}_sharp_edges"]
     normals = held[f"{name}_sharp_edge_normal_unnormalised_mean"]
@@ -55,7 +55,7 @@ def test_half_the_points_are_sharp_and_every_face_has_one(fixtures, name, count)
     held = arrays(fixtures / "geometry" / "sharp_edges.npz")
     counts = json.loads((fixtures / "geometry" / "notes.json").read_text())["sample_point_counts"]
     surface = Surface.of(held[f"{name}_vertices"], held[f"{name}_faces"])
-    cloud = draw(surface, sharp_edges(surface), count, np.random.default_rng(0), most_covered=10**6)
+    cloud = draw(surface, count, np.random.default_rng(0), most_covered=10**6)
     want = counts[f"{name}_N{count}_alo"]
     assert (len(cloud.points), int(cloud.sharp.sum())) == (want["total"], want["sharp"])
     assert len(np.unique(cloud.faces[~cloud.sharp])) == want["faces"]
@@ -63,7 +63,7 @@ def test_half_the_points_are_sharp_and_every_face_has_one(fixtures, name, count)
 
 def test_points_lie_on_their_faces_and_are_spread_by_area():
     surface = surface_of(trimesh.creation.box(extents=(1.0, 2.0, 4.0)))
-    cloud = draw(surface, sharp_edges(surface), 40_000, np.random.default_rng(1), most_covered=0)
+    cloud = draw(surface, 40_000, np.random.default_rng(1), most_covered=0)
     across = cloud.points - surface.vertices[surface.faces[cloud.faces, 0]]
     off = np.einsum("ij,ij->i", across, surface.normals[cloud.faces])
     assert np.abs(off).max() < 1e-12
@@ -78,7 +78,7 @@ def test_points_lie_on_their_faces_and_are_spread_by_area():
 
 def test_sharp_points_carry_the_mean_of_two_normals_as_it_is():
     surface = surface_of(trimesh.creation.box())
-    cloud = draw(surface, sharp_edges(surface), 2000, np.random.default_rng(2), most_covered=0)
+    cloud = draw(surface, 2000, np.random.default_rng(2), most_covered=0)
     assert np.allclose(np.linalg.norm(cloud.normals[cloud.sharp], axis=1), np.sqrt(0.5))
     assert np.allclose(np.linalg.norm(cloud.normals[~cloud.sharp], axis=1), 1.0)
     on_border = (np.abs(np.abs(cloud.points[cloud.sharp]) - 0.5) < 1e-12).sum(axis=1)
@@ -107,7 +107,7 @@ def test_split_and_welded_meshes_give_the_same_points():
 
 def test_of_too_many_faces_only_the_largest_are_sure_of_a_point():
     surface = surface_of(trimesh.creation.box(extents=(1.0, 2.0, 4.0)))
-    cloud = draw(surface, sharp_edges(surface), 8, np.random.default_rng(0), most_covered=4)
+    cloud = draw(surface, 8, np.random.default_rng(0), most_covered=4)
     assert len(cloud.points) == 8
     assert set(cloud.faces[4:]) == set(np.argsort(-surface.areas, kind="stable")[:4])
 
@@ -119,8 +119,8 @@ def test_faces_without_area_get_no_point_and_make_no_edge_sharp():
     opposite = int(np.flatnonzero((box.vertices == [-0.5, -0.5, 0.5]).all(axis=1))[0])
     faces = np.vstack([box.faces, [[corner, 8, opposite], [corner, corner, 8]]])
     surface = Surface.of(vertices, faces)
-    assert len(sharp_edges(surface).edges) == 12
-    cloud = draw(surface, sharp_edges(surface), 300, np.random.default_rng(0), most_covered=100)
+    assert len(surface.sharp.edges) == 12
+    cloud = draw(surface, 300, np.random.default_rng(0), most_covered=100)
     assert cloud.faces[~cloud.sharp].max() == 11
     assert np.isfinite(cloud.normals).all()
 

@@ -11,30 +11,21 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from random_network import random_network
+from random_network import cloud_of, random_network
 from tiny_checkpoint import write_checkpoint
 
 from asset_factory.factory.articulate.particulate import load_articulator
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.models.particulate.loading import load_network
 from asset_factory.factory.models.particulate.prediction import Prediction
-from asset_factory.factory.models.particulate.sampling import Cloud
 from asset_factory.factory.models.service import Address, ModelService, asking, network_for, wire
-from asset_factory.factory.models.service.answering import HELD, Answering
+from asset_factory.factory.models.service.answering import Answering, LoadedNetwork
 from asset_factory.factory.models.service.process import answer_all, listening_socket
 from asset_factory.factory.models.service.wire import Message, WireError, pack, unpack
 
 
-def cloud_of(count, seed=0):
-    rng = np.random.default_rng(seed)
-    numbers = rng.integers(0, 3, count)
-    points, normals = rng.uniform(-0.5, 0.5, (2, count, 3)).astype(np.float32)
-    return Cloud(points, normals, numbers, numbers > 0, numbers)
-
-
 def equal(one, other):
-    names = [each.name for each in fields(Prediction) if each.name != "closest_points"]
-    pairs = [(getattr(one, name), getattr(other, name)) for name in names]
+    pairs = [(getattr(one, each.name), getattr(other, each.name)) for each in fields(Prediction)]
     return all(a is b is None or np.array_equal(a, b) for a, b in pairs)
 
 
@@ -67,7 +58,8 @@ def serving(tmp_path):
     def serve(network, identity="it", answering=None, **settings):
         listening = listening_socket(str(tmp_path / "socket"))
         opened.append(listening)
-        answering = answering or Answering(network, identity, 2)
+        loaded = LoadedNetwork(network, identity, threading.BoundedSemaphore(2))
+        answering = answering or Answering(lambda: loaded)
         call = {"args": (listening, answering), "kwargs": settings}
         threading.Thread(target=answer_all, **call, daemon=True).start()
         return Address(str(tmp_path / "socket"), start_s=0.2, answer_s=20.0)
@@ -83,13 +75,7 @@ def test_a_served_network_gives_the_same_bits(serving):
     context = cloud_of(200, 1)
     with asking(serving(random_network)):
         served = network_for("it", not_at_home)
-    answer = served(cloud, context)
-    own = random_network(cloud, context)
-    assert equal(answer, own)
-    ids = np.argmax(own.mask_logits, axis=1)
-    rows = np.arange(0, 500, 7)
-    assert np.array_equal(answer.closest_points(ids, rows), own.closest_points(ids, rows))
-    assert np.array_equal(answer.closest_points(ids), own.closest_points(ids))
+    assert equal(served(cloud, context), random_network(cloud, context))
 
 
 def test_many_askers_at_once_each_get_their_own_answer(serving):
@@ -113,7 +99,7 @@ def test_without_a_service_the_network_is_ones_own():
 def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_path, wrong):
     cloud = cloud_of(50)
 
-    def broken(cloud, context):
+    def broken(*asked):
         raise MemoryError("no room")
 
     address = Address(str(tmp_path / "gone" / "socket"), start_s=30.0)
@@ -140,23 +126,23 @@ def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_p
     assert time.monotonic() - began < 10.0, "a service that is gone for good is not waited for"
 
 
-def test_closest_points_that_are_held_no_more_come_from_home(serving):
-    cloud = cloud_of(50)
-    with asking(serving(random_network)):
-        served = network_for("it", lambda: random_network)
-    first = served(cloud, cloud)
-    for _ in range(HELD):
-        served(cloud, cloud)
-    ids = np.zeros(50, dtype=np.int64)
-    assert np.array_equal(
-        first.closest_points(ids), random_network(cloud, cloud).closest_points(ids)
-    )
+def test_a_service_is_told_which_parts_are_to_be_dissolved(serving):
+    heard = []
+
+    def hearing(cloud, context, least_confidence):
+        heard.append(least_confidence)
+        return random_network(cloud, context)
+
+    with asking(serving(hearing)):
+        served = network_for("it", not_at_home)
+    served(cloud_of(20), cloud_of(20), 0.1)
+    assert heard == [0.1]
 
 
 def test_messages_come_back_as_they_were():
     arrays = {"a": np.ones((2, 3), np.float32), "b": np.zeros((0, 4), np.int64), "c": np.array(3)}
-    message = unpack(pack(Message("kind", {"x": "y"}, arrays)))
-    assert (message.kind, dict(message.texts)) == ("kind", {"x": "y"})
+    message = unpack(pack(Message({"x": "y"}, arrays)))
+    assert message.texts == {"x": "y"}
     assert all(np.array_equal(message.arrays[name], array) for name, array in arrays.items())
     # So does what is written here as those below are.
     assert unpack(array("F32", [1], b"1234")).arrays["a"].shape == (1,)
@@ -168,7 +154,7 @@ def header(text, body=b""):
 
 def array(dtype, shape, body):
     described = {"dtype": dtype, "shape": shape, "data_offsets": [0, len(body)]}
-    told = {"__metadata__": {"kind": "x"}, "a": described}
+    told = {"__metadata__": {}, "a": described}
     return header(json.dumps(told).encode(), body)
 
 
@@ -179,14 +165,13 @@ def array(dtype, shape, body):
         b"\x01\x00\x00",
         b"\xff" * 8,
         # The library writes texts in any order: an id of bytes would differ between workers.
-        pytest.param(pack(Message("kind", {"x": "y"}))[:-1], id="cut off"),
-        pack(Message("kind", {}, {"a": np.zeros(9)}))[:-1],
+        pytest.param(pack(Message({"x": "y"}))[:-1], id="cut off"),
+        pack(Message({}, {"a": np.zeros(9)}))[:-1],
         header(b"{}"),
         header(b"not json"),
         header(b"[" * 50000),
-        header(b'{"__metadata__": {"no": "kind"}}'),
-        header(b'{"__metadata__": {"kind": 1}}'),
-        header(b'{"__metadata__": {"kind": {"a": "b"}}}'),
+        header(b'{"__metadata__": {"x": 1}}'),
+        header(b'{"__metadata__": {"x": {"a": "b"}}}'),
         array("|O", [1], b"12345678"),
         array("BF16", [4], b"12345678"),
         array("F32", [-1], b"1234"),
@@ -200,7 +185,7 @@ def test_what_is_no_message_is_refused(data):
 
 
 def test_a_header_that_is_too_long_is_not_even_parsed():
-    told = json.dumps({"__metadata__": {"kind": "x", "more": "y" * wire.MOST_HEADER_BYTES}})
+    told = json.dumps({"__metadata__": {"more": "y" * wire.MOST_HEADER_BYTES}})
     with pytest.raises(WireError, match="at most"):
         unpack(header(told.encode()))
 
