@@ -41,7 +41,7 @@ SHOWN_DATA = ("excess", "ignored", "places", "start")
 
 @dataclass(frozen=True)
 class ShownModel:
-    """A GLB for the page, empty without, and what is told of it, JSON data."""
+    """A GLB for the page, empty without, and JSON data on it."""
 
     model: bytes
     told: dict[str, Any]

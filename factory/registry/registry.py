@@ -270,7 +270,7 @@ def read_manifest(folder: Path) -> Manifest | None:
 
 
 def _lasting(entry: Entry) -> Entry:
-    """Return an entry without what is noted of it. Raises RegistryError if it cannot be one."""
+    """Return an entry without its notes. Raises RegistryError if it cannot be one."""
     try:
         return entry_from(lasting_data(entry))
     except ValueError as error:

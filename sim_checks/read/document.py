@@ -75,7 +75,7 @@ def refuse_doctype(data: bytes, name: str) -> None:
         DescriptionError: ``forbidden_doctype``, or ``invalid_xml``.
     """
     with _refusing(name):
-        # It has no method for what is parsed, and so nothing is built.
+        # It has no method for any event, and so nothing is built.
         guard = XMLParser(target=object(), forbid_dtd=True)
         guard.feed(data)
         guard.close()

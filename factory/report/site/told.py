@@ -72,7 +72,7 @@ class AssetPage:
         manifest: ``asset.json``; ``None`` where there is none that can be read.
         registry: name of its registry's folder; empty for a file that is only viewed.
         model: GLB of ours; empty where there is none.
-        start: what is shown first; by default where the first error is.
+        start: the fault that is shown first; by default the first error.
     """
 
     entry: Entry
@@ -85,7 +85,7 @@ class AssetPage:
 
     @cached_property
     def scene(self) -> SceneGraph | None:
-        """Return what is shown; ``None`` where there is no model."""
+        """Return the shown model; ``None`` where there is none."""
         return scene_from(self.model) if self.model else None
 
     @property
@@ -110,7 +110,7 @@ class AssetPage:
 
     @cached_property
     def findings(self) -> tuple[FindingTold, ...]:
-        """Return what was found, errors first."""
+        """Return the findings, errors first."""
         told = []
         number = 0
         # The validator says the same of the URDF and of the MJCF.
