@@ -48,8 +48,7 @@ def left_open(asset: Asset, drawn: Articulation) -> Asset:
 
 def _stands_open(drawn: Articulation, joint: Joint) -> bool:
     """Tell whether the detector saw a part that stands open: of others the line is less sure."""
-    source = drawn.parts[joint.child].source
-    seen = source is not None and source.proposer is Proposer.DETECTOR
+    seen = drawn.parts[joint.child].is_by(Proposer.DETECTOR)
     return seen and joint.kind is JointKind.REVOLUTE and joint.lower < 0.0
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..articulation import Articulation, Part
+from ..articulation import Articulation
 from ..errors import InputRejected
 from ..intake.intake import Intake
 from ..intake.source import Source
@@ -79,10 +79,7 @@ def _panels(articulation: Articulation) -> list[float]:
     return [
         joint.confidence or 0.0
         for joint in articulation.movable_joints
-        if _is_shown(articulation.parts[joint.child])
+        if (part := articulation.parts[joint.child]).kind.closes_side
+        and part.source is not None
+        and not part.is_by(Proposer.NETWORK)
     ]
-
-
-def _is_shown(part: Part) -> bool:
-    seen = part.source is not None and part.source.proposer is not Proposer.NETWORK
-    return seen and part.kind.closes_side

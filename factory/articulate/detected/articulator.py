@@ -92,7 +92,7 @@ class DetectedArticulator(HypothesisMaker):
         else:
             turned = self._articulations(mesh.turned(straight))
             made = [rotated(each, straight.T) for each in turned]
-        return tuple(Hypothesis(each) for each in _different(made))
+        return tuple(Hypothesis(each) for each in made)
 
     def _articulations(self, mesh: Mesh) -> list[Articulation]:
         """Return the articulations that a mesh may have whose sides look along the axes."""
@@ -131,7 +131,7 @@ class DetectedArticulator(HypothesisMaker):
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
         guess = _without(guess, _pulls(cells, beside))
         made = [*self._with(guess, beside), *([guess] if moves else [])]
-        if not made or len(sure) > len(guess.movable_joints):
+        if not made or 0 < len(guess.movable_joints) < len(sure):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
         made = [without_backs(each, detection.kind) for each in made]
         moving = [with_closed_hinges(with_whole_drawers(e)) for e in made if e.movable_joints]
@@ -333,20 +333,3 @@ def _said(part: DetectedPart, least: float) -> str:
         f"a {part.stated.kind} is seen on the {part.stated.side} and left fixed: it is there with "
         f"probability {part.probability:.2f}, want {least:.2f}"
     )
-
-
-def _different(articulations: Sequence[Articulation]) -> list[Articulation]:
-    """Return those that do not move as an earlier one does."""
-    first: dict[str, Articulation] = {}
-    for each in articulations:
-        motions = [
-            (
-                j.kind,
-                np.round(j.axis, 6).tolist(),
-                np.round(j.origin, 6).tolist(),
-                round(j.upper, 6),
-            )
-            for j in each.joints
-        ]
-        first.setdefault(repr(motions), each)
-    return list(first.values())

@@ -100,10 +100,9 @@ def plates(articulation: Articulation) -> dict[int, Side]:
     found = {}
     for joint in articulation.joints:
         part = articulation.parts[joint.child]
-        stated = part.source is not None and part.source.proposer is Proposer.ANNOTATION
-        if stated or joint.parent or not part.kind.closes_side or part.panel is None:
+        if part.is_by(Proposer.ANNOTATION) or joint.parent or part.panel is None:
             continue
-        if not opens(joint, part.panel):
+        if not part.kind.closes_side or not opens(joint, part.panel):
             continue
         away = part.panel.frame[2]
         depth = float(np.ptp(articulation.part_mesh(joint.child).vertices @ away))
