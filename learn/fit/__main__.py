@@ -97,7 +97,8 @@ def _agreement(asked: Asked) -> Fit:
     data = (
         f"the meshes of {' and '.join(folder.name for folder in asked.real)} that the detector did "
         "not learn from, as they are and "
-        "made one piece, and the objects of the develop half, likewise"
+        "made one piece, and the objects of the develop half made one piece; of these as they are "
+        "what others propose"
     )
     return Fit(stored, what, data, report(stored, rated))
 

@@ -52,16 +52,25 @@ Rated = dict[str, list[tuple[float, ...]]]
 
 @dataclass(frozen=True, eq=False)
 class LabelledMesh:
-    """A mesh, z up, and what opens on each of its sides."""
+    """A mesh, z up, and what opens on each of its sides.
+
+    Attributes:
+        mesh: z up.
+        truth: what opens.
+        own: rate what only the detector sees, too. On the list's objects as they are others propose
+            it, and with their lids the detector opened a plain box.
+    """
 
     mesh: Mesh
     truth: Instances
+    own: bool = True
 
 
 def labelled_meshes(folders: Sequence[Path], root: Path) -> Iterator[LabelledMesh]:
     """Yield labelled real meshes that the detector did not see, as they are and made one piece.
 
-    After them come the objects in ``root`` of the list's half to tune on, likewise.
+    After them come the objects in ``root`` of the list's half to tune on, likewise; of those as
+    they are only what others propose is rated.
 
     Raises:
         ConfigError: an object of the list is not there.
@@ -77,7 +86,7 @@ def labelled_meshes(folders: Sequence[Path], root: Path) -> Iterator[LabelledMes
             made = make_case(request)
         except InputRejected:
             continue
-        yield LabelledMesh(made.mesh, labelled_sides(made).instances)
+        yield LabelledMesh(made.mesh, labelled_sides(made).instances, own=request.fused)
 
 
 def rate_parts(guess: Articulator, objects: Iterable[LabelledMesh]) -> Rated:
@@ -85,7 +94,8 @@ def rate_parts(guess: Articulator, objects: Iterable[LabelledMesh]) -> Rated:
     rated: Rated = {name: [] for name in SIGNS}
     for each in objects:
         detection = detect(each.mesh)
-        _rate_own(rated, each, detection)
+        if each.own:
+            _rate_own(rated, each, detection)
         try:
             _rate_proposed(rated, guess, each, detection)
         except InputRejected:
