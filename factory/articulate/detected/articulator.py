@@ -44,8 +44,8 @@ LEAST_SCORE = 0.5
 THINNEST = 0.005
 #: Panels that are less probable are not told of.
 LEAST_CHANCE = 0.05
-#: Parts that whoever proposes them is so sure of move, seen or not: on objects as modelled eight of
-#: ten that are not seen are right.
+#: Parts that whoever proposes them is so sure of move, seen or not: of ten that are not seen eight
+#: are right.
 BELIEVED = 0.85
 #: Kinds of object of which the detector learned too little to fix anything.
 STRANGE = frozenset({"gadget", "window", "box"})
