@@ -3,9 +3,8 @@
 Random weights, one thread.
 
 One JSON line: per precision the core seconds per point, and how many times as long everything takes
-as the same matrix products with nothing around them, and the largest memory; and which precision
-this machine would choose. ``--points 102400`` is what the release asks for; the default is smaller,
-because the cost is linear.
+as the same matrix products with nothing around them, and the largest memory.
+``--points 102400`` is what the release asks for; the default is smaller: the cost is linear.
 """
 
 from __future__ import annotations

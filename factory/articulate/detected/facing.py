@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ...articulation import Articulation, Joint
+from ...articulation import Articulation
 from ...part import PartKind
-from ...views.raster import Side, side_facing
+from ...views.raster import side_facing
 from ..pruning import keep_parts
 from ..seams.fronts import OPPOSITE
 
@@ -28,16 +28,14 @@ def without_backs(made: Articulation, kind: str) -> Articulation:
     chances = dict.fromkeys(OPPOSITE, 0.0)
     for joint in made.movable_joints:
         part = made.parts[joint.child]
-        side = _opens_to(made, joint)
-        if side in OPPOSITE and (part.kind.closes_side or part.kind is PartKind.PART):
+        if not part.kind.closes_side and part.kind is not PartKind.PART:
+            continue
+        low, high = made.part_mesh(joint.child).bounds
+        # Where its middle first moves.
+        side = side_facing(joint.velocity((low + high) / 2.0))
+        if side in OPPOSITE:
             chances[side] += part.confidence or 0.0
             if part.kind.closes_side:
                 panels[joint.child] = side
     gone = {child for child, side in panels.items() if chances[side] < chances[OPPOSITE[side]]}
     return keep_parts(made, {joint.child for joint in made.joints} - gone)
-
-
-def _opens_to(made: Articulation, joint: Joint) -> Side:
-    """Return the side to which the middle of a part first moves."""
-    low, high = made.part_mesh(joint.child).bounds
-    return side_facing(joint.velocity((low + high) / 2.0))
