@@ -1,4 +1,7 @@
-"""The same numbers as the original networks: logits, features, closest points, loss inputs."""
+"""The same numbers as the original networks: logits, features, closest points, loss inputs.
+
+A GPU says the same, up to what its precision rounds off.
+"""
 
 import json
 from pathlib import Path
@@ -6,9 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import torch  # noqa: TID253
+from ray_calls import answer
 from stored_arrays import OUTPUTS
+from tiny_checkpoint import write_checkpoint
 from tiny_model import field_of, model_of
 
+from asset_factory.factory.config import ParticulateConfig
 from asset_factory.factory.models.network.shape import NetworkShape, read_shape
 from asset_factory.factory.models.partfield.shape import PartFieldShape, read_partfield_shape
 from asset_factory.factory.models.particulate.field import load_field
@@ -108,3 +114,15 @@ def test_the_released_size_in_bfloat16_stays_within_two_percent(fixtures):
         assert np.abs(getattr(prediction, name) - wanted[original]).max() < 0.02 * largest, name
     clear = wanted["mask_margin"] > 0.05 * np.abs(wanted["point_mask_logits"]).max()
     assert np.array_equal(prediction.mask_logits.argmax(1)[clear], wanted["part_ids_argmax"][clear])
+
+
+@pytest.mark.skipif(not torch.cuda.is_available(), reason="torch sees no CUDA device")
+@pytest.mark.parametrize(("precision", "share"), [("float32", 1e-3), ("bfloat16", 0.02)])
+def test_a_gpu_says_what_a_processor_says(tmp_path, precision, share):
+    checkpoint = str(write_checkpoint(tmp_path / "tiny.safetensors", base=7))
+    settings = {"checkpoint": checkpoint, "points": 300, "context_points": 300}
+    here, there = (
+        np.frombuffer(answer(ParticulateConfig(**settings, **more), None)[0], np.float32)
+        for more in ({}, {"device": "cuda", "precision": precision})
+    )
+    assert np.abs(there - here).max() < share * max(np.abs(here).max(), 1.0)
