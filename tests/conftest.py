@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 import pytest
+from browser import CHROMIUM, SOFTWARE
 from hypothesis import settings
 
 # As in the children of a job, and before anything loads numpy: threads of two workers that wait
@@ -34,3 +35,14 @@ def fixtures(request):
     if not folder.is_dir():
         pytest.skip(f"{folder} is not there; name the folder of parity fixtures with --fixtures")
     return folder
+
+
+@pytest.fixture(scope="module")
+def browser():
+    api = pytest.importorskip("playwright.sync_api")
+    if CHROMIUM is None:
+        pytest.skip("no Chromium here; name one in CHROMIUM")
+    with api.sync_playwright() as playwright:
+        made = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE)
+        yield made
+        made.close()

@@ -1,10 +1,16 @@
-"""The docs say what the code says, and every command in them is one."""
+"""The docs say what the code says, and every command in them is one.
 
+Every code block of the first pages is pasted here, over what ``make demo`` leaves.
+"""
+
+import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -12,9 +18,10 @@ from shown_registry import make_registry
 from small_cabinet import write_urdf
 
 from asset_factory.factory.cli.commands import parse, run
+from asset_factory.factory.intake.stated import stated_from
 
 ROOT = Path(__file__).resolve().parents[1]
-#: Pages whose blocks test_pasted.py runs as they stand.
+#: Pages whose blocks are run as they stand.
 PASTED = (
     "README.md",
     *(f"docs/{name}.md" for name in ("index", "installing", "building", "say-what-opens")),
@@ -168,14 +175,88 @@ def test_the_site_is_built_without_a_broken_link_and_asks_no_network(site):
 
 
 @pytest.mark.browser
-def test_the_site_is_searched_without_a_server(site):
-    from browser import CHROMIUM
-    from playwright.sync_api import sync_playwright
+def test_the_site_is_searched_without_a_server(browser, site):
+    page = browser.new_page()
+    page.goto((site / "index.html").as_uri())
+    page.fill("[data-md-component=search-query]", "turntable")
+    page.wait_for_selector(".md-search-result__item", timeout=20_000)
+    page.close()
 
-    with sync_playwright() as play:
-        browser = play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        page = browser.new_page()
-        page.goto((site / "index.html").as_uri())
-        page.fill("[data-md-component=search-query]", "turntable")
-        page.wait_for_selector(".md-search-result__item", timeout=20_000)
-        browser.close()
+
+#: The mesh of ``make demo`` that the pages name and do not build; all twelve would take a minute.
+DEMO = "examples/meshes/dishwasher.glb"
+#: Blocks under such a comment are not run: their commands and flags are parsed.
+BLOCK = re.compile(r"^(<!-- not run: .*? -->\n)?```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+#: Where commands of no block would stand.
+STRAY = re.compile(r"^    (?:\$ )?(?:\.venv/bin/)?(?:factory|make|python|pip) .*$", re.MULTILINE)
+
+
+@pytest.fixture(scope="module")
+def clone(tmp_path_factory):
+    """A folder as a clone is after ``make demo``, with fewer assets."""
+    folder = tmp_path_factory.mktemp("clone")
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    (folder / ".venv" / "bin").mkdir(parents=True)
+    activate = folder / ".venv" / "bin" / "activate"
+    activate.write_text(f"PATH={Path(sys.executable).parent}:$PATH\n", encoding="utf-8")
+    asked = ["build", "--input", str(folder / DEMO), "--output", str(folder / "out"), "--quiet"]
+    assert run(asked) == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def typed():
+    """Lines that were typed in the clone: several pages have the same ones."""
+    return set()
+
+
+def paste(text, folder, *program):
+    """Run a text as a program's input, as a terminal would."""
+    path = os.pathsep.join((str(ROOT / "src"), os.environ.get("PYTHONPATH", "")))
+    quiet = {**os.environ, "PYTHONPATH": path, "PYTHONWARNINGS": "ignore"}
+    done = subprocess.run(
+        program, input=text, cwd=folder, env=quiet, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, f"{text}\n{done.stdout}\n{done.stderr}"
+
+
+@pytest.mark.parametrize("page", PASTED)
+def test_every_block_runs_as_it_is_pasted(page, clone, typed):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for unrun, language, block in BLOCK.findall(text):
+        match language:
+            case "python":
+                compile(block, page, "exec")
+            case "sh" if not unrun:
+                # ``make demo`` is what the fixture stands for.
+                lines = (line.split("  #")[0].strip() for line in block.splitlines())
+                new = [line for line in lines if line not in typed and not line.startswith("make ")]
+                typed |= {line for line in new if line.startswith("factory ")}
+                if any(line.startswith("factory ") for line in new):
+                    pasted = "\n".join(("source .venv/bin/activate", *new))
+                    paste(pasted, clone, "bash", "-euo", "pipefail")
+            case "json":
+                stated_from(json.loads(block))
+            case "toml":
+                tomllib.loads(block)
+            case _:
+                assert language == "sh", f"a block of {page} is {language or 'nothing'}:\n{block}"
+    assert STRAY.findall(text) == [], f"commands of {page} stand in no block"
+
+
+def test_the_python_of_every_page_runs_as_it_is_pasted(clone):
+    pages = {}
+    for page in PASTED:
+        found = BLOCK.findall((ROOT / page).read_text(encoding="utf-8"))
+        pages[page] = "".join(
+            block for unrun, kind, block in found if kind == "python" and not unrun
+        )
+    # A file, since worker processes import what started them. One process imports torch once.
+    (clone / "pasted.py").write_text(
+        f"pages = {pages!r}\n"
+        "if __name__ == '__main__':\n"
+        "    for page, code in pages.items():\n"
+        "        exec(compile(code, page, 'exec'), {'__name__': '__main__'})\n",
+        encoding="utf-8",
+    )
+    paste("", clone, sys.executable, "pasted.py")

@@ -1,7 +1,6 @@
 """What tests of several folders share."""
 
 import pytest
-from browser import CHROMIUM, SOFTWARE
 from s3_server import s3_server
 
 from asset_factory.factory.models.weights import pickled
@@ -32,14 +31,3 @@ def warm_reader(monkeypatch, reading_child):
     monkeypatch.setattr(pickled, "run_isolated", reading_child.call)
     # Hostile files are stopped by this limit, and made sure of in a second child.
     monkeypatch.setattr(pickled, "_READING_S", 1)
-
-
-@pytest.fixture(scope="module")
-def browser():
-    api = pytest.importorskip("playwright.sync_api")
-    if CHROMIUM is None:
-        pytest.skip("no Chromium here; name one in CHROMIUM")
-    with api.sync_playwright() as playwright:
-        made = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE)
-        yield made
-        made.close()
