@@ -17,14 +17,17 @@ from asset_factory.factory.registry.product import Product
 from asset_factory.factory.registry.report_file import BuildReport
 from asset_factory.factory.registry.result import Result
 from asset_factory.sim_checks import Report
-from asset_factory.sim_checks.processes.isolation import Limits, Outcome
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, Outcome
 
 PLAIN = BuildConfig(articulator="rigid", simulators=())
 MADE = "made.log"
 
 
 class Inline:
-    """Makes calls here, one after the other."""
+    """Makes calls here, one after the other, in place of any executor."""
+
+    def __init__(self, *_workers: int, **_settings: int) -> None:
+        pass
 
     def run(
         self, function: Callable[..., Any], calls: Iterable[Call], limits: Limits
@@ -32,6 +35,8 @@ class Inline:
         for call in calls:
             try:
                 yield call, Outcome(function(**call.arguments), None, "", "", 0.0)
+            except TimeoutError as error:
+                yield call, Outcome(None, Failure.TIMEOUT, str(error), "", 0.0)
             except OSError as error:
                 yield call, Outcome(None, "raised", str(error), "", 0.0, error)
 

@@ -4,21 +4,22 @@ import json
 import os
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from job_samples import Inline
 from openable_samples import cabinet, oven, valve, write_registry
 
 from asset_factory.envs.assets import read_registry
-from asset_factory.envs.demos import Settings, files
+from asset_factory.envs.demos import Settings, files, making
 from asset_factory.envs.demos.episodes import Taken, make_shards
 from asset_factory.envs.demos.files import keep_episode
 from asset_factory.envs.demos.folder import hold
 from asset_factory.factory.cli import demos as command
 from asset_factory.factory.errors import ConfigError, Exit
-from asset_factory.sim_checks.processes.isolation import Failure, Outcome
 
 h5py = pytest.importorskip("h5py", reason="h5py is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
@@ -32,7 +33,7 @@ def write_trajectory(path, seed, steps=5):
         group.create_dataset("success", data=np.arange(steps) == steps - 1)
 
 
-def fake_record(registry, episode, settings, folder):
+def fake_record(settings, folder, episode):
     """Hinges open; slides do not."""
     taken = Taken(episode, episode.joint != "slide", steps=5)
     if not taken.success:
@@ -48,25 +49,6 @@ def fake_record(registry, episode, settings, folder):
     return taken
 
 
-class Answers:
-    """In place of the executor: answers in this process, and dies on the way if it is told to."""
-
-    def __init__(self, workers, retries):
-        pass
-
-    def run(self, function, calls, limits):
-        for call in calls:
-            if len(self.asked) == self.dies_after:
-                raise KeyboardInterrupt
-            registry, settings, folder, episode = call.arguments.values()
-            self.asked.append(episode)
-            if episode.seed in self.slow:
-                yield call, Outcome(None, Failure.TIMEOUT, "no answer within 600 s", "", 600.0)
-            else:
-                record = fake_record(registry, episode, settings, folder)
-                yield call, Outcome(record, None, "", "", 1.0)
-
-
 @pytest.fixture(scope="module")
 def registry(tmp_path_factory):
     return write_registry(tmp_path_factory.mktemp("registry"), cabinet(), oven(), valve())
@@ -74,11 +56,22 @@ def registry(tmp_path_factory):
 
 @pytest.fixture
 def robot(monkeypatch):
-    answers = type("Told", (Answers,), {"asked": [], "dies_after": -1, "slow": frozenset()})
-    monkeypatch.setattr("asset_factory.envs.demos.making.LocalExecutor", answers)
+    """What it was asked, after how much it dies, and of which seeds it does not answer in time."""
+    told = SimpleNamespace(asked=[], dies_after=-1, slow=frozenset())
+
+    def record(registry, settings, folder, episode):
+        if len(told.asked) == told.dies_after:
+            raise KeyboardInterrupt
+        told.asked.append(episode)
+        if episode.seed in told.slow:
+            raise TimeoutError("no answer within 600 s")
+        return fake_record(settings, folder, episode)
+
+    monkeypatch.setattr(making, "LocalExecutor", Inline)
+    monkeypatch.setattr(making, "record", record)
     # Nobody pulls the plug here, and a busy disk takes its time.
     monkeypatch.setattr(os, "fsync", lambda descriptor: None)
-    return answers
+    return told
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from job_samples import Inline
 from openable_samples import cabinet, valve, write_registry
 
 from asset_factory.envs.solving import Attempt
@@ -13,7 +14,6 @@ from asset_factory.envs.solving.record import SolveRecord, read_record
 from asset_factory.factory.cli import report
 from asset_factory.factory.cli import solve as command
 from asset_factory.factory.errors import Exit
-from asset_factory.sim_checks.processes.isolation import Outcome
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 
@@ -42,21 +42,15 @@ def robots(monkeypatch):
     """Robots that open every hinge, and of which Fetch opens drawers too; what they were asked."""
     asked = []
 
-    class Answers:
-        def __init__(self, workers, retries):
-            pass
+    def attempted(task):
+        asked.append((task.asset_id, task.joint, task.robot))
+        solved = task.joint == "hinge" or asked[-1][1:] == ("slide", "fetch")
+        facts = {} if solved else {"reason": "stuck", "message": "not moved by 50 N"}
+        facts |= {"solved": solved, "seed": task.seed}
+        return found(*asked[-1], actions=np.zeros((7, 8), np.float32), **facts)
 
-        def run(self, function, calls, limits):
-            for call in calls:
-                task = call.arguments["task"]
-                asked.append((task.asset_id, task.joint, task.robot))
-                solved = task.joint == "hinge" or asked[-1][1:] == ("slide", "fetch")
-                facts = {} if solved else {"reason": "stuck", "message": "not moved by 50 N"}
-                facts |= {"solved": solved, "seed": task.seed}
-                attempt = found(*asked[-1], actions=np.zeros((7, 8), np.float32), **facts)
-                yield call, Outcome(attempt, None, "", "", 1.5)
-
-    monkeypatch.setattr("asset_factory.factory.jobs.LocalExecutor", Answers)
+    monkeypatch.setattr("asset_factory.factory.jobs.LocalExecutor", Inline)
+    monkeypatch.setattr("asset_factory.envs.solving.solve.attempted", attempted)
     return asked
 
 
