@@ -35,9 +35,9 @@ def test_faces_are_labelled_by_what_they_hang_together_with(mesh, labels):
     assert connected_components(mesh).tolist() == labels
 
 
-@settings(max_examples=25, deadline=None)
-@given(st.permutations(range(36)), st.floats(-0.2, 0.2))
-def test_components_do_not_depend_on_the_order_of_faces(order, angle):
+@settings(max_examples=25)
+@given(st.permutations(range(36)))
+def test_components_do_not_depend_on_the_order_of_faces(order):
     three = concatenate([box((2.0 * k, 0, 0), (2.0 * k + 1, 1, 1)) for k in range(3)])
     shuffled = Mesh.from_triangles(three.vertices, three.faces[order])
     labels = connected_components(shuffled)

@@ -132,9 +132,6 @@ def test_the_digest_depends_on_every_file_that_was_read(tmp_path):
     assert load(path).provenance.digest != before
 
 
-WORDS = '<limit lower="x" upper="1"/>'
-
-
 def seen(shape):
     return link("a", f"<visual><geometry>{shape}</geometry></visual>")
 
@@ -146,17 +143,11 @@ def seen(shape):
         ("not_a_tree", AB, "'a', 'b'"),
         ("not_a_tree", link("a") + link("a"), "'a'"),
         ("unsupported_joint", AB + joint("j", "planar", "a", "b"), "'planar'"),
+        # What else is no number or no shape, the tests of what reads elements tell.
         ("unreadable", seen('<box size="1 1"/>'), "'1 1'"),
         ("unreadable", seen('<box size="1 -1 1"/>'), "positive"),
-        ("unreadable", seen("<cone/>"), "cone"),
-        ("unreadable", AB + joint("j", "revolute", "a", "b", WORDS), "'x'"),
-        ("unreadable", AB + joint("j", "revolute", "a", "b", '<origin xyz="nan 0 0"/>'), "nan"),
-        (
-            "unreadable",
-            AB + joint("j", "fixed", "a", "b", '<axis xyz="0 0 1e300"/>'),
-            "up to 1e+06",
-        ),
-        ("unreadable", seen('<mesh filename="loop.obj" scale="1e308 1 1"/>'), "up to 1e+06"),
+        ("unreadable", seen('<box size="1 1e300 1"/>'), "up to 1e+06"),
+        ("unreadable", AB + joint("j", "revolute", "a", "b", '<limit lower="x"/>'), "'x'"),
         *(
             ("missing_file", seen(f'<mesh filename="{name}.obj"/>'), name[:9])
             for name in ("no", "a%00b", "loop", "n" * 300, "d/" * 3000 + "x")
@@ -206,9 +197,7 @@ def placed(xyz, angles):
     return rigid((yaw * pitch * roll).as_matrix(), np.array(xyz))
 
 
-@settings(
-    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(edge, min_size=1, max_size=6))
 def test_random_trees_move_as_a_product_of_matrices_says(tmp_path, edges):
     body = link("l0")

@@ -42,13 +42,6 @@ def test_sha256sum_agrees(registry, tmp_path):
     assert {*folder_digests(tmp_path / "x")} == listed | {"SHA256SUMS"}
 
 
-def test_filters_choose(registry, tmp_path):
-    export(registry, tmp_path / "x", tag="blue")
-    assert [path.name for path in (tmp_path / "x" / "assets").iterdir()] == ["fridge-1"]
-    row = json.loads((tmp_path / "x" / "entries.jsonl").read_text())
-    assert (row["id"], row["tags"], row["solved"]) == ("fridge-1", ["blue"], "yes")
-
-
 def test_licenses_are_told_and_what_people_write_into_one_stays_text(registry, tmp_path):
     publish(registry, "three", named("oven-1", license="a | b\n# <script>"))
     export(registry, tmp_path / "x", status="passed")

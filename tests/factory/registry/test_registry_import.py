@@ -54,11 +54,10 @@ def test_what_was_rejected_arrives_with_its_model(registry, other, tmp_path):
 NAMES = st.text("abc_é .", min_size=1, max_size=8).filter(is_safe_path)
 FILES = st.dictionaries(NAMES, st.binary(max_size=50), max_size=3)
 IDS = st.from_regex(r"[a-z]{1,5}-[0-9a-f]{4}", fullmatch=True)
-UNHURRIED = {"deadline": None, "suppress_health_check": [HealthCheck.function_scoped_fixture]}
 
 
 @given(assets=st.dictionaries(IDS, FILES, max_size=3), compressed=st.booleans())
-@settings(max_examples=6, **UNHURRIED)
+@settings(max_examples=6, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_any_small_registry_survives_the_round_trip(tmp_path_factory, assets, compressed):
     root = tmp_path_factory.mktemp("any")
     registry = Registry(root / "out", create=True)
@@ -260,10 +259,6 @@ def claiming(size, kind=tarfile.REGTYPE):
 def test_what_is_no_archive_or_claims_more_than_it_has_is_refused(other, tmp_path, content, match):
     (tmp_path / "x.tar").write_bytes(content)
     refused(other, tmp_path / "x.tar", match)
-
-
-def test_what_is_not_there_is_refused(other, tmp_path):
-    refused(other, tmp_path / "nowhere", "no such file or folder")
 
 
 def test_a_cut_archive_imports_nothing(registry, other, tmp_path):
