@@ -2,6 +2,7 @@
 
 import sys
 import types
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -115,18 +116,13 @@ def stand_in_hub(monkeypatch, download):
 
 
 def test_an_address_is_downloaded(monkeypatch, released):
-    asked = []
-
-    def download(repo_id, filename, revision):
-        asked.append((repo_id, filename, revision))
-        return str(released)
-
+    download = Mock(return_value=str(released))
     stand_in_hub(monkeypatch, download)
     assert fetch(PARTICULATE.source) == released
     assert fetch(PARTFIELD.source) == released
     assert fetch("hf:a/b/deep/er/file.pt") == released
     assert fetch(f"hf:a/b/file.pt@{COMMIT}") == released
-    assert asked == [
+    assert [tuple(asked.kwargs.values()) for asked in download.call_args_list] == [
         ("rayli/Particulate", "model.pt", None),
         ("mikaelaangel/partfield-ckpt", "model_objaverse.ckpt", None),
         ("a/b", "deep/er/file.pt", None),

@@ -2,6 +2,7 @@
 
 import time
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 from mesh_cube import gltf_parts, pack_glb, write_obj
@@ -9,7 +10,8 @@ from refusing import refusal
 
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.geometry.soup import unique_names
-from asset_factory.factory.intake.formats import gltf_document, obj
+from asset_factory.factory.intake.formats import obj
+from asset_factory.factory.intake.formats.gltf_document import GltfDocument
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.sim_checks.read.mjcf_compiler import compile_model
@@ -30,17 +32,9 @@ def glb(folder, document, binary):
     return folder / "a.glb"
 
 
-def counted(monkeypatch, module, name):
-    """The calls that a function of a module gets from now on."""
-    calls = []
-    real = getattr(module, name)
-
-    def count(*args):
-        calls.append(args)
-        return real(*args)
-
-    monkeypatch.setattr(module, name, count)
-    return calls
+def counted(owner, name):
+    """Lets one count the calls of a function, or of a method."""
+    return patch.object(owner, name, autospec=True, side_effect=getattr(owner, name))
 
 
 @pytest.mark.usefixtures("quick")
@@ -50,24 +44,23 @@ def test_continued_lines_are_joined_at_once(tmp_path):
     assert len(load(tmp_path / "a.obj", CONFIG).mesh.faces) == 1
 
 
-def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(monkeypatch, tmp_path):
+def test_a_library_and_a_picture_are_read_once_however_often_they_are_named(tmp_path):
     path = write_obj(tmp_path)
     path.write_text("mtllib cube.mtl\n" * 500 + path.read_text())
     (tmp_path / "cube.mtl").write_text("newmtl red wood\n" + "map_Kd wood.png\n" * 500)
-    libraries = counted(monkeypatch, obj, "read_mtl")
-    pictures = counted(monkeypatch, obj, "read_texture")
-    assert any(material.texture for material in load(path, CONFIG).mesh.materials)
-    assert (len(libraries), len(pictures)) == (1, 1)
+    with counted(obj, "read_mtl") as libraries, counted(obj, "read_texture") as pictures:
+        assert any(material.texture for material in load(path, CONFIG).mesh.materials)
+    assert (libraries.call_count, pictures.call_count) == (1, 1)
 
 
-def test_an_accessor_is_read_once(monkeypatch, tmp_path):
+def test_an_accessor_is_read_once(tmp_path):
     document, binary = gltf_parts()
     empty = {"componentType": 5125, "count": 0, "type": "SCALAR"}
     document["accessors"] += [{"componentType": 5126, "count": 3000, "type": "VEC3"}, empty]
     document["meshes"][0]["primitives"] += [{"attributes": {"POSITION": 4}, "indices": 5}] * 300
-    read = counted(monkeypatch, gltf_document.GltfDocument, "_read_accessor")
-    assert len(load(glb(tmp_path, document, binary), CONFIG).mesh.faces) == 12
-    assert len(read) == 6
+    with counted(GltfDocument, "_read_accessor") as read:
+        assert len(load(glb(tmp_path, document, binary), CONFIG).mesh.faces) == 12
+    assert read.call_count == 6
 
 
 @pytest.mark.usefixtures("quick")

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from datetime import UTC, datetime
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -282,12 +283,9 @@ def test_the_same_bytes_with_another_sidecar_are_made_of_other_files(tmp_path):
 )
 def test_a_reader_that_was_stopped_gives_no_verdict(error, code, tmp_path, monkeypatch):
     path = write_obj(tmp_path)
-
-    def stopped(*arguments):
-        raise error(f"{path.name}: no answer within 60 s")
-
     config = replace(CONFIG, articulator="geometric")
-    monkeypatch.setattr(source_module, "load", stopped)
+    late = error(f"{path.name}: no answer within 60 s")
+    monkeypatch.setattr(source_module, "load", Mock(side_effect=late))
     result = build_asset(path, tmp_path / "out", config)
     assert (result.entry.status, result.entry.reason) == ("unjudged", code)
     assert "no answer within 60 s" in result.entry.message

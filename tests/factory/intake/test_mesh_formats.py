@@ -3,6 +3,7 @@
 import base64
 import struct
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -212,12 +213,7 @@ def test_only_the_first_of_a_thousand_notes_are_kept(tmp_path):
 
 @pytest.mark.parametrize("error", [struct.error, RuntimeError, AttributeError, OverflowError])
 def test_whatever_a_decoder_raises_the_picture_is_left_out(error, monkeypatch):
-    from PIL import Image
-
-    def fail(*_, **__):
-        raise error("deep inside")
-
-    monkeypatch.setattr(Image, "open", fail)
+    monkeypatch.setattr("PIL.Image.open", Mock(side_effect=error("deep inside")))
     assert load_texture(png(), "a.png", InputFiles(Path(), LIMITS)) is None
 
 

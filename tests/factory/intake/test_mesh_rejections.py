@@ -3,6 +3,7 @@
 import json
 import struct
 import zlib
+from unittest.mock import Mock
 
 import pytest
 from fuzz_cases import DAE
@@ -226,11 +227,9 @@ def test_more_faces_than_the_limit_are_too_large_and_as_many_are_fine(form, tmp_
 
 
 def test_out_of_memory_is_too_large(tmp_path, monkeypatch):
-    def no_memory(path):
-        raise MemoryError
-
     path = write_stl(tmp_path)
-    monkeypatch.setattr("asset_factory.factory.intake.files.open_regular", no_memory)
+    opening = "asset_factory.factory.intake.files.open_regular"
+    monkeypatch.setattr(opening, Mock(side_effect=MemoryError))
     assert _rejected(path).code == "too_large"
 
 

@@ -8,6 +8,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -187,11 +188,8 @@ def test_an_output_that_became_read_only_ends_the_job_but_what_is_known_is_told(
 ):
     inputs = write_inputs(tmp_path / "in", 2)
     list(job(inputs[:1], tmp_path / "out").run())
-
-    def closed(output):
-        raise OSError(errno.EROFS, "Read-only file system", str(output))
-
-    monkeypatch.setattr(job_module, "Log", closed)
+    closed = OSError(errno.EROFS, "Read-only file system", str(tmp_path / "out"))
+    monkeypatch.setattr(job_module, "Log", Mock(side_effect=closed))
     results = []
     with pytest.raises(RegistryError, match="out: cannot be written: Read-only file system"):
         results += job(inputs, tmp_path / "out").run()

@@ -6,6 +6,7 @@ import shutil
 import sqlite3
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from registry_samples import BAD_REPORT, PASSED, REJECTED, REPORT, publish
@@ -72,10 +73,7 @@ def test_an_asset_that_is_later_rejected_is_no_longer_published(registry):
 def test_a_bundle_that_cannot_be_renamed_publishes_nothing(
     registry, monkeypatch, number, error, told
 ):
-    def broken(source, target):
-        raise OSError(number, "no rename")
-
-    monkeypatch.setattr("os.rename", broken)
+    monkeypatch.setattr("os.rename", Mock(side_effect=OSError(number, "no rename")))
     with pytest.raises(error, match=told):
         publish(registry)
     monkeypatch.undo()
@@ -135,12 +133,9 @@ def test_without_an_exchanging_rename_two_do(registry, monkeypatch):
 
 
 def test_a_full_disk_is_no_damaged_database(registry, monkeypatch):
-    def full(*arguments):
-        error = sqlite3.OperationalError("database or disk is full")
-        error.sqlite_errorcode = sqlite3.SQLITE_FULL
-        raise error
-
-    monkeypatch.setattr("asset_factory.factory.registry.rows.insert", full)
+    full = sqlite3.OperationalError("database or disk is full")
+    full.sqlite_errorcode = sqlite3.SQLITE_FULL
+    monkeypatch.setattr("asset_factory.factory.registry.rows.insert", Mock(side_effect=full))
     with pytest.raises(OSError, match="No space left on device") as caught:
         publish(registry)
     assert caught.value.errno == errno.ENOSPC

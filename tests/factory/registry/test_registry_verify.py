@@ -5,6 +5,7 @@ Rows are made anew, additions moved aside, lost assets withdrawn.
 
 import shutil
 from dataclasses import replace
+from unittest.mock import Mock
 
 import pytest
 from registry_samples import alter, link, publish, remove
@@ -106,12 +107,8 @@ def test_what_nothing_can_mend_is_registered_no_more_and_kept(registry, tmp_path
 def test_a_process_that_dies_withdrawing_is_finished_by_the_next(registry, monkeypatch, step):
     remove(registry.assets / "cabinet-1")
     where = verify_module.rows if step == "delete" else verify_module.os
-
-    def dies(*asked):
-        raise KeyboardInterrupt
-
     with monkeypatch.context() as dying:
-        dying.setattr(where, step, dies)
+        dying.setattr(where, step, Mock(side_effect=KeyboardInterrupt))
         with pytest.raises(KeyboardInterrupt):
             set_asset_aside(registry, "cabinet-1", WITHDRAWN)
     assert mended(registry) == {"cabinet-1": Settled.WITHDRAWN}

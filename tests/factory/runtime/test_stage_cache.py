@@ -3,6 +3,7 @@
 import json
 import math
 from dataclasses import replace
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -102,20 +103,15 @@ def test_a_pose_outside_the_range_is_built_and_kept(judge, tmp_path):
 
 
 def test_a_rejection_is_remembered_with_its_number(tmp_path):
-    asked = []
-
-    def refuse():
-        asked.append(1)
-        told = {"value": 0.0, "unit": "joints", "limit": 1.0}
-        raise InputRejected("no_movable_joint", "nothing moves", **told)
-
+    told = {"value": 0.0, "unit": "joints", "limit": 1.0}
+    refuse = Mock(side_effect=InputRejected("no_movable_joint", "nothing moves", **told))
     for _ in range(2):
         stages = Stages(BASE, Store(tmp_path))
         with pytest.raises(InputRejected) as rejection:
             stages.recall("articulate", int, "articulate-00", refuse)
         found = rejection.value.finding
         assert (found.code, found.value, found.limit) == ("no_movable_joint", 0.0, 1.0)
-    assert len(asked) == 1
+    assert refuse.call_count == 1
     assert stages.reused == ["articulate"]
 
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -65,11 +66,7 @@ def test_what_is_written_is_there_for_all_and_what_cannot_be_leaves_nothing(tmp_
     # Others may read it.
     assert (tmp_path / "a").stat().st_mode & 0o777 == 0o644
     write_whole(tmp_path / "a", b"old")
-
-    def full(source, target):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("os.replace", full)
+    monkeypatch.setattr("os.replace", Mock(side_effect=OSError(28, "No space left on device")))
     with pytest.raises(OSError, match="No space left"):
         write_whole(tmp_path / "a", b"new", lasting=True)
     monkeypatch.undo()

@@ -1,5 +1,7 @@
 """The way to the judge: no inspection is repeated, and two files of one asset make one report."""
 
+from unittest.mock import patch
+
 import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet
 
@@ -13,22 +15,14 @@ from asset_factory.sim_checks import Finding, Report, Severity
 from asset_factory.sim_checks.judge import Examination, Judge
 
 
-def test_what_was_inspected_is_not_measured_again(tmp_path, monkeypatch):
+def test_what_was_inspected_is_not_measured_again(tmp_path):
     pytest.importorskip("mujoco")
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path / "bundle")
-    examined = []
-    examine = Judge.examine
-
-    def counted(judge, path):
-        examined.append(path.name)
-        return examine(judge, path)
-
-    monkeypatch.setattr(Judge, "examine", counted)
     stages = Stages(BuildConfig(simulators=("mujoco",)))
-    with Judge() as judge:
+    with Judge() as judge, patch.object(judge, "examine", wraps=judge.examine) as examined:
         inspected = inspect(bundle, judge, (), stages)
         verdict = validate(bundle, judge, (), inspected, stages)
-    assert examined == ["asset.urdf", "asset.xml"]
+    assert [call.args[0].name for call in examined.call_args_list] == ["asset.urdf", "asset.xml"]
     assert verdict.report.measurements.keys() == {"asset.urdf", "asset.xml"}
 
 

@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from types import SimpleNamespace
+from unittest.mock import Mock
 
 import pytest
 
@@ -208,20 +209,14 @@ def test_assets_from_before_a_license_was_disallowed_are_pointed_out(workshop, c
 
 
 def test_a_night_that_cannot_begin_leaves_nothing(workshop, config):
-    def nowhere():
-        raise ConfigError("input x: does not exist")
-
-    workshop.find = nowhere
+    workshop.find = Mock(side_effect=ConfigError("input x: does not exist"))
     with pytest.raises(ConfigError, match="does not exist"):
         run(workshop, config)
     assert not (config.output / "nights").exists()
 
 
 def test_nothing_is_tidied_where_that_is_not_wanted(workshop, config):
-    def never():
-        raise AssertionError
-
-    workshop.tidy = never
+    workshop.tidy = Mock(side_effect=AssertionError)
     assert run(workshop, replace(config, upkeep=Upkeep(enabled=False))).night.passed == 3
 
 

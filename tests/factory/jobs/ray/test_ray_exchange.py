@@ -3,6 +3,8 @@
 import io
 import tarfile
 from dataclasses import replace
+from types import SimpleNamespace
+from unittest.mock import Mock
 
 import pytest
 import ray_calls
@@ -85,16 +87,10 @@ def test_what_cannot_be_sent_is_told_from_a_call_that_fails(tmp_path):
 
 def test_a_store_that_does_not_answer_loses_a_try(tmp_path, between, monkeypatch):
     outcome, transfer = made(between.as_uri(), filling(tmp_path / "staging"))
-
-    class Silent:
-        def open(self, path, mode):
-            raise LookupError("of its own kind")
-
-        def rm_file(self, path):
-            raise LookupError("of its own kind")
-
+    fails = Mock(side_effect=LookupError("of its own kind"))
+    silent = SimpleNamespace(open=fails, rm_file=fails)
     located = "asset_factory.factory.jobs.ray.exchange.located"
-    monkeypatch.setattr(located, lambda url: (Silent(), url))
+    monkeypatch.setattr(located, lambda url: (silent, url))
     with pytest.raises(OSError, match="of its own kind"):
         transfer.opened(outcome)
 

@@ -6,6 +6,7 @@ import os
 import pickle
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
@@ -65,10 +66,7 @@ def test_an_input_that_arrives_damaged_is_lost(sent, made):
 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT])
 def test_a_node_without_room_for_an_input_is_full(sent, made, monkeypatch, number):
-    def refuse(self, *args, **kwargs):
-        raise OSError(number, os.strerror(number))
-
-    monkeypatch.setattr(Path, "open", refuse)
+    monkeypatch.setattr(Path, "open", Mock(side_effect=OSError(number, os.strerror(number))))
     assert ordered(sent) == ("full", None)
 
 

@@ -8,6 +8,7 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -98,45 +99,32 @@ def test_without_a_service_the_network_is_ones_own():
 )
 def test_where_the_service_is_no_help_the_network_at_home_answers(serving, tmp_path, wrong):
     cloud = cloud_of(50)
-
-    def broken(*asked):
-        raise MemoryError("no room")
-
     address = Address(str(tmp_path / "gone" / "socket"), start_s=30.0)
     if wrong == "another network":
         address = serving(random_network, identity="other")
     elif wrong == "it breaks":
-        address = serving(broken)
+        address = serving(Mock(side_effect=MemoryError("no room")))
     elif wrong == "full":
         address = serving(random_network, most_askers=0)
     elif wrong == "it says nonsense":
         address = serving(random_network, answering=lambda _: b"\xff" * 100)
-    asked_at_home = []
-
-    def home():
-        asked_at_home.append(True)
-        return random_network
-
+    home = Mock(return_value=random_network)
     with asking(address):
         served = network_for("it", home)
     began = time.monotonic()
     assert equal(served(cloud, cloud), random_network(cloud, cloud))
     served(cloud, cloud)
-    assert len(asked_at_home) == 1, "loaded once, asked twice"
+    assert home.call_count == 1, "loaded once, asked twice"
     assert time.monotonic() - began < 10.0, "a service that is gone for good is not waited for"
 
 
 def test_a_service_is_told_which_parts_are_to_be_dissolved(serving):
-    heard = []
-
-    def hearing(cloud, context, least_confidence):
-        heard.append(least_confidence)
-        return random_network(cloud, context)
-
+    hearing = Mock(wraps=random_network)
     with asking(serving(hearing)):
         served = network_for("it", not_at_home)
     served(cloud_of(20), cloud_of(20), 0.1)
-    assert heard == [0.1]
+    (heard,) = hearing.call_args_list
+    assert heard.args[2] == 0.1
 
 
 def test_messages_come_back_as_they_were():
