@@ -3,6 +3,7 @@
 import itertools
 from dataclasses import replace
 
+import networkx
 import numpy as np
 import pytest
 import trimesh
@@ -268,17 +269,9 @@ def every_tree(parts):
     for root in parts:
         others = [p for p in parts if p != root]
         for parents in itertools.product(parts, repeat=len(others)):
-            above = dict(zip(others, parents, strict=True))
-            if all(leads_to(root, part, above) for part in others):
-                yield [(parent, child) for child, parent in above.items()]
-
-
-def leads_to(root, part, above):
-    for _ in above:
-        part = above[part]
-        if part == root:
-            return True
-    return False
+            edges = list(zip(parents, others, strict=True))
+            if networkx.is_arborescence(networkx.DiGraph(edges)):
+                yield edges
 
 
 @pytest.mark.parametrize("index", range(12))
@@ -295,11 +288,11 @@ def test_the_tree_is_that_of_the_release_or_a_likelier_one(fixtures, index):
         assert weight(logits, found) >= weight(logits, edges)
 
 
-@given(st.integers(0, 10**6), st.integers(1, 4))
+@given(st.integers(0, 10**6), st.integers(2, 4))
 def test_no_tree_is_likelier(seed, count):
     logits = np.random.default_rng(seed).normal(size=(count, count)) * 5
     found = spanning_arborescence(logits, np.arange(count))
-    best = max((weight(logits, edges) for edges in every_tree(list(range(count)))), default=0.0)
+    best = max(weight(logits, edges) for edges in every_tree(range(count)))
     assert weight(logits, found) == pytest.approx(best)
     assert len(found) == count - 1
     assert len({child for _, child in found}) == count - 1

@@ -78,13 +78,6 @@ def test_the_same_tensors_are_the_same_bytes_in_any_order(stored, tmp_path):
     assert not list(tmp_path.glob(".writing-*"))
 
 
-def test_files_of_the_formats_own_library_are_read(fixtures):
-    checkpoint = open_checkpoint(fixtures / "pat_tiny" / "weights_seed0.safetensors")
-    tensors = load_tensors(checkpoint)
-    assert len(tensors) == 116
-    assert tensors["pos_embed.mlp.0.weight"].shape == (48, 195)
-
-
 @settings(max_examples=60)
 @given(share=st.floats(0.0, 0.999))
 def test_a_file_cut_anywhere_is_refused(tmp_path_factory, share):
