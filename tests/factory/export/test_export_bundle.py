@@ -1,21 +1,37 @@
-"""The bundle folder: complete, reproducible, and saying what it holds."""
+"""The bundle folder: complete, reproducible, and saying what it holds.
+
+What is shown of an asset stays with it, and with what was rejected.
+"""
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet, image
+from registry_samples import BAD_REPORT, REJECTED
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, Weights
 from asset_factory.factory.asset import Asset
+from asset_factory.factory.config import BuildConfig
+from asset_factory.factory.display.glb import scene_from
 from asset_factory.factory.export import export_bundle
+from asset_factory.factory.export.bundle import write_input, write_model
 from asset_factory.factory.export.manifest import Manifest
+from asset_factory.factory.intake.source import Source
 from asset_factory.factory.manufacture.plan import Plan, as_planned
 from asset_factory.factory.mesh import Material
 from asset_factory.factory.part import PartKind, PartSource, Proposer
+from asset_factory.factory.registry import Registry
+from asset_factory.factory.registry.product import SHOWN, finished
+from asset_factory.factory.registry.registration import register
+from asset_factory.factory.registry.verify import verify
+from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import folder_digests
+from asset_factory.factory.verify.validate import Verdict
+from asset_factory.sim_checks import Finding, Report, Severity
 
 #: A picture for each part, of one colour each.
 PICTURES = [image(color) for color in ((255, 0, 0), (0, 255, 0), (0, 0, 255))]
@@ -145,3 +161,34 @@ def test_the_ground_offset_lifts_an_object_that_closes_below_its_input_pose(tmp_
     drop = Joint("drop", JointKind.PRISMATIC, 0, 1, [0, 0, 1], [0, 0, 0], -0.5, 0.5)
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), box([3, 0, 0], [1, 1, 1])], (drop,))
     assert export_bundle(asset, PROVENANCE, tmp_path).manifest.ground_offset == 1.0
+
+
+def test_an_input_that_became_nothing_can_be_looked_at(tmp_path):
+    folder = write_input(box([0, 0, 1], [1, 2, 3]), tmp_path / "input")
+    scene = scene_from((folder / "view.glb").read_bytes())
+    assert (scene.links, scene.movable, len(scene.visuals)) == (("object",), (), 1)
+    with pytest.raises(FileExistsError):
+        write_input(box([0, 0, 0], [1, 1, 1]), tmp_path)
+
+
+def test_what_was_rejected_keeps_what_is_shown_and_no_asset(tmp_path):
+    registry = Registry(tmp_path / "out", create=True)
+    source = tmp_path / "cabinet.stl"
+    source.write_bytes(b"solid\nendsolid\n")
+    asset = cabinet()
+    bad = Finding("rest_penetration", Severity.ERROR, "5 mm deep")
+    with registry.staging_folder() as staging:
+        bundle = export_bundle(asset, PROVENANCE, staging / "0")
+        write_model(asset, bundle.folder)
+        verdict = Verdict(Report("asset.urdf", findings=(bad,)))
+        config = BuildConfig()
+        origin = Source(source, config)
+        intake = SimpleNamespace(name="cabinet", provenance=PROVENANCE)
+        product = finished(origin, intake, bundle, verdict, (), Stages(config, None))
+        result = register(registry, product)
+    kept = {path.name for path in registry.folder(result.entry).iterdir()}
+    assert kept == {*SHOWN, "report.json"}
+    # Of what became nothing there is the report alone.
+    folder = registry.add(replace(REJECTED, id="chest-1"), BAD_REPORT)
+    assert [path.name for path in folder.iterdir()] == ["report.json"]
+    assert verify(registry) == ()
