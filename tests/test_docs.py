@@ -8,12 +8,12 @@ import os
 import re
 import shlex
 import shutil
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
 
 import pytest
+from command_line import ran
 from shown_registry import make_registry
 from small_cabinet import write_urdf
 
@@ -87,9 +87,7 @@ def targets():
 
 
 def test_tables_are_as_the_code_would_write_them():
-    command = [sys.executable, ROOT / "docs" / "generate.py", "--check"]
-    run = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert run.returncode == 0, run.stdout + run.stderr
+    ran(sys.executable, ROOT / "docs" / "generate.py", "--check")
 
 
 def test_commands_are_found():
@@ -154,12 +152,8 @@ def test_cheap_commands_do_what_they_say(line, tmp_path, monkeypatch, capsys):
 def site(tmp_path_factory):
     """The docs as a site, as ``make docs`` builds them."""
     folder = tmp_path_factory.mktemp("site")
-    command = [sys.executable, "-m", "mkdocs", "build", "--site-dir", folder]
     quiet = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
-    built = subprocess.run(
-        command, cwd=ROOT, env=quiet, capture_output=True, text=True, check=False
-    )
-    assert built.returncode == 0, built.stderr
+    ran(sys.executable, "-m", "mkdocs", "build", "--site-dir", folder, cwd=ROOT, env=quiet)
     return folder
 
 
@@ -214,10 +208,7 @@ def paste(text, folder, *program):
     """Run a text as a program's input, as a terminal would."""
     path = os.pathsep.join((str(ROOT / "src"), os.environ.get("PYTHONPATH", "")))
     quiet = {**os.environ, "PYTHONPATH": path, "PYTHONWARNINGS": "ignore"}
-    done = subprocess.run(
-        program, input=text, cwd=folder, env=quiet, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, f"{text}\n{done.stdout}\n{done.stderr}"
+    ran(*program, input=text, cwd=folder, env=quiet)
 
 
 @pytest.mark.parametrize("page", PASTED)

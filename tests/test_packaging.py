@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import subprocess
 import sys
 import sysconfig
 import tarfile
@@ -12,6 +11,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from command_line import ran
 
 ROOT = Path(__file__).resolve().parents[1]
 GEOMETRY = {"fcl", "scipy", "trimesh"}
@@ -26,10 +26,7 @@ except SystemExit:
 
 def modules_after(code):
     script = f"import sys, json\n{code}\nprint(json.dumps(sorted(sys.modules)))"
-    run = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60
-    )
-    return set(json.loads(run.stdout.splitlines()[-1]))
+    return set(json.loads(ran(sys.executable, "-c", script).splitlines()[-1]))
 
 
 @pytest.mark.parametrize(
@@ -58,12 +55,7 @@ def test_importing_the_tasks_names_them_and_loads_no_simulator():
 @pytest.fixture(scope="module")
 def distributions(tmp_path_factory):
     target = tmp_path_factory.mktemp("dist")
-    subprocess.run(
-        [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(target), str(ROOT)],
-        check=True,
-        capture_output=True,
-        timeout=180,
-    )
+    ran(sys.executable, "-m", "build", "--no-isolation", "--outdir", target, ROOT)
     return target
 
 
@@ -110,49 +102,18 @@ def test_the_wheel_runs_in_a_fresh_environment(distributions, tmp_path):
     (wheel,) = distributions.glob("*.whl")
     venv.create(tmp_path / "venv", with_pip=False)
     python = tmp_path / "venv" / "bin" / "python"
-    install = [
-        sys.executable,
-        "-m",
-        "pip",
-        "--python",
-        str(python),
-        "install",
-        "--no-deps",
-        "--quiet",
-        str(wheel),
-    ]
-    subprocess.run(
-        install, check=True, timeout=120, env={**os.environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
-    )
+    install = (sys.executable, "-m", "pip", "--python", python, "install", "--no-deps", wheel)
+    ran(*install, env={**os.environ, "PIP_DISABLE_PIP_VERSION_CHECK": "1"})
     # Its dependencies are lent from here: what is tested is the wheel, not the network.
-    environment = {"PYTHONPATH": sysconfig.get_path("purelib"), "PATH": os.environ["PATH"]}
-    command = tmp_path / "venv" / "bin" / "factory"
-
-    def run(*arguments):
-        return subprocess.run(
-            [str(command), *arguments],
-            check=False,
-            capture_output=True,
-            text=True,
-            env=environment,
-            cwd=tmp_path,
-            timeout=120,
-        )
-
-    assert "build" in run("--help").stdout
+    lent = {"PYTHONPATH": sysconfig.get_path("purelib"), "PATH": os.environ["PATH"]}
+    there = {"env": lent, "cwd": tmp_path}
+    command = python.with_name("factory")
+    assert "build" in ran(command, "--help", **there)
     # Not part of the test: the editable checkout must not be what answers.
-    where = subprocess.run(
-        [str(python), "-c", "import asset_factory; print(asset_factory.__file__)"],
-        capture_output=True,
-        text=True,
-        env=environment,
-        cwd=tmp_path,
-        check=True,
-    )
-    assert str(tmp_path) in where.stdout
+    where = "import asset_factory; print(asset_factory.__file__)"
+    assert str(tmp_path) in ran(python, "-c", where, **there)
     (tmp_path / "broken.stl").write_bytes(b"not a mesh")
-    build = run("build", "--input", "broken.stl", "--output", "out")
-    assert build.returncode == 0, build.stderr
+    ran(command, "build", "--input", "broken.stl", "--output", "out", **there)
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert (summary["inputs"], summary["rejected"]) == (1, 1)
     assert summary["assets"][0]["reason"] == "unreadable"

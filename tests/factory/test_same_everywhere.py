@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from command_line import COMMAND
+from command_line import COMMAND, ran
 
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig, ReadingsConfig, RepairConfig
@@ -62,9 +62,8 @@ def test_a_warm_cache_changes_nothing_however_small_the_budgets(tmp_path):
 
 
 def built_with(output, **settings):
-    command = [*COMMAND, "build", "--sim", "mujoco"]
     asked = ["--input", EXAMPLES / "laptop.glb", "--output", output, "--quiet", "--no-report"]
-    subprocess.run([*command, *asked], env={**os.environ, **settings}, check=True, timeout=600)
+    ran(*COMMAND, "build", "--sim", "mujoco", *asked, env={**os.environ, **settings})
     return registered(output)
 
 

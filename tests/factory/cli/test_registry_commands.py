@@ -4,7 +4,6 @@ import io
 import json
 import re
 import shlex
-import subprocess
 import sys
 import tarfile
 from dataclasses import replace
@@ -12,6 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from command_line import ran
 from registry_samples import BAD_REPORT, REJECTED, named, publish, three_entries
 from shown_registry import HOSTILE, make_registry
 
@@ -126,7 +126,7 @@ def test_show_tells_size_joints_files_and_how_to_load_it(tmp_path, run):
     assert shown["changes"] == [{"kind": "hulls_cut_apart", "pairs": [[HOSTILE, "base"]]}]
     assert (shown["report"]["passed"], shown["manifest"]["name"]) == (True, "cabinet")
     (packing,) = re.findall(r"in a shell, as an archive to hand on:\n(.*)\n", out)
-    subprocess.run(shlex.split(packing), cwd=tmp_path, check=True)
+    ran(*shlex.split(packing), cwd=tmp_path)
     with tarfile.open(tmp_path / "cabinet-1.tar.gz") as archive:
         assert {"cabinet-1/asset.urdf", "cabinet-1/asset.json"} <= set(archive.getnames())
 

@@ -3,7 +3,6 @@
 import hashlib
 import io
 import os
-import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from command_line import ran
 from export_samples import cabinet
 from PIL import Image
 
@@ -50,9 +50,8 @@ def test_the_same_scene_gives_the_same_bytes_here_and_in_another_process(scene, 
     )
     samples = str(Path(__file__).parents[2] / "samples")
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([samples, *sys.path])}
-    command = [sys.executable, "-c", told]
-    there = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
-    assert there.stdout.strip() == hashlib.sha256(repr(pictures).encode()).hexdigest()
+    there = ran(sys.executable, "-c", told, env=environment)
+    assert there.strip() == hashlib.sha256(repr(pictures).encode()).hexdigest()
 
 
 def test_the_door_is_where_it_swings(scene):

@@ -1,11 +1,11 @@
 """What is handed on: whole, reproducible, and with its terms; and how two lists differ."""
 
 import json
-import subprocess
 import tarfile
 from dataclasses import asdict, replace
 
 import pytest
+from command_line import ran
 from registry_samples import PASSED, REJECTED, named, publish
 
 from asset_factory.factory.errors import ConfigError, RegistryError
@@ -36,8 +36,7 @@ def test_the_same_assets_give_the_same_bytes(registry, tmp_path, name, layout):
 
 def test_sha256sum_agrees(registry, tmp_path):
     export(registry, tmp_path / "x")
-    command = ["sha256sum", "--check", "--quiet", "--strict", "SHA256SUMS"]
-    subprocess.run(command, cwd=tmp_path / "x", check=True)
+    ran("sha256sum", "--check", "--quiet", "--strict", "SHA256SUMS", cwd=tmp_path / "x")
     listed = {line[66:] for line in (tmp_path / "x" / "SHA256SUMS").read_text().splitlines()}
     assert {*folder_digests(tmp_path / "x")} == listed | {"SHA256SUMS"}
 

@@ -1,12 +1,12 @@
 """The digest of a stage's source: it changes with what the stage runs, and with nothing else."""
 
 import ast
-import subprocess
 import sys
 from importlib.util import resolve_name
 from pathlib import Path
 
 import pytest
+from command_line import ran
 
 import asset_factory
 from asset_factory.factory.registry.keys import PIPELINE, STAGES
@@ -161,7 +161,7 @@ def test_the_digest_imports_nothing_heavy_and_takes_no_time():
         "spent = time.process_time() - started\n"
         "print(spent, *{'torch', 'scipy', 'trimesh', 'sapien', 'mujoco'} & set(sys.modules))\n"
     )
-    said = subprocess.check_output([sys.executable, "-c", script], text=True).split()
+    said = ran(sys.executable, "-c", script).split()
     assert len(said) == 1
     # Some thirty milliseconds on a quiet machine.
     assert float(said[0]) < 0.5

@@ -7,7 +7,6 @@ that no file holds.
 import json
 import os
 import signal
-import subprocess
 import sys
 import threading
 import time
@@ -15,6 +14,7 @@ from pathlib import Path
 
 import pytest
 import ray_calls
+from command_line import ran
 from waiting import until
 
 import asset_factory
@@ -202,8 +202,6 @@ def test_a_cluster_of_ones_own_listens_to_this_machine_and_this_job_only(tmp_pat
     monkeypatch.setenv("HOME", str(tmp_path))
     for name in ("RAY_AUTH_MODE", "RAY_AUTH_TOKEN", "RAY_AUTH_TOKEN_PATH"):
         monkeypatch.delenv(name, raising=False)
-    done = subprocess.run(
-        [sys.executable, "-c", SCRIPT], capture_output=True, text=True, timeout=120, check=True
-    )
-    assert json.loads(done.stdout) == {"told": ["token", 64], "addresses": ["127.0.0.1"]}
+    told = json.loads(ran(sys.executable, "-c", SCRIPT))
+    assert told == {"told": ["token", 64], "addresses": ["127.0.0.1"]}
     assert not (tmp_path / ".ray").exists()
