@@ -137,7 +137,6 @@ def test_a_check(monkeypatch, tmp_path):
 
 
 def test_a_simulator(monkeypatch, tmp_path):
-    pytest.importorskip("mujoco")
     listed("A simulator", monkeypatch, simulators, "SIMULATORS")
     assert simulators.installed("stricter")
     world = simulators.simulator("stricter").open(write_urdf(tmp_path), CheckConfig().motion)

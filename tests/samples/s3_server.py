@@ -13,11 +13,11 @@ KEY = "AKIAEXAMPLEEXAMPLE"
 
 @contextmanager
 def s3_server(listens_on: str = "127.0.0.1") -> Iterator[str]:
-    """Its address; this process's fsspec and its children use it. Skips where moto is missing."""
-    pytest.importorskip("s3fs")
-    server_module = pytest.importorskip("moto.server")
+    """Its address; this process's fsspec and its children use it."""
+    from moto.server import ThreadedMotoServer
+
     logging.getLogger("werkzeug").setLevel(logging.ERROR)
-    server = server_module.ThreadedMotoServer(ip_address=listens_on, port=0, verbose=False)
+    server = ThreadedMotoServer(ip_address=listens_on, port=0, verbose=False)
     server.start()
     _, port = server.get_host_and_port()
     told = {

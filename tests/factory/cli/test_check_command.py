@@ -66,8 +66,6 @@ def test_reports_are_printed_as_they_come(tmp_path, monkeypatch):
 
 
 def test_every_simulator_at_once_and_who_disagrees(tmp_path, capsys):
-    for engine in ("sapien", "mujoco", "pybullet"):
-        pytest.importorskip(engine)
     path = write_drawer(tmp_path / "asset.urdf", -0.01)
     assert run(["check", str(path), "--sim", "all", "--strict"]) == 1
     out = capsys.readouterr().out
@@ -133,7 +131,6 @@ def mjcf_beside(urdf, upper):
 def test_a_format_that_no_engine_reads_is_judged_by_the_file_beside_it_that_says_the_same(
     tmp_path, capsys, upper, code
 ):
-    pytest.importorskip("sapien")
     # Told before the file that speaks for it.
     mjcf_beside(write_drawer(tmp_path / "z.urdf", 0.004), upper).rename(tmp_path / "a.xml")
     assert run(["check", str(tmp_path), "--sim", "sapien"]) == code

@@ -34,7 +34,6 @@ def lopsided_asset():
 @pytest.fixture(scope="module", params=["urdf", "mjcf"])
 def said(request, tmp_path_factory):
     """What a file of the exported asset says."""
-    pytest.importorskip("mujoco", reason="mujoco is not installed")
     bundle = export_bundle(lopsided_asset(), PROVENANCE, tmp_path_factory.mktemp("bundle"))
     return read_here(getattr(bundle, request.param))
 

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 
+import mujoco  # noqa: TID253
 import numpy as np
 import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet, image, inertial_of
@@ -19,7 +20,6 @@ LIMITS = Limits(wall_s=120.0)
 @pytest.fixture
 def in_mujoco(tmp_path):
     """A function that has MuJoCo load what an asset is exported as."""
-    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
 
     def load(asset):
         path = export_bundle(asset, PROVENANCE, tmp_path).mjcf
@@ -44,7 +44,6 @@ def pybullet_turned(path):
 
 
 def test_pybullet_opens_a_flap_of_five_grams(tmp_path):
-    pytest.importorskip("pybullet", reason="pybullet is not installed")
     hinge = Joint("hinge", JointKind.REVOLUTE, 0, 1, [0, 0, 1], [-0.004, 0.0, 2.0], 0.0, 2.5)
     plate = box([0, 0, 2], [0.008, 0.001, 0.012])
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), plate], (hinge,))
@@ -70,7 +69,6 @@ def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(in_mujoco):
 
 
 def test_mujoco_holds_what_friction_should_hold(in_mujoco):
-    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed")
     down = Joint("press", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, -1], 0.0, 0.02)
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), box([0, 0, -1], [0.1, 0.1, 0.02])], (down,))
     model = in_mujoco(asset)

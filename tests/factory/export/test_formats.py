@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import mujoco  # noqa: TID253
 import numpy as np
 import pytest
 from export_samples import PROVENANCE, cabinet, frames, tree_of_boxes
@@ -80,7 +81,6 @@ def test_the_same_asset_has_the_same_bytes_and_only_what_is_asked_for_is_written
 
 
 def test_a_joint_that_follows_another_does_so_in_every_format_and_back(tmp_path):
-    mujoco = pytest.importorskip("mujoco")
     asset = cabinet()
     hinge, slide = asset.articulation.joints
     slide = replace(slide, upper=0.4, mimic=Mimic("hinge", 0.25))

@@ -37,7 +37,6 @@ def test_a_package_is_an_input_wherever_it_lies_and_known_by_all_its_files(tmp_p
 
 
 def test_an_mjcf_of_a_package_is_an_input(tmp_path):
-    pytest.importorskip("mujoco")
     path = write_mjcf_package(tmp_path, 'meshdir="../meshes"', "", "../common/assets.xml")
     read = source(path)
     assert len(read.load().mesh.faces) == 24
@@ -83,7 +82,6 @@ def test_roots_are_those_of_flags_of_the_ros_path_and_the_folders_of_inputs(
 
 
 def test_a_xacro_file_is_an_input_by_all_that_it_includes_and_its_arguments(tmp_path):
-    pytest.importorskip("xacro")
     path = write_package(tmp_path, "cabinet", "package://cabinet/meshes/", "urdf/cabinet.xacro")
     namespace = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
     limits = f'<robot {namespace}><xacro:arg name="travel" default="0.1"/></robot>'

@@ -12,8 +12,6 @@ from asset_factory.factory.intake.load import load_description
 from asset_factory.factory.intake.reads import ABSENT, ReadLog
 from asset_factory.sim_checks.read.mjcf_model import CompiledGeom
 
-pytest.importorskip("mujoco")
-
 # Neither centred nor aligned with its principal axes: MuJoCo stores it moved and turned.
 LOPSIDED = "v 5 0 0\nv 6 0.1 0\nv 5 2 0.2\nv 5.3 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
 

@@ -4,8 +4,6 @@ import zipfile
 
 import numpy as np
 import pytest
-
-pytest.importorskip("pxr")
 from refusing import refusal
 from usda import BASE, CABINET, DOOR, HINGE, body, joint, mesh, stage, write
 

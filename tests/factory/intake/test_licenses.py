@@ -54,8 +54,6 @@ def inputs(folder):
 
 @pytest.mark.parametrize("form", ["mesh", "urdf", "mjcf"])
 def test_a_sidecar_states_the_license_of_every_kind_of_input(form, tmp_path):
-    if form == "mjcf":
-        pytest.importorskip("mujoco")
     path = inputs(tmp_path)[form]
     strict = IntakeConfig(allowed_licenses=("CC-BY-4.0",))
     assert "nobody says under which license it stands" in refusal(load, path, strict).message

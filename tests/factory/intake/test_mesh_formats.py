@@ -268,7 +268,6 @@ def test_ply_mixed_polygons_keep_their_order(form, tmp_path):
 
 
 def test_collada_applies_its_unit_and_nodes(tmp_path):
-    pytest.importorskip("collada", reason="pycollada is not installed")
     text = DAE.format("wood.png").replace('<unit name="meter" meter="1"/>', '<unit meter="0.01"/>')
     lifted = text.replace("<node>", "<node><translate>0 0 3</translate>")
     (tmp_path / "t.dae").write_text(lifted)

@@ -260,7 +260,6 @@ def test_a_reference_that_leaves_the_folder_is_external(reference, tmp_path):
 
 
 def test_a_collada_file_shows_pictures_of_its_own_folder_only(tmp_path):
-    pytest.importorskip("collada", reason="pycollada is not installed")
     inside = tmp_path / "inside"
     inside.mkdir()
     for folder in (tmp_path, inside):

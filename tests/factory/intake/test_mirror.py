@@ -13,8 +13,6 @@ from asset_factory.factory.intake.discover import find_inputs
 from asset_factory.factory.intake.mirror import local_inputs, mirror_of
 from asset_factory.factory.runtime.remote import is_url, located, shown, told
 
-fsspec = pytest.importorskip("fsspec")
-
 FILES = {"a.stl": b"solid a", "a.toml": b"license = 'CC0-1.0'", "chairs/b.glb": b"glTF", ".x": b""}
 
 

@@ -4,8 +4,10 @@ import json
 import tarfile
 from dataclasses import asdict, replace
 
+import fsspec  # noqa: TID253
 import pytest
 from command_line import ran
+from pyarrow import parquet  # noqa: TID253
 from registry_samples import PASSED, REJECTED, named, publish
 
 from asset_factory.factory.errors import ConfigError, RegistryError
@@ -53,7 +55,6 @@ def test_licenses_are_told_and_what_people_write_into_one_stays_text(registry, t
 
 
 def test_the_hub_finds_a_card_and_tables(registry, tmp_path):
-    parquet = pytest.importorskip("pyarrow.parquet")
     export(registry, tmp_path / "x", "huggingface", status="passed")
     card = (tmp_path / "x" / "README.md").read_text()
     matter = card.split("---")[1]
@@ -95,7 +96,6 @@ def test_a_report_that_names_files_elsewhere_leads_nowhere(registry, tmp_path):
 
 
 def test_urls(registry, tmp_path):
-    fsspec = pytest.importorskip("fsspec")
     export(registry, "memory://bucket/x.tar.gz")
     export(registry, tmp_path / "x.tar.gz")
     with fsspec.open("memory://bucket/x.tar.gz", "rb") as stream:

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import time
 
+import fsspec  # noqa: TID253
 import pytest
 from command_line import COMMAND
 from registry_samples import named, publish
@@ -18,7 +19,6 @@ from asset_factory.factory.registry.export import contents
 from asset_factory.factory.registry.sync import UNFINISHED, sync
 from asset_factory.factory.runtime.store import digest_bytes
 
-fsspec = pytest.importorskip("fsspec")
 URL = f"s3://{BUCKET}/copy"
 
 

@@ -2,7 +2,6 @@
 
 from unittest.mock import patch
 
-import pytest
 from export_samples import PROVENANCE, box, boxes_asset, cabinet
 
 from asset_factory.factory.articulation import Joint, JointKind
@@ -16,7 +15,6 @@ from asset_factory.sim_checks.judge import Examination, Judge
 
 
 def test_what_was_inspected_is_not_measured_again(tmp_path):
-    pytest.importorskip("mujoco")
     bundle = export_bundle(cabinet(), PROVENANCE, tmp_path / "bundle")
     stages = Stages(BuildConfig(simulators=("mujoco",)))
     with Judge() as judge, patch.object(judge, "examine", wraps=judge.examine) as examined:
@@ -27,8 +25,6 @@ def test_what_was_inspected_is_not_measured_again(tmp_path):
 
 
 def test_simulators_that_judged_different_files_of_one_asset_can_disagree(tmp_path):
-    for engine in ("sapien", "mujoco"):
-        pytest.importorskip(engine)
     # A drawer 5 mm within the side of its own body.
     body = box([0.0, 0.0, 0.4], [0.6, 0.4, 0.8])
     drawer = box([0.395, 0.0, 0.4], [0.2, 0.4, 0.8])

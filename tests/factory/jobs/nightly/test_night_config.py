@@ -4,6 +4,7 @@ import tomllib
 from dataclasses import asdict
 from pathlib import Path
 
+import fsspec  # noqa: TID253
 import pytest
 
 from asset_factory.factory.cli.nightly import Nightly, night_config
@@ -127,7 +128,6 @@ def test_inputs_with_another_license_are_left_out(tmp_path):
 
 
 def test_inputs_may_lie_behind_urls(tmp_path):
-    fsspec = pytest.importorskip("fsspec")
     fsspec.filesystem("memory").pipe_file("/nightly/in/a.stl", b"solid a")
     text = "inputs = ['memory://nightly/in', 'meshes']\noutput = 'out'\n"
     (tmp_path / "meshes").mkdir()

@@ -20,8 +20,6 @@ from asset_factory.factory.report.nightly.files import JOURNAL
 from asset_factory.factory.report.nightly.outcome import FailureRules
 from asset_factory.factory.report.nightly.table import read_table
 
-pytest.importorskip("pyarrow")
-
 
 class Workshop:
     """Builds nothing: passes what is not told to fail, and knows it the next time."""

@@ -17,8 +17,6 @@ from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.verify import verify
 from asset_factory.factory.runtime.store import folder_digests
 
-pytest.importorskip("pyarrow")
-
 
 @pytest.fixture
 def command(tmp_path):
@@ -57,7 +55,6 @@ def test_budgets_and_executors_are_those_of_jobs(command):
 
 
 def test_a_night_mends_what_it_can_and_withdraws_nothing_before_inputs_are_begun(command, capsys):
-    pytest.importorskip("mujoco")
     trimesh.creation.box((0.4, 0.3, 0.5)).export(command.output.parent / "in" / "box.stl")
     config = night_config(command)
     (first,) = night(config).attempts

@@ -75,7 +75,6 @@ def submitted(cluster, home, script, *more, path=""):
 
 @pytest.mark.cluster
 def test_slurm_runs_a_night(cluster, home):
-    pytest.importorskip("pyarrow")
     program(home, "factory", REAL)
     assert submitted(cluster, home, "nightly.sbatch").wait(120.0) == 0
     said = (home / "said").read_text()

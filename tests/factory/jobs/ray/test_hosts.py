@@ -23,7 +23,6 @@ import asset_factory
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.cleaning import collect_garbage
 
-pytest.importorskip("ray")
 pytestmark = [
     pytest.mark.cluster,
     pytest.mark.filterwarnings("ignore:subprocess .* is still running:ResourceWarning"),
@@ -122,7 +121,6 @@ def test_the_registry_is_that_of_one_host(cluster, inputs, undisturbed, tmp_path
 
 
 def test_weights_reach_hosts_that_do_not_see_them(cluster, hidden, tmp_path):
-    pytest.importorskip("torch")
     meshes = hidden / "furniture"
     meshes.mkdir()
     for path in EXAMPLES.glob("fridge.*"):

@@ -11,7 +11,6 @@ from asset_factory.factory.jobs import LocalExecutor
 from asset_factory.factory.jobs.job import Job
 from asset_factory.factory.jobs.ray.builds import ray_executor
 
-pytest.importorskip("ray")
 pytestmark = [
     pytest.mark.full,
     pytest.mark.filterwarnings("ignore:subprocess .* is still running:ResourceWarning"),

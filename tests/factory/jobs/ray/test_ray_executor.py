@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 
 import pytest
+import ray  # noqa: TID253
 import ray_calls
 from command_line import ran
 from waiting import until
@@ -24,8 +25,6 @@ from asset_factory.factory.jobs.executor import AHEAD, Call
 from asset_factory.factory.jobs.ray.cluster import SETTINGS
 from asset_factory.factory.jobs.ray.executor import RayExecutor
 from asset_factory.sim_checks.processes.isolation import Limits
-
-ray = pytest.importorskip("ray")
 
 LIMITS = Limits(wall_s=60.0)
 pytestmark = [

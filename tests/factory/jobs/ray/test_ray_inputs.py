@@ -182,7 +182,6 @@ def sent(tmp_path):
 @pytest.fixture
 def made(monkeypatch):
     """Calls in this process, whose outcome a test sets; each notes what it saw of its input."""
-    pytest.importorskip("ray")
     seen = []
 
     def work(child, function, limits, *, retries, until):

@@ -19,6 +19,7 @@ from asset_factory.factory.models.detector.canvas import (
     shares_of,
 )
 from asset_factory.factory.models.detector.decode import Dense, found_parts, overlaps
+from asset_factory.factory.models.detector.detect import detect
 from asset_factory.factory.views.raster import Side
 from asset_factory.learn.objects import make_object
 
@@ -91,9 +92,6 @@ def test_each_box_is_found_once_with_its_sort_and_way():
     [("fridge", 3, Sort.DOOR), ("dresser", 3, Sort.DRAWER), ("oven", 3, Sort.FLAP)],
 )
 def test_the_shipped_weights_know_made_objects(kind, seed, sort):
-    pytest.importorskip("torch")
-    from asset_factory.factory.models.detector.detect import detect
-
     made = make_object(kind, seed)
     detection = detect(made.mesh)
     assert detection.opens > 0.9
@@ -102,7 +100,4 @@ def test_the_shipped_weights_know_made_objects(kind, seed, sort):
 
 
 def test_the_shipped_weights_leave_a_plain_box_shut():
-    pytest.importorskip("torch")
-    from asset_factory.factory.models.detector.detect import detect
-
     assert not detect(box([0.0, 0.0, 0.2], [0.5, 0.3, 0.4])).parts(0.6)

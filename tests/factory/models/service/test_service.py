@@ -41,7 +41,8 @@ def config(tmp_path):
 
 
 def test_a_loaded_network_multiplies_with_one_thread(config):
-    torch = pytest.importorskip("torch")
+    import torch
+
     before = torch.get_num_threads()
     torch.set_num_threads(2)
     try:

@@ -2,6 +2,7 @@
 
 import pytest
 from nights_made import ATTEMPTS, attempt, night
+from pyarrow import parquet  # noqa: TID253
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.report.nightly.files import (
@@ -19,7 +20,6 @@ from asset_factory.factory.runtime.store import write_json
 
 
 def test_the_table_read_back_is_the_rows_with_columns_for_others_to_use(tmp_path):
-    parquet = pytest.importorskip("pyarrow.parquet")
     path = tmp_path / "attempts.parquet"
     assert read_table(path) == ()
     write_table(path, ATTEMPTS)
@@ -36,7 +36,6 @@ def test_the_table_read_back_is_the_rows_with_columns_for_others_to_use(tmp_path
 
 
 def test_the_table_has_a_row_per_attempt_and_says_which_counts(tmp_path):
-    parquet = pytest.importorskip("pyarrow.parquet")
     first = attempt("a", "unjudged", key="1")
     again = attempt("a", key="2", attempts=3, seconds=2.0)
     known = attempt("a", key="2", attempts=0)

@@ -15,8 +15,6 @@ from asset_factory.factory.report.nightly.files import environment, night_page, 
 from asset_factory.factory.report.nightly.night import Night
 from asset_factory.factory.report.nightly.report import LeftOut, NightlyReport
 
-pytest.importorskip("jinja2")
-
 #: Nights in the trend; rows of a table that are seen at once, and those there are at all.
 NIGHTS = 60
 SHOWN = 20
