@@ -2,7 +2,6 @@
 
 import re
 import sys
-from pathlib import Path
 from types import ModuleType
 
 import numpy as np
@@ -12,6 +11,7 @@ from export_samples import PROVENANCE
 from export_samples import cabinet as small_asset
 from manifold3d import Manifold
 from openable_samples import cabinet, write_registry
+from repository import ROOT
 from small_cabinet import write_urdf
 
 from asset_factory.envs.tasks import catalog as tasks
@@ -37,7 +37,7 @@ from asset_factory.sim_checks.config import CheckConfig
 from asset_factory.sim_checks.judge import examine_here
 from asset_factory.sim_checks.simulators import catalog as simulators
 
-PAGE = Path(__file__).parents[1] / "CONTRIBUTING.md"
+PAGE = ROOT / "CONTRIBUTING.md"
 SECTION = re.compile(r"^### (.+?)\n(.*?)(?=^### |\Z)", re.MULTILINE | re.DOTALL)
 EXAMPLES = {
     heading: re.search(r"```python\n(.*?)```", text, re.DOTALL)

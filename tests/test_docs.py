@@ -14,13 +14,13 @@ from pathlib import Path
 
 import pytest
 from command_line import ran
+from repository import ROOT
 from shown_registry import make_registry
 from small_cabinet import write_urdf
 
 from asset_factory.factory.cli.commands import parse, run
 from asset_factory.factory.intake.stated import stated_from
 
-ROOT = Path(__file__).resolve().parents[1]
 #: Pages whose blocks are run as they stand.
 PASTED = (
     "README.md",

@@ -2,11 +2,10 @@
 
 import runpy
 import shutil
-from pathlib import Path
 
 import pytest
+from repository import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 SCRIPT = runpy.run_path(str(ROOT / ".ci" / "mutants.py"))
 MUTANTS = SCRIPT["read_mutants"](SCRIPT["LIST"])
 

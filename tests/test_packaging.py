@@ -8,12 +8,11 @@ import sysconfig
 import tarfile
 import venv
 import zipfile
-from pathlib import Path
 
 import pytest
 from command_line import ran
+from repository import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 GEOMETRY = {"fcl", "scipy", "trimesh"}
 SIMULATORS = {"coacd", "gymnasium", "mani_skill", "mujoco", "pybullet", "sapien"}
 HEAVY = GEOMETRY | SIMULATORS | {"jinja2", "torch"}

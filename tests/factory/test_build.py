@@ -10,14 +10,12 @@ import pytest
 import trimesh
 from command_line import COMMAND
 from fault_corpus.things import Body, Move, Thing, at, box, write_urdf
+from repository import EXAMPLES, MESHES
 
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.cli.build import build_config
 from asset_factory.factory.cli.commands import parse, run
 from asset_factory.factory.config import BuildConfig
-
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "meshes"
-GENERATED = EXAMPLES.parent / "generated" / "fridge.glb"
 
 
 def build(output, *arguments):
@@ -29,7 +27,7 @@ def build(output, *arguments):
 
 def test_an_example_and_a_generated_skin_pass_in_all_three_simulators(tmp_path):
     output = tmp_path / "out"
-    inputs = (EXAMPLES / "fridge.obj", GENERATED)
+    inputs = (MESHES / "fridge.obj", EXAMPLES / "generated" / "fridge.glb")
     done, summary = build(output, "--input", *inputs, "--sim", "sapien,mujoco,pybullet")
     assert done.returncode == 0, done.stderr
     assert (summary["inputs"], summary["passed"], summary["rejected"]) == (2, 2, 0), summary
@@ -131,9 +129,7 @@ def test_an_interior_is_made_unless_a_flag_says_no(flags, interior):
 
 @pytest.mark.full
 def test_every_example_of_the_demo_passes(tmp_path):
-    done, summary = build(
-        tmp_path, "--input", EXAMPLES, EXAMPLES.parent / "generated", "--sim", "sapien"
-    )
+    done, summary = build(tmp_path, "--input", MESHES, EXAMPLES / "generated", "--sim", "sapien")
     assert done.returncode == 0
     assert {row["status"] for row in summary["assets"]} == {"passed"}, summary["assets"]
     assert len(summary["assets"]) == 11

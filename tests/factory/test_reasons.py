@@ -3,13 +3,13 @@
 import ast
 from functools import cache
 from itertools import chain
-from pathlib import Path
+
+from repository import ROOT
 
 from asset_factory.factory import reasons
 from asset_factory.sim_checks import Severity
 from asset_factory.sim_checks import reasons as judge
 
-ROOT = Path(__file__).parents[2]
 #: Calls whose first argument, or ``code``, is a code.
 SAYING = {"Finding", "InputRejected", "DescriptionError", "found", "_finding"}
 

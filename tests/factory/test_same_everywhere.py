@@ -6,10 +6,10 @@ import shutil
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from command_line import COMMAND, ran
+from repository import MESHES
 
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig, ReadingsConfig, RepairConfig
@@ -18,7 +18,6 @@ from asset_factory.factory.runtime.layout import CACHE
 from asset_factory.factory.runtime.store import folder_digests
 from asset_factory.sim_checks.processes.threads import VARIABLES
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "meshes"
 #: What numpy would use beyond what every processor has.
 DISPATCHED = " ".join(np._core._multiarray_umath.__cpu_dispatch__)
 #: OpenBLAS's kernels of two processors ten years apart, and everybody else without what is new.
@@ -45,7 +44,7 @@ def registered(output):
 
 def test_a_warm_cache_changes_nothing_however_small_the_budgets(tmp_path):
     for name, config in (("full", CONFIG), ("shrunken", SHRUNKEN)):
-        build_asset(EXAMPLES / "cabinet.glb", tmp_path / name, config)
+        build_asset(MESHES / "cabinet.glb", tmp_path / name, config)
     # From its own cache, and from one of somebody who went further.
     for cold, cache, config in (
         ("full", "full", CONFIG),
@@ -54,7 +53,7 @@ def test_a_warm_cache_changes_nothing_however_small_the_budgets(tmp_path):
     ):
         warm = tmp_path / f"{cold} from {cache}"
         shutil.copytree(tmp_path / cache / CACHE, warm / CACHE)
-        result = build_asset(EXAMPLES / "cabinet.glb", warm, config)
+        result = build_asset(MESHES / "cabinet.glb", warm, config)
         assert {"decompose", "finish", "inspect"} & set(result.reused)
         assert registered(warm) == registered(tmp_path / cold)
     assert registered(tmp_path / "full")[0] == "passed"
@@ -62,7 +61,7 @@ def test_a_warm_cache_changes_nothing_however_small_the_budgets(tmp_path):
 
 
 def built_with(output, **settings):
-    asked = ["--input", EXAMPLES / "laptop.glb", "--output", output, "--quiet", "--no-report"]
+    asked = ["--input", MESHES / "laptop.glb", "--output", output, "--quiet", "--no-report"]
     ran(*COMMAND, "build", "--sim", "mujoco", *asked, env={**os.environ, **settings})
     return registered(output)
 

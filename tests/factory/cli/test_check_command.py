@@ -9,6 +9,7 @@ import defusedxml.ElementTree
 import jsonschema
 import pytest
 from box_world import write_drawer
+from repository import ROOT
 
 import asset_factory
 from asset_factory.factory.cli import console
@@ -17,7 +18,7 @@ from asset_factory.factory.cli.commands import run
 from asset_factory.sim_checks import Disagreement, Finding, Report, Severity
 from asset_factory.sim_checks.judge import Judge
 
-DOCS = Path(__file__).resolve().parents[3] / "docs"
+DOCS = ROOT / "docs"
 HOSTILE = "a|b::error::%\n</failure>]]>\x1b\x00 `<b>`"
 
 

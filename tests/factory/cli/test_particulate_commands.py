@@ -3,11 +3,11 @@
 import hashlib
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from command_line import COMMAND, ran
+from repository import FRIDGE
 from tiny_checkpoint import write_checkpoint
 
 from asset_factory.factory.articulate.predict import predict
@@ -16,8 +16,6 @@ from asset_factory.factory.cli.commands import run
 from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.jobs.job import asks_network
-
-FRIDGE = Path(__file__).resolve().parents[3] / "examples" / "meshes" / "fridge.obj"
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,6 @@ import io
 import os
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +12,7 @@ import trimesh
 from command_line import ran
 from export_samples import cabinet
 from PIL import Image
+from repository import SAMPLES
 
 from asset_factory.factory.display.camera import Viewpoint
 from asset_factory.factory.display.casting import Caster, Shot
@@ -48,8 +48,7 @@ def test_the_same_scene_gives_the_same_bytes_here_and_in_another_process(scene, 
         f"made = pictures_of(scene_of(cabinet()), {FAULT})\n"
         "print(hashlib.sha256(repr(made).encode()).hexdigest())\n"
     )
-    samples = str(Path(__file__).parents[2] / "samples")
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([samples, *sys.path])}
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(SAMPLES), *sys.path])}
     there = ran(sys.executable, "-c", told, env=environment)
     assert there.strip() == hashlib.sha256(repr(pictures).encode()).hexdigest()
 

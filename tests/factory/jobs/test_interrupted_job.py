@@ -5,16 +5,16 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
 from job_samples import MADE, job, made, pretend, write_inputs
+from repository import SAMPLES
 from waiting import alive, until
 
 from asset_factory.factory.jobs.signals import Terminated, interruptible, undisturbed
 from asset_factory.factory.registry import Registry
 
-SCRIPT = Path(__file__).parents[2] / "samples" / "slow_job.py"
+SCRIPT = SAMPLES / "slow_job.py"
 PATIENCE_S = 60.0
 
 

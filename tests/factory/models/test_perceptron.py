@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from repository import ROOT
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.models.perceptron import Perceptron, inputs_of, linear
 from asset_factory.factory.models.shipped import Arrays, load_arrays
 from asset_factory.factory.models.weights.safetensors import write_arrays
 
-WEIGHTS = Path(__file__).parents[3] / "configs" / "weights"
+WEIGHTS = ROOT / "configs" / "weights"
 FILES = sorted(path.name for path in WEIGHTS.iterdir() if path.suffix != ".md")
 
 

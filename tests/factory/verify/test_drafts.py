@@ -4,13 +4,13 @@ What only simulators refuse is repaired too: the guess that is worth least is gi
 """
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 from export_samples import cabinet
 from modelled_furniture import METAL, PAINT, board
+from repository import FRIDGE
 
 from asset_factory.factory.articulate import standing
 from asset_factory.factory.articulate.proposal import Hypothesis
@@ -66,7 +66,6 @@ def test_one_that_passes_without_a_joint_is_better_than_none_and_worse_than_whol
     assert best_of(iter([first, draft(DEEP)]))[0] is first
 
 
-FRIDGE = Path(__file__).resolve().parents[3] / "examples" / "meshes" / "fridge.obj"
 CONFIG = BuildConfig(articulator="geometric", simulators=())
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import fsspec  # noqa: TID253
 import pytest
+from repository import ROOT
 
 from asset_factory.factory.cli.nightly import Nightly, night_config
 from asset_factory.factory.config import BuildConfig
@@ -14,7 +15,7 @@ from asset_factory.factory.jobs.nightly.licenses import Licenses, sort_out
 from asset_factory.factory.jobs.nightly.settings import NightConfig, load_night
 from asset_factory.factory.jobs.nightly.work import Work
 
-SHIPPED = Path(__file__).parents[4] / "configs" / "nightly.toml"
+SHIPPED = ROOT / "configs" / "nightly.toml"
 
 
 def written(folder, text):
@@ -26,7 +27,7 @@ def written(folder, text):
 def test_the_shipped_file_states_every_setting_and_its_tables_the_defaults():
     config = night_config(Nightly(SHIPPED))
     assert config.build.simulators == ("sapien", "mujoco", "pybullet")
-    assert config.inputs == (SHIPPED.parents[1] / "examples" / "meshes",)
+    assert config.inputs == (ROOT / "examples" / "meshes",)
     for table in ("budget", "licenses", "upkeep", "failure"):
         assert getattr(config, table) == getattr(NightConfig(), table)
     stated = tomllib.loads(SHIPPED.read_text())

@@ -4,19 +4,18 @@ import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from repository import EXAMPLES, ROOT
 from slurm_cluster import slurm_cluster
 from waiting import until
 
-EXAMPLES = Path(__file__).parents[4] / "examples" / "nightly"
-SOURCES = Path(__file__).parents[4] / "src"
+NIGHTLY = EXAMPLES / "nightly"
 #: Smaller than what the scripts ask for.
 SMALL = ("--cpus-per-task=1", "--mem=200")
 
 REAL = f"""#!/bin/sh
-PYTHONPATH={SOURCES} exec {sys.executable} -m asset_factory.factory.cli "$@"
+PYTHONPATH={ROOT}/src exec {sys.executable} -m asset_factory.factory.cli "$@"
 """
 NOTING = """#!/bin/sh
 echo "$SLURMD_NODENAME $(basename "$0") $*" >> "$HOME/calls"
@@ -54,7 +53,7 @@ def test_systemd_takes_the_units_as_they_are(home):
         pytest.skip("no systemd-analyze here: apt-get install systemd")
     program(home, "factory", REAL)
     command = ["systemd-analyze", "verify", "--user", "--man=no", "--recursive-errors=no"]
-    command += [EXAMPLES / f"factory-nightly.{kind}" for kind in ("service", "timer")]
+    command += [NIGHTLY / f"factory-nightly.{kind}" for kind in ("service", "timer")]
     environment = {**os.environ, "HOME": str(home), "XDG_RUNTIME_DIR": str(home)}
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout + done.stderr) == (0, "")
@@ -69,7 +68,7 @@ def cluster(tmp_path_factory):
 def submitted(cluster, home, script, *more, path=""):
     """The exit code of a job, once it ended."""
     environment = {**cluster, "HOME": str(home), "PATH": f"{path}{os.environ['PATH']}"}
-    command = ["sbatch", "--wait", f"--output={home}/said", *SMALL, *more, EXAMPLES / script]
+    command = ["sbatch", "--wait", f"--output={home}/said", *SMALL, *more, NIGHTLY / script]
     return subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
 
 

@@ -16,6 +16,7 @@ from command_line import COMMAND
 from hosts import hosts
 from input_files import write_inputs
 from registry_samples import require_same
+from repository import MESHES
 from s3_server import BUCKET, s3_server
 from tiny_checkpoint import write_checkpoint
 
@@ -31,7 +32,6 @@ pytestmark = [
 FLAGS = ("--articulator", "rigid", "--sim", "mujoco", "--no-report", "--quiet")
 #: Where a host has its own temporary files.
 OWN = Path("/tmp")  # noqa: S108 - of a host, not of this machine
-EXAMPLES = Path(__file__).parents[4] / "examples" / "meshes"
 
 
 @pytest.fixture(scope="module")
@@ -123,7 +123,7 @@ def test_the_registry_is_that_of_one_host(cluster, inputs, undisturbed, tmp_path
 def test_weights_reach_hosts_that_do_not_see_them(cluster, hidden, tmp_path):
     meshes = hidden / "furniture"
     meshes.mkdir()
-    for path in EXAMPLES.glob("fridge.*"):
+    for path in MESHES.glob("fridge.*"):
         shutil.copy(path, meshes)
     (hidden / "weights").mkdir()
     checkpoint = write_checkpoint(hidden / "weights" / "tiny.safetensors", base=7)

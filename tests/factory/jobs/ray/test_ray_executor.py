@@ -16,6 +16,7 @@ import pytest
 import ray  # noqa: TID253
 import ray_calls
 from command_line import ran
+from repository import SAMPLES
 from waiting import until
 
 import asset_factory
@@ -37,10 +38,7 @@ pytestmark = [
 @pytest.fixture(scope="module", autouse=True)
 def _nodes_find_the_calls():
     with pytest.MonkeyPatch.context() as patch:
-        folders = (
-            Path(__file__).parents[3] / "samples",
-            Path(asset_factory.__file__).parent.parent,
-        )
+        folders = (SAMPLES, Path(asset_factory.__file__).parent.parent)
         patch.setenv("PYTHONPATH", os.pathsep.join(map(str, folders)))
         for name, value in SETTINGS.items():
             patch.setenv(name, value)

@@ -3,7 +3,6 @@
 import json
 import re
 from dataclasses import replace
-from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
@@ -11,6 +10,7 @@ from export_samples import PROVENANCE, cabinet
 from html_page import Page
 from refusing import refusal
 from registry_samples import PASSED
+from repository import EXAMPLES
 from shown_registry import HIT, HOSTILE, POINT, bundle_in, draw, make_registry
 
 from asset_factory.factory.display.made import scene_of
@@ -24,8 +24,6 @@ from asset_factory.factory.report.site.site import LISTED, index_of, stale, writ
 from asset_factory.factory.report.site.told import AssetPage, asset_page
 from asset_factory.sim_checks import Finding, Severity
 from asset_factory.sim_checks.measurements import penetrations
-
-EXAMPLES = Path(__file__).parents[4] / "examples"
 
 
 @pytest.fixture(scope="module")
