@@ -4,6 +4,7 @@ import io
 import time
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import patch
 
 from registry_samples import REJECTED, named
 
@@ -41,10 +42,11 @@ def test_nothing_known_and_nothing_else_are_told_too(capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_rate_and_time_left_are_those_of_what_is_built(monkeypatch):
-    monkeypatch.setattr(console, "Progress", Watched)
-    list(console.follow(iter(results(3, 2)), 6))
-    assert (Watched.total, Watched.advanced) == (3, 2)
+def test_rate_and_time_left_are_those_of_what_is_built():
+    with patch.object(console.Progress, "update") as update:
+        list(console.follow(iter(results(3, 2)), 6))
+    told = [call.kwargs for call in update.call_args_list]
+    assert (told[-1]["total"], sum(each["advance"] for each in told)) == (3, 2)
 
 
 def test_a_night_without_a_terminal_says_how_far_it_is_by_the_pace_of_the_last_minutes(capsys):
@@ -74,17 +76,6 @@ def test_the_bar_says_what_is_at_work_and_after_one_input_how_long_the_rest_take
     assert "about" not in seen[0]
     assert "about 0:00:" in told.file.getvalue()
     assert "oven_0.glb solids, oven_1.glb solids, oven_2.glb solids +2" in told.file.getvalue()
-
-
-class Watched(console.Progress):
-    """A progress bar that is looked at."""
-
-    total = 0.0
-    advanced = 0.0
-
-    def update(self, task, *, total=None, advance=None, **rest):
-        Watched.total = Watched.total if total is None else total
-        Watched.advanced += advance or 0
 
 
 def test_a_long_table_leaves_out_what_was_known(capsys):

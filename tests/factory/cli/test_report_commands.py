@@ -30,7 +30,7 @@ def test_a_build_is_done_whatever_becomes_of_its_report(tmp_path, capsys, monkey
     assert "cannot be written" in capsys.readouterr().err
 
 
-def test_view_takes_the_beginning_of_an_id(tmp_path, capsys):
+def test_view_takes_the_beginning_of_an_id(tmp_path):
     root = make_registry(tmp_path / "out").root
     saved = tmp_path / "page.html"
     assert run(["view", "cab", "--output", str(root), "--save", str(saved)]) == 0

@@ -60,9 +60,7 @@ def test_roots_let_an_input_read_elsewhere(tmp_path, setting):
     assert len(source(path, **{setting: value}).load().mesh.faces) == 24
 
 
-def test_roots_are_those_of_flags_of_the_ros_path_and_the_folders_of_inputs(
-    tmp_path, monkeypatch, capsys
-):
+def test_roots_are_those_of_flags_of_the_ros_path_and_the_folders_of_inputs(tmp_path, monkeypatch):
     folders = [tmp_path / name for name in ("given", "root", "ros")]
     for folder in folders:
         folder.mkdir()

@@ -58,7 +58,7 @@ def alive(*names):
     return found
 
 
-def test_calls_on_a_cluster_of_its_own_are_answered_as_locally(tmp_path):
+def test_calls_on_a_cluster_of_its_own_are_answered_as_locally():
     before = set(alive("raylet", "gcs_server"))
     taken = []
 
