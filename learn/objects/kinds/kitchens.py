@@ -215,8 +215,7 @@ def dish_washer(a: Assembly) -> None:
             at = (sizes[0] / 2, 0.0, low)
             part = a.slider(f"inner_rack_{i}", FRONT, at, round(0.8 * sizes[1], 3))
         z = (float(low), min(low + a.draw(0.05, 0.13), cell.inner[1][1] - 0.012))
-        posts = [(px, py) for px in within(x, 0.003) for py in within(y, 0.003)]
-        wires = [cylinder(Z, at, 0.003, z, 6) for at in posts]
+        wires = [cylinder(Z, at, 0.003, z, 6) for at in corners(x, y, 0.003)]
         part.add(*rack(x, y, z[0], 12), *rack(x, y, z[1], 0), *wires, look=STEEL)
 
 
