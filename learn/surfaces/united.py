@@ -30,13 +30,11 @@ def _united(mesh: Labelled) -> Labelled:
 
     own = mesh.with_own_vertices()
     labels = own.piece_labels
-    order = np.argsort(own.piece, kind="stable")
-    cuts = np.searchsorted(own.piece[order], np.arange(1, own.piece_count))
     start = int(manifold3d.Manifold.reserve_ids(own.piece_count))
     bodies: list[Any] = []
     left: list[int] = []
-    for number, rows in enumerate(np.split(order, cuts)):
-        body = _body(own.vertices, own.faces[rows], start + number)
+    for number in range(own.piece_count):
+        body = _body(own.vertices, own.faces[own.piece == number], start + number)
         if body is None:
             left.append(number)
         else:
