@@ -60,5 +60,5 @@ def test_settings_from_a_file_are_checked():
         MixtureSettings(most_parts=1)
     with pytest.raises(ConfigError, match="too few for oven"):
         sample_object(np.random.default_rng(0), MixtureSettings(categories=("oven",), most_parts=2))
-    with pytest.raises(ValueError, match="want plain, artist, generated or skin"):
+    with pytest.raises(ValueError, match="want one of plain, artist, generated, skin"):
         in_character(make_object("chest", 0), "shiny", 0)
