@@ -12,7 +12,7 @@ from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, FRONT, LEFT, RIGHT, UP, Point, X, Y, Z, facing_front
 from ..kit.boards import stand, tray
 from ..kit.casework import Leaf, furniture
-from ..kit.controls import keypad, knob, lever
+from ..kit.controls import ControlPanel, keypad, lever
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE, wood
 from ..kit.outlines import arc, rounded
 from ..kit.shapes import Form, block, both, box, cylinder, hoop, pipe, prism, ribbon, stack
@@ -154,7 +154,8 @@ def _locks(a: Assembly, leaf: Leaf, face: float, metal: Material) -> None:
     place = facing_front(face)
     if a.happens(0.6):
         look = BLACK if metal is STEEL else STEEL
-        knob(a, "dial", (at, mid(z) + 0.2 * room), 0.09 * room, look, place, mark=WHITE, on=door)
+        dial = ControlPanel(a, place, look, WHITE, door)
+        dial.knob("dial", (at, mid(z) + 0.2 * room), 0.09 * room)
     elif room > 0.15:
         pad = (mid(z) + 0.08 * room, mid(z) + 0.36 * room)
         keypad(a, about(0.16 * room, mid(x)), pad, place, door)

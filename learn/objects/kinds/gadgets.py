@@ -8,7 +8,7 @@ from asset_factory.factory.mesh import Material
 
 from ..kit.assembly import Assembly
 from ..kit.axes import BACK, FRONT, LEFT, RIGHT, UP, X, Y, Z, facing_up
-from ..kit.controls import button, cells, key
+from ..kit.controls import ControlPanel, cells, key
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import oval, rounded
 from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
@@ -102,9 +102,9 @@ def remote(a: Assembly) -> None:
     skin, other = a.picks((BLACK, WHITE, STEEL), (WHITE, RED, BLUE, STEEL))
     a.body(skin, block(about(half), about(long), (0.0, thick), a.draw(0.002, 0.8 * half), 0.002))
     y = (0.01 - long, a.draw(0.2, 0.7) * long)
+    top = ControlPanel(a, facing_up(thick), other)
     for name, key_x, key_y in cells(about(0.68 * half), y, a.count(2, 4), a.count(1, 3)):
-        keyed = (f"key_{name}", key_x, key_y, other, facing_up(thick))
-        button(a, *keyed, stroke=stroke, thick=0.002, style=0.6)
+        top.button(f"key_{name}", key_x, key_y, stroke, 0.002, 0.6)
 
 
 def calculator(a: Assembly) -> None:
@@ -116,9 +116,9 @@ def calculator(a: Assembly) -> None:
     display = (0.45 * long, 0.85 * long)
     body.add(box(about(0.85 * half), display, span(thick, 0.0006)), look=GLASS)
     pad = (about(0.875 * half), (-0.9 * long, 0.35 * long))
+    top = ControlPanel(a, facing_up(thick), other)
     for name, key_x, key_y in cells(*pad, a.count(2, 3), a.count(3, 4), margin):
-        keyed = (f"key_{name}", key_x, key_y, other, facing_up(thick))
-        button(a, *keyed, stroke=stroke, thick=tall, style=style)
+        top.button(f"key_{name}", key_x, key_y, stroke, tall, style)
 
 
 def lighter(a: Assembly) -> None:
@@ -167,7 +167,7 @@ def camera(a: Assembly) -> None:
         dial.add(cylinder(Z, spot, 0.14 * half, span(high + PLAY, 0.006)))
     x = about(0.006, -0.7 * half)
     y = about(0.006, -0.2 * deep)
-    button(a, "release", x, y, metal, facing_up(high), stroke=0.0015, thick=0.003)
+    ControlPanel(a, facing_up(high), metal).button("release", x, y, stroke=0.0015, thick=0.003)
 
 
 def clock(a: Assembly) -> None:

@@ -8,7 +8,7 @@ from asset_factory.factory.mesh import Material
 
 from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, DOWN, FRONT, LEFT, RIGHT, UP, Point, X, Y, Z, facing_up
-from ..kit.controls import button, knob
+from ..kit.controls import ControlPanel
 from ..kit.looks import BLACK, BLUE, BRASS, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import arc, oval
 from ..kit.shapes import Form, ball, block, cylinder, lathe, loft, pipe
@@ -97,12 +97,12 @@ def _shade(a: Assembly, shade: PartDraft, z: float, bar: float, x: float) -> Non
 
 def _switch(a: Assembly, wide: float, top: float, metal: Material) -> None:
     at = (a.draw(-0.4, 0.4) * wide, -0.45 * wide)
+    panel = ControlPanel(a, facing_up(top), metal)
     if a.happens(0.5):
-        knob(a, "dimmer", at, 0.011, metal, facing_up(top), upper=a.degrees(180, 320))
+        panel.knob("dimmer", at, 0.011, a.degrees(180, 320))
         return
     x, y = (about(0.01, v) for v in at)
-    thick = a.draw(0.004, 0.008)
-    button(a, "switch", x, y, metal, facing_up(top), stroke=0.0035, thick=thick)
+    panel.button("switch", x, y, stroke=0.0035, thick=a.draw(0.004, 0.008))
 
 
 def standing_lamp(a: Assembly) -> None:
@@ -215,15 +215,14 @@ def fan(a: Assembly) -> None:
     broad = min(1.4 * depth / np.sin(1.3 * pitch), radius * a.draw(0.5, 0.9))
     spinning.add(*_blades(a, BACK, center, a.count(3, 5), hub, 0.86 * radius, broad, pitch))
     style = a.weighted({"none": 0.3, "knob": 0.28, "buttons": 0.42})
+    panel = ControlPanel(a, facing_up(thick), metal)
     if style == "knob":
-        upper = a.degrees(120, 300)
-        knob(a, "knob", (0.0, -0.55 * wide), 0.014, metal, facing_up(thick), upper=upper)
+        panel.knob("knob", (0.0, -0.55 * wide), 0.014, a.degrees(120, 300))
     elif style == "buttons":
         count = a.count(2, 4)
         for i in range(count):
             x = about(0.008, (i - (count - 1) / 2) * 0.02)
-            y = about(0.006, -0.55 * wide)
-            button(a, f"button_{i}", x, y, metal, facing_up(thick), stroke=0.004, style=0.3)
+            panel.button(f"button_{i}", x, about(0.006, -0.55 * wide), stroke=0.004, style=0.3)
 
 
 def _cage(
