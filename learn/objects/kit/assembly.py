@@ -175,8 +175,7 @@ class Assembly(Chance):
         low, high = whole.bounds
         middle = (low + high) / 2
         offset = -np.array([middle[0], middle[1], low[2]])
-        uv = laid_over(whole.vertices[whole.faces], whole.face_material, whole.materials)
-        mesh = replace(whole, vertices=whole.vertices + offset, corner_uv=uv)
+        mesh = replace(whole, vertices=whole.vertices + offset, corner_uv=laid_over(whole))
         parts: list[Part] = []
         joints: list[Joint] = []
         number: dict[int, int] = {}
