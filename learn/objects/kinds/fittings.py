@@ -10,7 +10,7 @@ from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, LEFT, RIGHT, UP, X, Y, Z, facing_front
 from ..kit.controls import ControlPanel
 from ..kit.looks import BLACK, BRASS, RED, STEEL, WHITE
-from ..kit.outlines import arc
+from ..kit.outlines import arc, raised
 from ..kit.shapes import Form, ball, block, box, cylinder, lathe, pipe, prism
 from ..kit.spans import PLAY, Flat, about, mid, shares, span
 
@@ -112,8 +112,7 @@ def _spout(
     else:
         corner = arc((0.03, low + 0.5 * rise), 0.03, np.pi, np.pi * 0.75, 4)
         line = [*corner, corner[-1] + 0.6 * reach, (reach, corner[-1, 1] + 0.4 * reach)]
-    out, up = np.array([(0.0, low), *line]).T
-    path = np.stack([0 * out, -out, up], axis=1)
+    path = raised(np.array([(0.0, low), *line]) * (-1.0, 1.0), 0.0, X)
     sides = a.pick(4, 10, 14) if style in {"angle", "straight"} else 12
     part.add(pipe(path, thin, sides, up=RIGHT, flat=a.draw(0.7, 1.3)))
     if a.happens(0.7):

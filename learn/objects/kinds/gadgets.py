@@ -10,7 +10,7 @@ from ..kit.assembly import Assembly
 from ..kit.axes import BACK, FRONT, LEFT, RIGHT, UP, X, Y, Z, facing_up
 from ..kit.controls import ControlPanel, cells, key
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
-from ..kit.outlines import oval, rounded
+from ..kit.outlines import oval, raised, rounded
 from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
 from ..kit.spans import PLAY, Span, about, centred, span, within
 
@@ -229,8 +229,7 @@ def eyeglasses(a: Assembly) -> None:
     for name, side in (("left", -1.0), ("right", 1.0)):
         x = side * half
         temple = a.hinge(f"{name}_temple", (0.0, 0.0, side), (x, pivot, z), upper)
-        path = np.column_stack([np.full(len(line), x), line])
-        temple.add(pipe(path, width, sides, up=RIGHT, flat=1.0 / ratio))
+        temple.add(pipe(raised(line, x, X), width, sides, up=RIGHT, flat=1.0 / ratio))
 
 
 def _lenses(a: Assembly, half: float, high: float, level: float, tint: Material) -> None:

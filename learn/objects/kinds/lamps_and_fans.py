@@ -10,7 +10,7 @@ from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, DOWN, FRONT, LEFT, RIGHT, UP, Point, X, Y, Z, facing_up
 from ..kit.controls import ControlPanel
 from ..kit.looks import BLACK, BLUE, BRASS, OAK, RED, STEEL, WALNUT, WHITE
-from ..kit.outlines import arc, oval
+from ..kit.outlines import arc, oval, raised
 from ..kit.shapes import Form, ball, block, cylinder, lathe, loft, pipe
 from ..kit.spans import PLAY, Span, about, span
 
@@ -233,9 +233,8 @@ def _cage(
     front = -0.012 - 2.1 * depth
     middle = (back + front) / 2
     for share, y in ((1.0, middle), (0.6, front), (0.6, back)):
-        x, z = oval(share * radius, share * radius, 24).T
-        ring = np.stack([x, np.full(24, y), level + z], axis=1)
-        head.add(pipe(ring, 0.0018, 5, looped=True), look=metal)
+        line = oval(share * radius, share * radius, 24) + np.array((0.0, level))
+        head.add(pipe(raised(line, y, Y), 0.0018, 5, looped=True), look=metal)
     bend = [(0.1, front), (0.85, front), (1.0, middle), (0.85, back), (0.25, back)]
     spoke = pipe([(share * radius, y, level) for share, y in bend], 0.0012, 4)
     count = a.pick(8, 12, 16)
@@ -291,8 +290,8 @@ def globe(a: Assembly) -> None:
     if swivels:
         frame = a.spin("frame", UP, (0, 0, stem), look=metal)
         frame.add(cylinder(Z, (0.0, 0.0), 0.006, (stem - 0.01, stem + 0.002), 12))
-    x, z = arc((0.0, center[2]), ring, -np.pi / 2 - 0.05, np.pi / 2 + 0.05, 21).T
-    forms = [pipe(np.stack([x, 0 * x, z], axis=1), 0.004, 4, flat=a.draw(0.8, 2.0))]
+    bow = arc((0.0, center[2]), ring, -np.pi / 2 - 0.05, np.pi / 2 + 0.05, 21)
+    forms = [pipe(raised(bow, 0.0, Y), 0.004, 4, flat=a.draw(0.8, 2.0))]
     for way in (-1.0, 1.0):
         pin = span(center[2] + way * ring, way * (radius + 0.001 - ring))
         forms.append(cylinder(Z, (0.0, 0.0), 0.003, pin, 8))
