@@ -29,20 +29,17 @@ NOBODY = 10_000
 AROUND = np.ones((3, 3, 3), dtype=bool)
 
 
-def fused_like(
-    articulation: Articulation, seed: int, resolution: int | None = None
-) -> Articulation:
+def fused_like(articulation: Articulation, seed: int) -> Articulation:
     """Return one closed surface around the whole object, labelled by the nearest part.
 
     Seams run along triangles of the skin, and vertices may be shared by more than two sheets where
-    surfaces touch. Parts and joints are the same, but for parts that nothing is seen of. There are
-    ``resolution`` cells along the longest side, by default as many as keep it fast.
+    surfaces touch. Parts and joints are the same, but for parts that nothing is seen of.
 
     Raises:
         ValueError: what would be left out holds something that is seen, or is all that moves.
     """
     rng = np.random.default_rng([seed, 0xF5])
-    cells = _cells(articulation.mesh.extents, rng) if resolution is None else resolution
+    cells = _cells(articulation.mesh.extents, rng)
     original = Labelled.of(articulation)
     reach = float(rng.uniform(*REACH))
     for finer in (1.0, 1.6):

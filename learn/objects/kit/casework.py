@@ -275,8 +275,8 @@ def furniture(
     style: Style,
     sizes: tuple[float, ...],
     node: Node,
-    support: str = "none",
-    base: float = 0.0,
+    support: str,
+    base: float,
     look: Material | None = None,
 ) -> Casework:
     """Build a case of a width, depth and height [m] on a support; its left edge is x = y = 0."""
