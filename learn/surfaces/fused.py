@@ -122,7 +122,7 @@ def _filled(occupied: BoolArray) -> BoolArray:
 def _engraved(solid: BoolArray, part: IntArray, depth: int) -> BoolArray:
     """Return the solid without its outer ``depth`` cells where two parts, not -1, are near."""
     high = ndimage.maximum_filter(part, size=3)
-    low = -ndimage.maximum_filter(np.where(part >= 0, -part, -NOBODY), size=3)
+    low = ndimage.minimum_filter(np.where(part >= 0, part, NOBODY), size=3)
     border = (high >= 0) & (low < NOBODY) & (low != high)
     outer = solid & ~ndimage.binary_erosion(solid, iterations=depth)
     return np.asarray(solid & ~(border & outer))

@@ -8,11 +8,11 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plain_solids import box
+from plain_solids import box, parted
 from plain_solids import signed_volume as volume
 from scipy.spatial import cKDTree
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.mesh import Material, Mesh
@@ -67,6 +67,8 @@ def component_count(mesh):
 
 UNIT = ((0.0, 1.0), (0.0, 1.0), (0.0, 1.0))
 BESIDE = ((1.0, 2.0), (0.0, 1.0), (0.0, 0.5))
+INNER = ((0.4, 0.6), (0.4, 0.6), (0.4, 0.6))
+DRAWER = ((0.0, 1.0), (-0.1, 0.0), (0.0, 1.0))
 
 
 @cache
@@ -182,13 +184,12 @@ def test_opening_drops_whole_sides_of_boxes():
 
 
 def test_no_part_is_dropped_however_hidden_it_is():
-    inner = ((0.4, 0.6), (0.4, 0.6), (0.4, 0.6))
-    both = solids(UNIT, inner)
+    both = solids(UNIT, INNER)
     hidden = hidden_faces(both, rng())
     assert hidden[12:].all()
     assert not hidden[:12].any()
     assert set(without_hidden_pieces(both, rng()).part) == {0, 1}
-    assert set(without_hidden_pieces(solids(UNIT, inner, part=(0, 0)), rng()).piece) == {0}
+    assert set(without_hidden_pieces(solids(UNIT, INNER, part=(0, 0)), rng()).piece) == {0}
     assert set(without_sides(both, rng()).part) == {0, 1}
 
 
@@ -298,17 +299,15 @@ def test_a_fused_object_is_closed_near_the_original_and_keeps_every_part(categor
 
 def nested(part, parents):
     """A unit cube, a small one inside it and a drawer in front, of these parts, which slide."""
-    inner = ((0.4, 0.6), (0.4, 0.6), (0.4, 0.6))
-    drawer = ((0.0, 1.0), (-0.1, 0.0), (0.0, 1.0))
-    mesh = solids(UNIT, inner, drawer, part=part)
-    parts = [Part(f"part_{i}", np.flatnonzero(mesh.part == i)) for i in range(len(parents) + 1)]
+    named = {f"part_{i}": [] for i in range(len(parents) + 1)}
+    for spans, own in zip((UNIT, INNER, DRAWER), part, strict=True):
+        named[f"part_{own}"].append(box(*spans, GREY))
     axis = np.array([0.0, -1.0, 0.0])
-    joints = [
+    joints = (
         Joint(f"joint_{i}", JointKind.PRISMATIC, parent, i + 1, axis, np.zeros(3), 0.0, 0.1)
         for i, parent in enumerate(parents)
-    ]
-    bare = Mesh.from_triangles(mesh.vertices, mesh.faces)
-    return Articulation(bare, tuple(parts), tuple(joints), "procedural")
+    )
+    return parted(named, *joints)
 
 
 def test_a_part_that_nobody_sees_is_not_in_a_fused_object():
