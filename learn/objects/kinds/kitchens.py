@@ -35,7 +35,7 @@ def _style(a: Assembly, panels: Mapping[str, float]) -> Style:
     return replace(style, reveal=0.0, shelves=0, bare=False)
 
 
-def burners(a: Assembly, x: Span, y: Span, z: float) -> None:
+def _burners(a: Assembly, x: Span, y: Span, z: float) -> None:
     """Build burners on a hob at ``z``: plates, glass marks, or gas under grates."""
     style = a.pick("plate", "mark", "gas")
     columns = shares(x, 2 if size(x) < 0.75 else 3)
@@ -60,7 +60,7 @@ def _grate(a: Assembly, at: Point, half: float) -> None:
     a.root.add(*rack(x, y, at[2] + 0.025, 1), across, *feet, look=BLACK)
 
 
-def racks(a: Assembly, case: Casework, most: int = 3) -> None:
+def _racks(a: Assembly, case: Casework, most: int = 3) -> None:
     """Wire shelves behind every door of a case, as part of the body."""
     y = within(case.y, 0.02, 0.03)
     for door in case.doors if case.style.hollow else ():
@@ -94,7 +94,7 @@ def stove(a: Assembly) -> None:
     top = case.z[1]
     tall = a.draw(0.08, 0.2)
     # Knobs on the console stand out over the hob.
-    burners(a, case.x, within(case.y, 0.0, 0.1 if console else 0.0), top)
+    _burners(a, case.x, within(case.y, 0.0, 0.1 if console else 0.0), top)
     if console or a.happens(0.3):
         a.root.add(box(case.x, span(depth, -0.06), span(top, tall)), look=style.body)
     if console:
@@ -102,7 +102,7 @@ def stove(a: Assembly) -> None:
         panel.knob_row(case.x, top + 0.55 * tall, 0.7 * tall)
     else:
         _panel_row(a, case, share / sum(part for part, _ in parts), looks)
-    racks(a, case)
+    _racks(a, case)
 
 
 def built_in_oven(a: Assembly) -> None:
@@ -125,7 +125,7 @@ def built_in_oven(a: Assembly) -> None:
             panel.knob(f"knob_{i}", (0.88 * width, level), min(0.08 * width, 0.025))
     else:
         _panel_row(a, case, share, (metal, RED))
-    racks(a, case)
+    _racks(a, case)
 
 
 def microwave_oven(a: Assembly) -> None:
@@ -159,12 +159,12 @@ def hob(a: Assembly) -> None:
     metal = any_metal(a)
     a.body(a.pick(STEEL, BLACK, WHITE)).add(box(x, y, (0.0, height)))
     if height > 0.09:
-        burners(a, x, y, height)
+        _burners(a, x, y, height)
         ControlPanel(a, facing_front(0.0), metal, RED).knob_row(x, height / 2, height)
         return
     beside = a.happens(0.5)
     row = y if beside else x
-    burners(a, (0.0, 0.8 * width) if beside else x, y if beside else (0.14, depth), height)
+    _burners(a, (0.0, 0.8 * width) if beside else x, y if beside else (0.14, depth), height)
     count = a.count(2, 6)
     radius = min(0.022, 0.35 * size(row) / (count + 1))
     panel = ControlPanel(a, facing_up(height), metal, RED)
@@ -237,7 +237,7 @@ def oven(a: Assembly) -> None:
     door, cell, *_ = case.doors[0]
     window = box(within(cell.x, 0.09), span(case.face, -0.003), within(cell.z, 0.1, 0.13))
     door.add(window, look=GLASS)
-    racks(a, case, 2)
+    _racks(a, case, 2)
     panel = ControlPanel(a, facing_front(case.face), metal, RED)
     for i, x in enumerate(between(within(case.x, 0.04), a.count(2, 5))):
         panel.knob(f"knob_{i}", (x, case.z[1] - 0.07 * sizes[2]), 0.025)
@@ -342,7 +342,7 @@ def kitchen(a: Assembly) -> None:
     deep = within(y, -max(0.0, style.proud), 0.0)
     top = put_top(a, "sink" if sunk else "board", (0.0, left), deep, z[1], any_color(a))
     if hob is not None and a.happens(0.7):
-        burners(a, within(hob, 0.03), (0.06, depth - 0.05), top)
+        _burners(a, within(hob, 0.03), (0.06, depth - 0.05), top)
     if a.happens(0.35):
         _wall_units(a, style, left, depth, z[1])
 

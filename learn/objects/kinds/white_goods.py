@@ -58,7 +58,7 @@ def _style(a: Assembly, glazed: bool) -> Style:
     return replace(style, reveal=0.0, shelves=0)
 
 
-def cold_box(kind: str, a: Assembly) -> None:
+def _cold_box(kind: str, a: Assembly) -> None:
     """Build a refrigerator that is ``tall``, ``mini`` or ``wine``."""
     sizes = a.draws(*SIZES[kind])
     style = _style(a, kind == "wine")
@@ -165,9 +165,9 @@ def fridge(a: Assembly) -> None:
 
 
 PLANNED = {
-    "refrigerator": partial(cold_box, "tall"),
-    "mini_fridge": partial(cold_box, "mini"),
-    "wine_cooler": partial(cold_box, "wine"),
+    "refrigerator": partial(_cold_box, "tall"),
+    "mini_fridge": partial(_cold_box, "mini"),
+    "wine_cooler": partial(_cold_box, "wine"),
 }
 
 
