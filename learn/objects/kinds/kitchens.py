@@ -69,7 +69,7 @@ def _racks(a: Assembly, case: Casework, most: int = 3) -> None:
             a.root.add(*rack(x, y, level, a.count(5, 13), a.happens(0.5)), look=STEEL)
 
 
-def _panel_row(a: Assembly, case: Casework, share: float, looks: tuple[Material, ...]) -> None:
+def _panel_row(a: Assembly, case: Casework, share: float, looks: tuple[Material, Material]) -> None:
     """Build knobs on the fixed panel that is the uppermost ``share`` of a case's front."""
     high = share * size(case.z)
     panel = ControlPanel(a, facing_front(case.face), *looks)
