@@ -149,16 +149,14 @@ class Assembly(Chance):
         place: Place | None = None,
     ) -> PartDraft:
         parent = on or self.root
-        part = PartDraft(name, look or parent.look, parent, kind)
-        part.lower, part.upper = limits
-        part.slide = slide
-        part.axis = np.asarray(axis, dtype=np.float64)
-        part.origin = np.asarray(at, dtype=np.float64)
-        part.pose = parent.pose
-        part.carry = parent.pose if place is None else _after(parent.pose, place)
-        if part.carry is not None:
-            part.axis = part.carry[:3, :3] @ part.axis
-            part.origin = part.carry[:3, :3] @ part.origin + part.carry[:3, 3]
+        carry = _after(parent.pose, place)
+        way = np.asarray(axis, dtype=np.float64)
+        origin = np.asarray(at, dtype=np.float64)
+        if carry is not None:
+            way = carry[:3, :3] @ way
+            origin = carry[:3, :3] @ origin + carry[:3, 3]
+        joint = (kind, way, origin, *limits, slide)
+        part = PartDraft(name, look or parent.look, parent, *joint, parent.pose, carry)
         self.parts.append(part)
         return part
 
