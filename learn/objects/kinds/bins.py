@@ -11,7 +11,7 @@ from ..kit.axes import DOWN, LEFT, RIGHT, UP, X
 from ..kit.boards import tray
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL, WHITE
 from ..kit.outlines import arc, oval, raised, rounded
-from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
+from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, prism, ribbon, stack
 from ..kit.spans import PLAY, Profile, about, centred, ends, span, within
 from ..kit.wheels import wheel
 
@@ -61,7 +61,7 @@ def swing_bin(a: Assembly) -> None:
         half = half[np.append(True, np.linalg.norm(np.diff(half, axis=0), axis=1) > 1e-6)]
         at = (0.0, side * float(np.abs(half[:, 1]).max()), level - 0.003)
         flap = a.hinge(f"{name}_flap", (-side, 0.0, 0.0), at, a.degrees(30, 55), look=top)
-        flap.add(stack([(half, level - 0.003), (half, level)]))
+        flap.add(prism(half, (level - 0.003, level)))
 
 
 def step_bin(a: Assembly) -> None:

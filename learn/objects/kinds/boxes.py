@@ -342,16 +342,15 @@ def mailbox(a: Assembly) -> None:
     skin, metal = a.picks((BLACK, WHITE, BLUE, STEEL, RED), (OAK, STEEL))
     post = a.draw(0.7, 1.0) if a.happens(0.5) else 0.0
     body = a.body(skin)
-    outer = _arch(half, rise * half, tall, 0.0, post)
-    inner = _arch(half, rise * half, tall, 0.003, post)
+    outer, inner = (_arch(half, rise * half, tall, inset, post) for inset in (0.0, 0.003))
     body.add(ribbon(outer, inner, about(long), Y, looped=True))
-    body.add(stack([(inner, long - 0.003), (inner, long)], Y))
+    body.add(prism(inner, (long - 0.003, long), Y))
     if post:
         width = about(a.draw(0.03, 0.05))
         body.add(box(width, width, (0.0, post)), look=metal)
     y = span(-long - PLAY, -0.004)
     door = a.hinge("door", RIGHT, (0, y[0], post), a.degrees(80, 120))
-    door.add(stack([(outer, y[0]), (outer, y[1])], Y))
+    door.add(prism(outer, y, Y))
     knob = span(post + tall + 0.2 * half, 0.03)
     door.add(block(about(0.01), span(y[0], -0.02), knob, 0.004, axis=Y), look=metal)
     if a.happens(0.8):

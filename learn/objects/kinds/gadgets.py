@@ -11,7 +11,7 @@ from ..kit.axes import BACK, FRONT, LEFT, RIGHT, UP, X, Y, Z, facing_up
 from ..kit.controls import ControlPanel, cells, key
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import oval, raised, rounded
-from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
+from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, prism, ribbon
 from ..kit.spans import PLAY, Span, about, centred, span, within
 
 
@@ -181,7 +181,7 @@ def clock(a: Assembly) -> None:
     corner = half if a.happens(0.6) else 0.02
     outer, inner = (rounded(about(r), about(r, level), corner, 5) for r in (half, radius))
     body.add(ribbon(outer, inner, (-deep, 0.0), Y, looped=True))
-    body.add(stack([(inner, face), (inner, -0.001)], Y))
+    body.add(prism(inner, (face, -0.001), Y))
     dots = oval(0.88 * radius, 0.88 * radius, 12).tolist()
     body.add(*(ball((x, face, level + z), 0.02 * radius, 6) for x, z in dots), look=dark)
     front = face - 0.02 * radius - PLAY
