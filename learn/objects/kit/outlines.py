@@ -32,11 +32,8 @@ def oval(half_x: float, half_y: float, count: int = 28) -> FloatArray:
     return circle(count).T * (half_x, half_y)
 
 
-def raised(line: npt.ArrayLike, height: npt.ArrayLike, axis: int = Z) -> FloatArray:
-    """Return a line of a plane at a height along the axis across it, or at one for each point.
-
-    Its shape is [point_count, 3].
-    """
+def raised(line: npt.ArrayLike, height: float, axis: int = Z) -> FloatArray:
+    """Return a line at a height along the axis across its plane, shape [count, 3]."""
     return np.insert(np.asarray(line, dtype=np.float64), axis, height, axis=1)
 
 
