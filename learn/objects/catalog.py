@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zlib
 from importlib import import_module
-from inspect import isfunction, signature
+from inspect import isfunction
 
 import numpy as np
 
@@ -30,10 +30,9 @@ def _kinds_of(file: str) -> dict[str, Maker]:
     """Return the kinds that a file describes, by name, in its order."""
     module = vars(import_module(f"{__package__}.kinds.{file}"))
     own = [each for each in module.values() if isfunction(each) and each.__globals__ is module]
-    public = [each for each in own if not each.__name__.startswith("_")]
-    alone = {each.__name__: each for each in public if len(signature(each).parameters) == 1}
+    public = {each.__name__: each for each in own if not each.__name__.startswith("_")}
     planned: dict[str, Maker] = module.get("PLANNED", {})
-    return alone | planned
+    return public | planned
 
 
 _MAKERS = {name: maker for file in _FILES for name, maker in _kinds_of(file).items()}

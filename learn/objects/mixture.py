@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +18,12 @@ from .kit.chance import Chance
 FIRST_SEED = 1_000_000
 _LARGEST_SEED = 2**31 - 1
 #: Whose surface an object has: ours, an artist's, an early image-to-3D tool's, a recent one's.
-CHARACTERS = ("plain", "artist", "generated", "skin")
+CHARACTERS: dict[str, Callable[[Articulation, int], Articulation]] = {
+    "plain": lambda articulation, _: articulation,
+    "artist": artist_like,
+    "generated": fused_like,
+    "skin": skin_like,
+}
 #: Objects made in search of one with few enough parts.
 TRIES = 200
 
@@ -98,15 +104,10 @@ def in_character(articulation: Articulation, character: str, seed: int) -> tuple
     Raises:
         ValueError: no such character.
     """
-    if character == "plain":
-        return articulation, character
-    if character in ("generated", "skin"):
-        made = fused_like if character == "generated" else skin_like
-        try:
-            return made(articulation, seed), character
-        except ValueError:
-            character = "artist"
-    if character != "artist":
-        wanted = "want plain, artist, generated or skin"
+    if character not in CHARACTERS:
+        wanted = f"want one of {', '.join(CHARACTERS)}"
         raise ValueError(f"character {character!r}: there is none of that name, {wanted}")
-    return artist_like(articulation, seed), character
+    try:
+        return CHARACTERS[character](articulation, seed), character
+    except ValueError:
+        return artist_like(articulation, seed), "artist"

@@ -77,6 +77,8 @@ PASSES: tuple[tuple[Pass, tuple[float, float, float]], ...] = (
 STYLES = (0.4, 0.5, 0.1)
 #: Standard deviation of the logarithm of each axis' factor; twice that is the most.
 STRETCH = 0.2
+#: Factors of a mirror image.
+LEFT_FOR_RIGHT = (-1.0, 1.0, 1.0)
 #: A wider range [rad] is that of a knob or a wheel.
 ALL_ROUND = 3.5
 #: An axis this much off a coordinate axis still counts as along it.
@@ -95,7 +97,7 @@ def artist_like(articulation: Articulation, seed: int) -> Articulation:
     if rng.random() < 0.5:
         articulation = stretched(articulation, _factors(articulation, rng))
     if rng.random() < 0.5:
-        articulation = mirrored(articulation)
+        articulation = stretched(articulation, LEFT_FOR_RIGHT)
     style = int(rng.choice(len(STYLES), p=STYLES))
     mesh = Labelled.of(articulation)
     for change, often in PASSES:
@@ -115,30 +117,24 @@ def _factors(articulation: Articulation, rng: np.random.Generator) -> FloatArray
 
 
 def stretched(articulation: Articulation, factors: npt.ArrayLike) -> Articulation:
-    """Scale an object by factors above 0 along x, y and z; by their mean if a joint lies aslant.
+    """Scale an object along x, y and z; a factor below 0 mirrors it. Opening stays positive.
 
-    A part turns as rigidly as before, but two of its sides may come to meet what they missed.
+    Where a joint lies aslant, all factors are as large as their mean. A part turns as rigidly as
+    before, but two of its sides may come to meet what they missed.
     """
     wanted = np.asarray(factors, dtype=np.float64)
-    if wanted.shape != (3,) or not (wanted > 0.0).all():
-        raise ValueError(f"factors are {wanted.tolist()}, want three above 0")
+    size = np.abs(wanted)
+    if wanted.shape != (3,) or not (size > 0.0).all():
+        raise ValueError(f"factors are {wanted.tolist()}, want three other than 0")
     if any(np.abs(joint.axis).max() < 1.0 - ALONG for joint in articulation.movable_joints):
-        wanted = np.full(3, float(np.prod(wanted)) ** (1.0 / 3.0))
+        size = np.full(3, float(np.prod(size)) ** (1.0 / 3.0))
+    way = np.sign(wanted)
     joints = []
     for each in articulation.joints:
-        along = 1.0 if each.turns else float(wanted[np.abs(each.axis).argmax()])
-        moved = replace(each, origin=wanted * each.origin)
+        along = 1.0 if each.turns else float(size[np.abs(each.axis).argmax()])
+        # In a mirror a turn goes the other way about its axis.
+        axis = way * each.axis * (np.prod(way) if each.turns else 1.0)
+        moved = replace(each, axis=axis, origin=way * size * each.origin)
         joints.append(replace(moved, lower=each.lower * along, upper=each.upper * along))
-    mesh = articulation.mesh.transformed(np.diag([*wanted, 1.0]))
+    mesh = articulation.mesh.transformed(np.diag([*(way * size), 1.0]))
     return replace(articulation, mesh=mesh, joints=tuple(joints))
-
-
-def mirrored(articulation: Articulation) -> Articulation:
-    """Return the object as its mirror image, left for right (x negated); opening stays positive."""
-    flip = np.array([-1.0, 1.0, 1.0])
-    joints = tuple(
-        replace(each, axis=(-flip if each.turns else flip) * each.axis, origin=flip * each.origin)
-        for each in articulation.joints
-    )
-    mesh = articulation.mesh.transformed(np.diag([*flip, 1.0]))
-    return replace(articulation, mesh=mesh, joints=joints)

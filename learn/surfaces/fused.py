@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import numpy.typing as npt
@@ -28,22 +29,18 @@ NOBODY = 10_000
 AROUND = np.ones((3, 3, 3), dtype=bool)
 
 
-def fused_like(
-    articulation: Articulation, seed: int, resolution: int | None = None
-) -> Articulation:
+def fused_like(articulation: Articulation, seed: int) -> Articulation:
     """Return one closed surface around the whole object, labelled by the nearest part.
 
     Seams run along triangles of the skin, and vertices may be shared by more than two sheets where
-    surfaces touch. Parts and joints are the same, but for parts that nothing is seen of. There are
-    ``resolution`` cells along the longest side, by default as many as keep it fast.
+    surfaces touch. Parts and joints are the same, but for parts that nothing is seen of.
 
     Raises:
         ValueError: what would be left out holds something that is seen, or is all that moves.
     """
     rng = np.random.default_rng([seed, 0xF5])
-    cells = _cells(articulation.mesh.extents, rng) if resolution is None else resolution
+    cells = _cells(articulation.mesh.extents, rng)
     original = Labelled.of(articulation)
-    wanted = np.unique(original.part)
     reach = float(rng.uniform(*REACH))
     for finer in (1.0, 1.6):
         # Too few points a cell would leave holes, through which the outside gets in.
@@ -54,13 +51,10 @@ def fused_like(
         owner = original.part[below]
         vertices, faces, nearest = skin(points, owner, round(finer * cells), reach, rng)
         label = original.label[below[nearest]]
-        hidden = set(np.setdiff1d(wanted, label[:, 0]).tolist())
-        if not hidden:
+        if np.isin(original.part, label[:, 0]).all():
             break
-    fused = Labelled(vertices, faces, label).articulation(
-        articulation, "fused as by an image-to-3D tool"
-    )
-    return without_parts(fused, hidden) if hidden else fused
+    fused = Labelled(vertices, faces, label)
+    return with_skin(articulation, fused, "fused as by an image-to-3D tool")
 
 
 def _cells(extents: FloatArray, rng: np.random.Generator) -> int:
@@ -128,7 +122,7 @@ def _filled(occupied: BoolArray) -> BoolArray:
 def _engraved(solid: BoolArray, part: IntArray, depth: int) -> BoolArray:
     """Return the solid without its outer ``depth`` cells where two parts, not -1, are near."""
     high = ndimage.maximum_filter(part, size=3)
-    low = -ndimage.maximum_filter(np.where(part >= 0, -part, -NOBODY), size=3)
+    low = ndimage.minimum_filter(np.where(part >= 0, part, NOBODY), size=3)
     border = (high >= 0) & (low < NOBODY) & (low != high)
     outer = solid & ~ndimage.binary_erosion(solid, iterations=depth)
     return np.asarray(solid & ~(border & outer))
@@ -164,21 +158,14 @@ def _nets(solid: BoolArray) -> tuple[FloatArray, IntArray]:
     Vertices in grid steps, shape [vertex_count, 3]; triangles that look away from the solid.
     S. F. Gibson, Constrained elastic surface nets, MICCAI 1998.
     """
-    inner = [n - 1 for n in solid.shape]
-    count = np.zeros(inner, dtype=np.int8)
-    for x in (0, 1):
-        for y in (0, 1):
-            for z in (0, 1):
-                count += solid[x : x + inner[0], y : y + inner[1], z : z + inner[2]]
-    mixed = (count > 0) & (count < 8)
-    number = np.full(inner, -1, dtype=np.int64)
+    corners = [solid[ends] for ends in product((slice(-1), slice(1, None)), repeat=3)]
+    mixed = np.any(corners, axis=0) & ~np.all(corners, axis=0)
+    number = np.full(mixed.shape, -1, dtype=np.int64)
     number[mixed] = np.arange(int(mixed.sum()))
     vertices = np.argwhere(mixed) + 0.5
     quads = []
     for axis in range(3):
-        ahead = tuple(slice(1, None) if k == axis else slice(None) for k in range(3))
-        behind = tuple(slice(None, -1) if k == axis else slice(None) for k in range(3))
-        changes = solid[ahead].astype(np.int8) - solid[behind]
+        changes = np.diff(solid.astype(np.int8), axis=axis)
         at = np.argwhere(changes)
         u, v = np.eye(3, dtype=np.int64)[[(axis + 1) % 3, (axis + 2) % 3]]
         around = np.stack([at - u - v, at - v, at, at - u], axis=1)
@@ -211,26 +198,31 @@ def _bumps(points: FloatArray, rng: np.random.Generator, length: float) -> Float
     return np.asarray(np.sin(points @ directions + phases).sum(axis=1) / np.sqrt(waves / 2))
 
 
-def without_parts(articulation: Articulation, gone: set[int]) -> Articulation:
-    """Return the object without some parts, which have no faces, and their joints.
+def with_skin(articulation: Articulation, skin: Labelled, character: str) -> Articulation:
+    """Return the object with other faces and a note, without the parts that none of them shows.
 
     With them goes every carrier that is left without anything to carry.
 
     Raises:
         ValueError: a part that stays hangs on one that should go, or nothing would be left to move.
     """
+    made = skin.articulation(articulation, character)
+    seen = set(skin.part.tolist())
+    gone = [i for i, part in enumerate(articulation.parts) if len(part.faces) and i not in seen]
+    if not gone:
+        return made
     leaving = set(gone)
     for joint in reversed(articulation.joints):
         children = {other.child for other in articulation.joints if other.parent == joint.child}
-        if children and children <= leaving and not len(articulation.parts[joint.child].faces):
+        if children and children <= leaving and joint.child not in seen:
             leaving.add(joint.child)
     kept = [index for index in range(len(articulation.parts)) if index not in leaving]
     number = {old: new for new, old in enumerate(kept)}
     joints = [joint for joint in articulation.joints if joint.child in number]
     lost = [articulation.parts[joint.parent].name for joint in joints if joint.parent not in number]
     if lost or 0 in leaving or not any(joint.movable for joint in joints):
-        names = [articulation.parts[index].name for index in sorted(gone)]
+        names = [articulation.parts[index].name for index in gone]
         raise ValueError(f"want to drop {names}, but the rest needs them")
-    parts = tuple(articulation.parts[index] for index in kept)
+    parts = tuple(made.parts[index] for index in kept)
     hung = tuple(replace(j, parent=number[j.parent], child=number[j.child]) for j in joints)
-    return replace(articulation, parts=parts, joints=hung)
+    return replace(made, parts=parts, joints=hung)

@@ -12,7 +12,7 @@ from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh, Texture
 from asset_factory.factory.views.view import painted
 
-from .fused import NOBODY, skin, without_parts
+from .fused import NOBODY, skin, with_skin
 from .labelled import Labelled
 
 #: Cells along the longest side, lowest and highest; drawn evenly by their logarithm.
@@ -45,10 +45,8 @@ def skin_like(
     rng = np.random.default_rng([seed, 0x5C1])
     original = Labelled.of(articulation)
     vertices, faces, below, _ = _skinned(original, rng, cells, engraved)
-    label = original.label[below]
-    hidden = set(np.setdiff1d(original.part, label[:, 0]).tolist())
-    made = Labelled(vertices, faces, label).articulation(articulation, "a skin of one piece")
-    return without_parts(made, hidden) if hidden else made
+    skin = Labelled(vertices, faces, original.label[below])
+    return with_skin(articulation, skin, "a skin of one piece")
 
 
 def coloured_skin(mesh: Mesh, seed: int) -> Mesh:

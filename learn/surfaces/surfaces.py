@@ -9,6 +9,7 @@ from itertools import product
 import numpy as np
 from scipy.spatial import ConvexHull
 
+from asset_factory.factory.geometry.triangles import doubled_normals
 from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 
 from .labelled import Labelled, joined, some
@@ -55,8 +56,8 @@ def _chamfered_box() -> tuple[FloatArray, FloatArray, IntArray]:
     inset = np.tile(1.0 - np.eye(3), (8, 1))
     hull = ConvexHull(signs * (1.0 - 0.2 * inset))
     faces = np.asarray(hull.simplices, dtype=np.int64)
-    a, b, c = (hull.points[faces[:, k]] for k in range(3))
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), hull.equations[:, :3]) < 0.0
+    normals = doubled_normals(hull.points[faces])
+    inward = np.einsum("ij,ij->i", normals, hull.equations[:, :3]) < 0.0
     return signs, inset, np.where(inward[:, None], faces[:, ::-1], faces)
 
 

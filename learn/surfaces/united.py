@@ -29,29 +29,24 @@ def _united(mesh: Labelled) -> Labelled:
     import manifold3d
 
     own = mesh.with_own_vertices()
-    labels = own.piece_labels
-    order = np.argsort(own.piece, kind="stable")
-    cuts = np.searchsorted(own.piece[order], np.arange(1, own.piece_count))
     start = int(manifold3d.Manifold.reserve_ids(own.piece_count))
-    bodies: list[Any] = []
-    left: list[int] = []
-    for number, rows in enumerate(np.split(order, cuts)):
-        body = _body(own.vertices, own.faces[rows], start + number)
-        if body is None:
-            left.append(number)
-        else:
-            bodies.append(body)
-    if len(bodies) < 2:
+    bodies = [
+        _body(own.vertices, own.faces[own.piece == number], start + number)
+        for number in range(own.piece_count)
+    ]
+    closed = [body for body in bodies if body is not None]
+    if len(closed) < 2:
         return mesh
-    whole = manifold3d.Manifold.batch_boolean(bodies, manifold3d.OpType.Add).to_mesh64()
+    whole = manifold3d.Manifold.batch_boolean(closed, manifold3d.OpType.Add).to_mesh64()
     run = np.asarray(whole.run_index, dtype=np.int64)
     origin = np.asarray(whole.run_original_id, dtype=np.int64) - start
-    label = np.repeat(labels[origin], (run[1:] - run[:-1]) // 3, axis=0)
+    label = np.repeat(own.piece_labels[origin], np.diff(run) // 3, axis=0)
     label[:, 1] = 0
     faces = np.asarray(whole.tri_verts, dtype=np.int64)
     skin = Labelled(np.array(whole.vert_properties[:, :3]), faces, label)
     missing = np.setdiff1d(mesh.part, skin.part)
-    return joined([skin, own.chosen(np.isin(own.piece, left) | np.isin(own.part, missing))])
+    left = np.array([body is None for body in bodies])[own.piece]
+    return joined([skin, own.chosen(left | np.isin(own.part, missing))])
 
 
 def _body(vertices: FloatArray, faces: IntArray, mark: int) -> Any:

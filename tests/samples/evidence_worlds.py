@@ -11,7 +11,7 @@ from asset_factory.learn.objects.kit.assembly import Assembly
 from asset_factory.learn.objects.kit.axes import FRONT, facing_front
 from asset_factory.learn.objects.kit.boards import carcass, tray
 from asset_factory.learn.objects.kit.casework import swung
-from asset_factory.learn.objects.kit.controls import knob
+from asset_factory.learn.objects.kit.controls import ControlPanel
 from asset_factory.learn.objects.kit.pulls import Pull, add_pull
 from asset_factory.learn.objects.kit.shapes import box
 from asset_factory.learn.objects.kit.spans import within
@@ -71,7 +71,7 @@ def oven() -> Articulation:
     door.add(box(FRONT_X, FRONT_Y, (0.01, 0.55)))
     add_pull(door, _bar(0.4), (0.0, 0.5), facing_front(FACE), 1.0)
     a.root.add(box(FRONT_X, FRONT_Y, (0.56, 0.698)))
-    knob(a, "knob", (0.1, 0.63), 0.025, STEEL, facing_front(FACE), mark=WOOD)
+    ControlPanel(a, facing_front(FACE), STEEL, WOOD).knob("knob", (0.1, 0.63), 0.025)
     return _placed(a.articulation())
 
 

@@ -10,8 +10,8 @@ from ..kit.assembly import Assembly
 from ..kit.axes import DOWN, LEFT, RIGHT, UP, X
 from ..kit.boards import tray
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL, WHITE
-from ..kit.outlines import arc, oval, rounded
-from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
+from ..kit.outlines import arc, oval, raised, rounded
+from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, prism, ribbon, stack
 from ..kit.spans import PLAY, Profile, about, centred, ends, span, within
 from ..kit.wheels import wheel
 
@@ -45,7 +45,7 @@ def swing_bin(a: Assembly) -> None:
     body = a.body(skin, _bucket(a, outline, 0.0, high))
     lines = (1.02 * outline, hole, hole, 0.99 * outline)
     heights = (high + 0.003, level + 0.003, level - 0.002, high - 0.0002)
-    rim = [np.column_stack([o, np.full(len(o), z)]) for o, z in zip(lines, heights, strict=True)]
+    rim = [raised(line, z) for line, z in zip(lines, heights, strict=True)]
     body.add(loft(rim, looped=True), look=top)
     room = np.abs(hole).max(axis=0)
     plate = hole * (1.0 - (PLAY + 0.5 * thick) / room)
@@ -61,7 +61,7 @@ def swing_bin(a: Assembly) -> None:
         half = half[np.append(True, np.linalg.norm(np.diff(half, axis=0), axis=1) > 1e-6)]
         at = (0.0, side * float(np.abs(half[:, 1]).max()), level - 0.003)
         flap = a.hinge(f"{name}_flap", (-side, 0.0, 0.0), at, a.degrees(30, 55), look=top)
-        flap.add(stack([(half, level - 0.003), (half, level)]))
+        flap.add(prism(half, (level - 0.003, level)))
 
 
 def step_bin(a: Assembly) -> None:

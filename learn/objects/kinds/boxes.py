@@ -12,7 +12,7 @@ from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, FRONT, LEFT, RIGHT, UP, Point, X, Y, Z, facing_front
 from ..kit.boards import stand, tray
 from ..kit.casework import Leaf, furniture
-from ..kit.controls import keypad, knob, lever
+from ..kit.controls import ControlPanel, keypad, lever
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE, wood
 from ..kit.outlines import arc, rounded
 from ..kit.shapes import Form, block, both, box, cylinder, hoop, pipe, prism, ribbon, stack
@@ -154,7 +154,8 @@ def _locks(a: Assembly, leaf: Leaf, face: float, metal: Material) -> None:
     place = facing_front(face)
     if a.happens(0.6):
         look = BLACK if metal is STEEL else STEEL
-        knob(a, "dial", (at, mid(z) + 0.2 * room), 0.09 * room, look, place, mark=WHITE, on=door)
+        dial = ControlPanel(a, place, look, WHITE, door)
+        dial.knob("dial", (at, mid(z) + 0.2 * room), 0.09 * room)
     elif room > 0.15:
         pad = (mid(z) + 0.08 * room, mid(z) + 0.36 * room)
         keypad(a, about(0.16 * room, mid(x)), pad, place, door)
@@ -341,16 +342,15 @@ def mailbox(a: Assembly) -> None:
     skin, metal = a.picks((BLACK, WHITE, BLUE, STEEL, RED), (OAK, STEEL))
     post = a.draw(0.7, 1.0) if a.happens(0.5) else 0.0
     body = a.body(skin)
-    outer = _arch(half, rise * half, tall, 0.0, post)
-    inner = _arch(half, rise * half, tall, 0.003, post)
+    outer, inner = (_arch(half, rise * half, tall, inset, post) for inset in (0.0, 0.003))
     body.add(ribbon(outer, inner, about(long), Y, looped=True))
-    body.add(stack([(inner, long - 0.003), (inner, long)], Y))
+    body.add(prism(inner, (long - 0.003, long), Y))
     if post:
         width = about(a.draw(0.03, 0.05))
         body.add(box(width, width, (0.0, post)), look=metal)
     y = span(-long - PLAY, -0.004)
     door = a.hinge("door", RIGHT, (0, y[0], post), a.degrees(80, 120))
-    door.add(stack([(outer, y[0]), (outer, y[1])], Y))
+    door.add(prism(outer, y, Y))
     knob = span(post + tall + 0.2 * half, 0.03)
     door.add(block(about(0.01), span(y[0], -0.02), knob, 0.004, axis=Y), look=metal)
     if a.happens(0.8):

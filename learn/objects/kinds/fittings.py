@@ -8,9 +8,9 @@ from asset_factory.factory.mesh import FloatArray, Material
 
 from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, LEFT, RIGHT, UP, X, Y, Z, facing_front
-from ..kit.controls import button, knob
+from ..kit.controls import ControlPanel
 from ..kit.looks import BLACK, BRASS, RED, STEEL, WHITE
-from ..kit.outlines import arc
+from ..kit.outlines import arc, raised
 from ..kit.shapes import Form, ball, block, box, cylinder, lathe, pipe, prism
 from ..kit.spans import PLAY, Flat, about, mid, shares, span
 
@@ -112,8 +112,7 @@ def _spout(
     else:
         corner = arc((0.03, low + 0.5 * rise), 0.03, np.pi, np.pi * 0.75, 4)
         line = [*corner, corner[-1] + 0.6 * reach, (reach, corner[-1, 1] + 0.4 * reach)]
-    out, up = np.array([(0.0, low), *line]).T
-    path = np.stack([0 * out, -out, up], axis=1)
+    path = raised(np.array([(0.0, low), *line]) * (-1.0, 1.0), 0.0, X)
     sides = a.pick(4, 10, 14) if style in {"angle", "straight"} else 12
     part.add(pipe(path, thin, sides, up=RIGHT, flat=a.draw(0.7, 1.3)))
     if a.happens(0.7):
@@ -255,7 +254,7 @@ def _toggle(a: Assembly, name: str, at: Flat, wide: float, tall: float, look: Ma
 
 def _turned(a: Assembly, name: str, at: Flat, wide: float, tall: float, look: Material) -> None:
     upper = a.degrees(180, 320)
-    knob(a, name, at, 0.9 * min(wide, tall), look, facing_front(0.0), upper=upper)
+    ControlPanel(a, facing_front(0.0), look).knob(name, at, 0.9 * min(wide, tall), upper)
 
 
 def _slid(a: Assembly, name: str, at: Flat, wide: float, tall: float, look: Material) -> None:
@@ -270,7 +269,8 @@ def _slid(a: Assembly, name: str, at: Flat, wide: float, tall: float, look: Mate
 def _pressed(a: Assembly, name: str, at: Flat, wide: float, tall: float, look: Material) -> None:
     x, z = (about(0.8 * min(wide, tall), v) for v in at)
     stroke = a.draw(0.001, 0.003)
-    button(a, name, x, z, look, facing_front(0.0), stroke=stroke, style=a.pick(1.0, 0.3))
+    panel = ControlPanel(a, facing_front(0.0), look)
+    panel.button(name, x, z, stroke, style=a.pick(1.0, 0.3))
 
 
 #: Controls of a switch panel, each made within ``wide`` and ``tall`` of its middle [m].

@@ -8,10 +8,10 @@ from asset_factory.factory.mesh import Material
 
 from ..kit.assembly import Assembly
 from ..kit.axes import BACK, FRONT, LEFT, RIGHT, UP, X, Y, Z, facing_up
-from ..kit.controls import button, cells, key
+from ..kit.controls import ControlPanel, cells, key
 from ..kit.looks import BLACK, BLUE, BRASS, GLASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
-from ..kit.outlines import oval, rounded
-from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
+from ..kit.outlines import oval, raised, rounded
+from ..kit.shapes import ball, block, both, box, cylinder, lathe, loft, pipe, prism, ribbon
 from ..kit.spans import PLAY, Span, about, centred, span, within
 
 
@@ -102,9 +102,9 @@ def remote(a: Assembly) -> None:
     skin, other = a.picks((BLACK, WHITE, STEEL), (WHITE, RED, BLUE, STEEL))
     a.body(skin, block(about(half), about(long), (0.0, thick), a.draw(0.002, 0.8 * half), 0.002))
     y = (0.01 - long, a.draw(0.2, 0.7) * long)
+    top = ControlPanel(a, facing_up(thick), other)
     for name, key_x, key_y in cells(about(0.68 * half), y, a.count(2, 4), a.count(1, 3)):
-        keyed = (f"key_{name}", key_x, key_y, other, facing_up(thick))
-        button(a, *keyed, stroke=stroke, thick=0.002, style=0.6)
+        top.button(f"key_{name}", key_x, key_y, stroke, 0.002, 0.6)
 
 
 def calculator(a: Assembly) -> None:
@@ -116,9 +116,9 @@ def calculator(a: Assembly) -> None:
     display = (0.45 * long, 0.85 * long)
     body.add(box(about(0.85 * half), display, span(thick, 0.0006)), look=GLASS)
     pad = (about(0.875 * half), (-0.9 * long, 0.35 * long))
+    top = ControlPanel(a, facing_up(thick), other)
     for name, key_x, key_y in cells(*pad, a.count(2, 3), a.count(3, 4), margin):
-        keyed = (f"key_{name}", key_x, key_y, other, facing_up(thick))
-        button(a, *keyed, stroke=stroke, thick=tall, style=style)
+        top.button(f"key_{name}", key_x, key_y, stroke, tall, style)
 
 
 def lighter(a: Assembly) -> None:
@@ -167,7 +167,7 @@ def camera(a: Assembly) -> None:
         dial.add(cylinder(Z, spot, 0.14 * half, span(high + PLAY, 0.006)))
     x = about(0.006, -0.7 * half)
     y = about(0.006, -0.2 * deep)
-    button(a, "release", x, y, metal, facing_up(high), stroke=0.0015, thick=0.003)
+    ControlPanel(a, facing_up(high), metal).button("release", x, y, stroke=0.0015, thick=0.003)
 
 
 def clock(a: Assembly) -> None:
@@ -181,7 +181,7 @@ def clock(a: Assembly) -> None:
     corner = half if a.happens(0.6) else 0.02
     outer, inner = (rounded(about(r), about(r, level), corner, 5) for r in (half, radius))
     body.add(ribbon(outer, inner, (-deep, 0.0), Y, looped=True))
-    body.add(stack([(inner, face), (inner, -0.001)], Y))
+    body.add(prism(inner, (face, -0.001), Y))
     dots = oval(0.88 * radius, 0.88 * radius, 12).tolist()
     body.add(*(ball((x, face, level + z), 0.02 * radius, 6) for x, z in dots), look=dark)
     front = face - 0.02 * radius - PLAY
@@ -229,8 +229,7 @@ def eyeglasses(a: Assembly) -> None:
     for name, side in (("left", -1.0), ("right", 1.0)):
         x = side * half
         temple = a.hinge(f"{name}_temple", (0.0, 0.0, side), (x, pivot, z), upper)
-        path = np.column_stack([np.full(len(line), x), line])
-        temple.add(pipe(path, width, sides, up=RIGHT, flat=1.0 / ratio))
+        temple.add(pipe(raised(line, x, X), width, sides, up=RIGHT, flat=1.0 / ratio))
 
 
 def _lenses(a: Assembly, half: float, high: float, level: float, tint: Material) -> None:

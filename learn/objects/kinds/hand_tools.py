@@ -10,7 +10,7 @@ from asset_factory.factory.mesh import Material
 from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, DOWN, FRONT, LEFT, UP, X, Y, Z
 from ..kit.looks import BLACK, BLUE, GREEN, RED, STEEL
-from ..kit.outlines import oval
+from ..kit.outlines import oval, raised
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, pipe, ribbon
 from ..kit.spans import PLAY, Span, about, ends, span, within
 
@@ -49,7 +49,7 @@ def scissors(a: Assembly) -> None:
     for part, z in ((body, (0.0, thick)), (blade, upper)):
         wide = loop * (1.0 if part is body else a.draw(0.8, 1.2))
         tall = a.draw(0.018, 0.038)
-        path = np.column_stack([oval(wide, tall, 20), np.full(20, (low + high) / 2)])
+        path = raised(oval(wide, tall, 20), (low + high) / 2)
         handle = pipe(path, 0.0045, a.pick(4, 8), looped=True, flat=(high - low) / 0.009)
         handle = handle.shifted((0.0012 + wide + 0.004, -0.55 * grip - tall, 0.0))
         forms = [_strip(rows, z), handle]

@@ -13,7 +13,7 @@ from ..kit.assembly import Assembly
 from ..kit.axes import FRONT, UP, Point, Z, facing_front, facing_up
 from ..kit.boards import corners, put_top, rack
 from ..kit.casework import Casework, furniture
-from ..kit.controls import button, cells, key, keypad, knob, knob_row
+from ..kit.controls import ControlPanel, cells, key, keypad
 from ..kit.layouts import Node, column, drawers, filling, row
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
 from ..kit.pulls import any_pull
@@ -35,7 +35,7 @@ def _style(a: Assembly, panels: Mapping[str, float]) -> Style:
     return replace(style, reveal=0.0, shelves=0, bare=False)
 
 
-def burners(a: Assembly, x: Span, y: Span, z: float) -> None:
+def _burners(a: Assembly, x: Span, y: Span, z: float) -> None:
     """Build burners on a hob at ``z``: plates, glass marks, or gas under grates."""
     style = a.pick("plate", "mark", "gas")
     columns = shares(x, 2 if size(x) < 0.75 else 3)
@@ -60,7 +60,7 @@ def _grate(a: Assembly, at: Point, half: float) -> None:
     a.root.add(*rack(x, y, at[2] + 0.025, 1), across, *feet, look=BLACK)
 
 
-def racks(a: Assembly, case: Casework, most: int = 3) -> None:
+def _racks(a: Assembly, case: Casework, most: int = 3) -> None:
     """Wire shelves behind every door of a case, as part of the body."""
     y = within(case.y, 0.02, 0.03)
     for door in case.doors if case.style.hollow else ():
@@ -69,12 +69,11 @@ def racks(a: Assembly, case: Casework, most: int = 3) -> None:
             a.root.add(*rack(x, y, level, a.count(5, 13), a.happens(0.5)), look=STEEL)
 
 
-def _panel_row(a: Assembly, case: Casework, share: float, looks: tuple[Material, ...]) -> None:
+def _panel_row(a: Assembly, case: Casework, share: float, looks: tuple[Material, Material]) -> None:
     """Build knobs on the fixed panel that is the uppermost ``share`` of a case's front."""
     high = share * size(case.z)
-    x = within(case.x, case.style.board)
-    place = facing_front(case.face)
-    knob_row(a, x, case.z[1] - high / 2, high, looks, place, case.prefix)
+    panel = ControlPanel(a, facing_front(case.face), *looks)
+    panel.knob_row(within(case.x, case.style.board), case.z[1] - high / 2, high, case.prefix)
 
 
 def stove(a: Assembly) -> None:
@@ -95,15 +94,15 @@ def stove(a: Assembly) -> None:
     top = case.z[1]
     tall = a.draw(0.08, 0.2)
     # Knobs on the console stand out over the hob.
-    burners(a, case.x, within(case.y, 0.0, 0.1 if console else 0.0), top)
+    _burners(a, case.x, within(case.y, 0.0, 0.1 if console else 0.0), top)
     if console or a.happens(0.3):
         a.root.add(box(case.x, span(depth, -0.06), span(top, tall)), look=style.body)
     if console:
-        place = facing_front(depth - 0.06)
-        knob_row(a, case.x, top + 0.55 * tall, 0.7 * tall, looks, place)
+        panel = ControlPanel(a, facing_front(depth - 0.06), *looks)
+        panel.knob_row(case.x, top + 0.55 * tall, 0.7 * tall)
     else:
         _panel_row(a, case, share / sum(part for part, _ in parts), looks)
-    racks(a, case)
+    _racks(a, case)
 
 
 def built_in_oven(a: Assembly) -> None:
@@ -121,13 +120,12 @@ def built_in_oven(a: Assembly) -> None:
     case = furniture(a, style, (width, depth, height), node, "feet", 0.015, BLACK)
     metal = any_metal(a)
     if beside:
-        radius = min(0.08 * width, 0.025)
+        panel = ControlPanel(a, facing_front(case.face), metal, RED)
         for i, level in enumerate(between(case.z, a.count(2, 4))):
-            at = (0.88 * width, level)
-            knob(a, f"knob_{i}", at, radius, metal, facing_front(case.face), mark=RED)
+            panel.knob(f"knob_{i}", (0.88 * width, level), min(0.08 * width, 0.025))
     else:
         _panel_row(a, case, share, (metal, RED))
-    racks(a, case)
+    _racks(a, case)
 
 
 def microwave_oven(a: Assembly) -> None:
@@ -161,17 +159,17 @@ def hob(a: Assembly) -> None:
     metal = any_metal(a)
     a.body(a.pick(STEEL, BLACK, WHITE)).add(box(x, y, (0.0, height)))
     if height > 0.09:
-        burners(a, x, y, height)
-        knob_row(a, x, height / 2, height, (metal, RED), facing_front(0.0))
+        _burners(a, x, y, height)
+        ControlPanel(a, facing_front(0.0), metal, RED).knob_row(x, height / 2, height)
         return
     beside = a.happens(0.5)
     row = y if beside else x
-    burners(a, (0.0, 0.8 * width) if beside else x, y if beside else (0.14, depth), height)
+    _burners(a, (0.0, 0.8 * width) if beside else x, y if beside else (0.14, depth), height)
     count = a.count(2, 6)
     radius = min(0.022, 0.35 * size(row) / (count + 1))
+    panel = ControlPanel(a, facing_up(height), metal, RED)
     for i, v in enumerate(between(row, count)):
-        at = (0.91 * width, v) if beside else (v, 0.06)
-        knob(a, f"knob_{i}", at, radius, metal, facing_up(height), mark=RED)
+        panel.knob(f"knob_{i}", (0.91 * width, v) if beside else (v, 0.06), radius)
 
 
 def hood(a: Assembly) -> None:
@@ -182,9 +180,9 @@ def hood(a: Assembly) -> None:
     body = a.body(a.pick(STEEL, WHITE, BLACK))
     flue = (about(0.13, width / 2), (depth - 0.3, depth))
     body.add(frustum((x, y), flue, (low, high)), box(*flue, (high, top)))
+    panel = ControlPanel(a, facing_front(0.0), WHITE)
     for i, at in enumerate(np.linspace(0.3, 0.7, a.count(2, 5)) * width):
-        key_z = (0.028, low - 0.006)
-        button(a, f"button_{i}", about(0.01, at), key_z, WHITE, facing_front(0.0))
+        panel.button(f"button_{i}", about(0.01, at), (0.028, low - 0.006))
     visored = a.happens(0.6)
     body.add(box(x, y, (0.022 if visored else 0.0, low)))
     if visored:
@@ -215,8 +213,7 @@ def dish_washer(a: Assembly) -> None:
             at = (sizes[0] / 2, 0.0, low)
             part = a.slider(f"inner_rack_{i}", FRONT, at, round(0.8 * sizes[1], 3))
         z = (float(low), min(low + a.draw(0.05, 0.13), cell.inner[1][1] - 0.012))
-        posts = [(px, py) for px in within(x, 0.003) for py in within(y, 0.003)]
-        wires = [cylinder(Z, at, 0.003, z, 6) for at in posts]
+        wires = [cylinder(Z, at, 0.003, z, 6) for at in corners(x, y, 0.003)]
         part.add(*rack(x, y, z[0], 12), *rack(x, y, z[1], 0), *wires, look=STEEL)
 
 
@@ -240,10 +237,10 @@ def oven(a: Assembly) -> None:
     door, cell, *_ = case.doors[0]
     window = box(within(cell.x, 0.09), span(case.face, -0.003), within(cell.z, 0.1, 0.13))
     door.add(window, look=GLASS)
-    racks(a, case, 2)
-    level = case.z[1] - 0.07 * sizes[2]
+    _racks(a, case, 2)
+    panel = ControlPanel(a, facing_front(case.face), metal, RED)
     for i, x in enumerate(between(within(case.x, 0.04), a.count(2, 5))):
-        knob(a, f"knob_{i}", (x, level), 0.025, metal, facing_front(case.face), mark=RED)
+        panel.knob(f"knob_{i}", (x, case.z[1] - 0.07 * sizes[2]), 0.025)
     for at in [(mid(u), mid(v)) for u in shares(case.x, 2) for v in shares(case.y, 2)]:
         a.root.add(cylinder(Z, at, 0.08, span(case.z[1], 0.006), 20), look=BLACK)
 
@@ -265,7 +262,8 @@ def microwave(a: Assembly) -> None:
         a.root.add(key(key_x, key_z, (0.0, 0.002), 0.0).moved(place), look=WHITE)
     plate = (mid(cell.inner[0]), mid(case.y))
     a.root.add(cylinder(Z, plate, 0.11, span(cell.inner[1][0], 0.008), 20), look=GLASS)
-    knob(a, "knob", (mid(x), z[1] - 0.05), 0.02, RED if dark is skin else skin, place, mark=RED)
+    panel = ControlPanel(a, place, RED if dark is skin else skin, RED)
+    panel.knob("knob", (mid(x), z[1] - 0.05), 0.02)
 
 
 def dishwasher(a: Assembly) -> None:
@@ -344,7 +342,7 @@ def kitchen(a: Assembly) -> None:
     deep = within(y, -max(0.0, style.proud), 0.0)
     top = put_top(a, "sink" if sunk else "board", (0.0, left), deep, z[1], any_color(a))
     if hob is not None and a.happens(0.7):
-        burners(a, within(hob, 0.03), (0.06, depth - 0.05), top)
+        _burners(a, within(hob, 0.03), (0.06, depth - 0.05), top)
     if a.happens(0.35):
         _wall_units(a, style, left, depth, z[1])
 

@@ -9,7 +9,7 @@ from asset_factory.factory.mesh import Material
 from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import DOWN, FRONT, LEFT, RIGHT, UP, Place, Z, facing_front, facing_side, facing_up
 from ..kit.boards import corners, tray
-from ..kit.controls import control
+from ..kit.controls import ControlPanel
 from ..kit.looks import BLACK, BLUE, BRASS, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.outlines import arc, rounded
 from ..kit.pulls import Pull, add_pull
@@ -273,9 +273,10 @@ def coffee_machine(a: Assembly) -> None:
         lid.add(block(about(half * a.draw(0.6, 0.95)), y, z, 0.012, 0.002))
     count = a.count(1, 4)
     radius = min(a.draw(0.009, 0.02), 0.8 * half / count)
+    panel = ControlPanel(a, facing_front(front), dark)
     for i in range(count):
         at = ((i - (count - 1) / 2) * 1.7 * half / count, (under + high) / 2)
-        control(a, i, at, radius, dark, facing_front(front), 0.5)
+        panel.control(i, at, radius, 0.5)
     spout = 0.55 * front
     if a.happens(0.5):
         _filter_holder(a, spout, under - PLAY, dark)
@@ -386,4 +387,4 @@ def _panel(
     for i in range(count):
         z = max(foot + radius + 0.005, floor - radius - 0.003)
         at = ((i - (count - 1) / 2) * 1.8 * room / count, z)
-        control(a, i, at, radius, dark, place, 0.5 if i else 1.0)
+        ControlPanel(a, place, dark).control(i, at, radius, 0.5 if i else 1.0)

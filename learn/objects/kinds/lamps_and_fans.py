@@ -8,9 +8,9 @@ from asset_factory.factory.mesh import Material
 
 from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, DOWN, FRONT, LEFT, RIGHT, UP, Point, X, Y, Z, facing_up
-from ..kit.controls import button, knob
+from ..kit.controls import ControlPanel
 from ..kit.looks import BLACK, BLUE, BRASS, OAK, RED, STEEL, WALNUT, WHITE
-from ..kit.outlines import arc, oval
+from ..kit.outlines import arc, oval, raised
 from ..kit.shapes import Form, ball, block, cylinder, lathe, loft, pipe
 from ..kit.spans import PLAY, Span, about, span
 
@@ -97,12 +97,12 @@ def _shade(a: Assembly, shade: PartDraft, z: float, bar: float, x: float) -> Non
 
 def _switch(a: Assembly, wide: float, top: float, metal: Material) -> None:
     at = (a.draw(-0.4, 0.4) * wide, -0.45 * wide)
+    panel = ControlPanel(a, facing_up(top), metal)
     if a.happens(0.5):
-        knob(a, "dimmer", at, 0.011, metal, facing_up(top), upper=a.degrees(180, 320))
+        panel.knob("dimmer", at, 0.011, a.degrees(180, 320))
         return
     x, y = (about(0.01, v) for v in at)
-    thick = a.draw(0.004, 0.008)
-    button(a, "switch", x, y, metal, facing_up(top), stroke=0.0035, thick=thick)
+    panel.button("switch", x, y, stroke=0.0035, thick=a.draw(0.004, 0.008))
 
 
 def standing_lamp(a: Assembly) -> None:
@@ -215,15 +215,14 @@ def fan(a: Assembly) -> None:
     broad = min(1.4 * depth / np.sin(1.3 * pitch), radius * a.draw(0.5, 0.9))
     spinning.add(*_blades(a, BACK, center, a.count(3, 5), hub, 0.86 * radius, broad, pitch))
     style = a.weighted({"none": 0.3, "knob": 0.28, "buttons": 0.42})
+    panel = ControlPanel(a, facing_up(thick), metal)
     if style == "knob":
-        upper = a.degrees(120, 300)
-        knob(a, "knob", (0.0, -0.55 * wide), 0.014, metal, facing_up(thick), upper=upper)
+        panel.knob("knob", (0.0, -0.55 * wide), 0.014, a.degrees(120, 300))
     elif style == "buttons":
         count = a.count(2, 4)
         for i in range(count):
             x = about(0.008, (i - (count - 1) / 2) * 0.02)
-            y = about(0.006, -0.55 * wide)
-            button(a, f"button_{i}", x, y, metal, facing_up(thick), stroke=0.004, style=0.3)
+            panel.button(f"button_{i}", x, about(0.006, -0.55 * wide), stroke=0.004, style=0.3)
 
 
 def _cage(
@@ -234,9 +233,8 @@ def _cage(
     front = -0.012 - 2.1 * depth
     middle = (back + front) / 2
     for share, y in ((1.0, middle), (0.6, front), (0.6, back)):
-        x, z = oval(share * radius, share * radius, 24).T
-        ring = np.stack([x, np.full(24, y), level + z], axis=1)
-        head.add(pipe(ring, 0.0018, 5, looped=True), look=metal)
+        line = oval(share * radius, share * radius, 24) + np.array((0.0, level))
+        head.add(pipe(raised(line, y, Y), 0.0018, 5, looped=True), look=metal)
     bend = [(0.1, front), (0.85, front), (1.0, middle), (0.85, back), (0.25, back)]
     spoke = pipe([(share * radius, y, level) for share, y in bend], 0.0012, 4)
     count = a.pick(8, 12, 16)
@@ -292,8 +290,8 @@ def globe(a: Assembly) -> None:
     if swivels:
         frame = a.spin("frame", UP, (0, 0, stem), look=metal)
         frame.add(cylinder(Z, (0.0, 0.0), 0.006, (stem - 0.01, stem + 0.002), 12))
-    x, z = arc((0.0, center[2]), ring, -np.pi / 2 - 0.05, np.pi / 2 + 0.05, 21).T
-    forms = [pipe(np.stack([x, 0 * x, z], axis=1), 0.004, 4, flat=a.draw(0.8, 2.0))]
+    bow = arc((0.0, center[2]), ring, -np.pi / 2 - 0.05, np.pi / 2 + 0.05, 21)
+    forms = [pipe(raised(bow, 0.0, Y), 0.004, 4, flat=a.draw(0.8, 2.0))]
     for way in (-1.0, 1.0):
         pin = span(center[2] + way * ring, way * (radius + 0.001 - ring))
         forms.append(cylinder(Z, (0.0, 0.0), 0.003, pin, 8))

@@ -11,7 +11,7 @@ from asset_factory.factory.mesh import FloatArray, Material
 from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import FRONT, LEFT, RIGHT, UP, Point, X, Y, facing_front
 from ..kit.boards import corners, tray
-from ..kit.controls import button, cells
+from ..kit.controls import ControlPanel, cells
 from ..kit.looks import BLACK, BLUE, GLASS, RED, STEEL, WHITE
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, prism
 from ..kit.spans import PLAY, Span, about, centred, ends, shares, size, span, within
@@ -214,10 +214,10 @@ def printer(a: Assembly) -> None:
         look = a.pick(skin, dark)
         flap = a.hinge("front_flap", RIGHT, at, a.degrees(70, 100), look=look)
         flap.add(block(about(0.7 * half), span(front, -0.006), flap_z, 0.004, axis=Y))
+    panel = ControlPanel(a, facing_front(y[0]), dark)
     for i in range(a.count(0, 4)):
         key = about(each, -0.75 * half + i * 3 * each)
-        style = a.draw(0.2, 0.95)
-        button(a, f"button_{i}", key, level, dark, facing_front(y[0]), style=style)
+        panel.button(f"button_{i}", key, level, style=a.draw(0.2, 0.95))
     if a.happens(0.4) or not a.parts:
         behind = span(y[1] + 0.001, 0.005)
         pin = (0, behind[1], 0.5 * high)

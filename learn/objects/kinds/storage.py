@@ -71,7 +71,7 @@ class CaseworkPlan:
     pulls: tuple[float, ...] = (0.5, 0.75, 0.3, 0.85)
 
 
-def stored(plan: CaseworkPlan, a: Assembly) -> None:
+def _stored(plan: CaseworkPlan, a: Assembly) -> None:
     """Build a piece of furniture after a plan."""
     width, depth, height = a.draws(*plan.sizes)
     support = a.weighted(plan.stands)
@@ -356,4 +356,4 @@ def storage_bed(a: Assembly) -> None:
     a.root.add(mattress, box(pillow, within(case.y, 0.1), span(top[1], 0.09)), look=WHITE)
 
 
-PLANNED = {name: partial(stored, plan) for name, plan in PLANS.items()}
+PLANNED = {name: partial(_stored, plan) for name, plan in PLANS.items()}

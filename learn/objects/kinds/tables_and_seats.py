@@ -12,7 +12,7 @@ from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, FRONT, LEFT, RIGHT, UP, X, Y, Z, facing_front, facing_side, facing_up
 from ..kit.boards import stand
 from ..kit.casework import Casework, furniture
-from ..kit.controls import button, lever
+from ..kit.controls import ControlPanel, lever
 from ..kit.layouts import column, drawers, grid, row
 from ..kit.looks import BLACK, BLUE, GREEN, OAK, RED, STEEL, WALNUT, WHITE
 from ..kit.shapes import Form, block, both, box, cylinder, lathe, loft, pipe, ribbon, stack
@@ -314,9 +314,9 @@ def _cistern(a: Assembly, wall: float, rim: float, metal: Material) -> None:
         radius = a.draw(0.016, 0.024)
         across = about(radius, mid(y))
         # The button dips into a well that nobody sees; it stops above the plate.
+        panel = ControlPanel(a, facing_up(cap[1] + 0.002), metal)
         for i, at in enumerate(a.pick((0.0,), (-0.026, 0.026))):
-            face = facing_up(cap[1] + 0.002)
-            button(a, f"button_{i}", about(radius, at), across, metal, face, thick=0.006)
+            panel.button(f"button_{i}", about(radius, at), across, thick=0.006)
         return
     level = z[1] - a.draw(0.04, 0.09)
     length = a.draw(0.06, 0.11)

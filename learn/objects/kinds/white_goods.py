@@ -11,7 +11,7 @@ from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, FRONT, LEFT, Y, Z, facing_front
 from ..kit.boards import carcass, ring_of_boards, stand, tray
 from ..kit.casework import Casework, Leaf, furniture, swung
-from ..kit.controls import button, knob
+from ..kit.controls import ControlPanel
 from ..kit.layouts import Cell, Node, column, row
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
 from ..kit.pulls import add_pull, any_pull
@@ -58,7 +58,7 @@ def _style(a: Assembly, glazed: bool) -> Style:
     return replace(style, reveal=0.0, shelves=0)
 
 
-def cold_box(kind: str, a: Assembly) -> None:
+def _cold_box(kind: str, a: Assembly) -> None:
     """Build a refrigerator that is ``tall``, ``mini`` or ``wine``."""
     sizes = a.draws(*SIZES[kind])
     style = _style(a, kind == "wine")
@@ -165,9 +165,9 @@ def fridge(a: Assembly) -> None:
 
 
 PLANNED = {
-    "refrigerator": partial(cold_box, "tall"),
-    "mini_fridge": partial(cold_box, "mini"),
-    "wine_cooler": partial(cold_box, "wine"),
+    "refrigerator": partial(_cold_box, "tall"),
+    "mini_fridge": partial(_cold_box, "mini"),
+    "wine_cooler": partial(_cold_box, "wine"),
 }
 
 
@@ -251,11 +251,12 @@ def _controls(a: Assembly, x: Span, z: Span) -> None:
     places = np.linspace(0.42, 0.92, a.count(3, 8))
     spots = (x[0] + (places if left else 1.0 - places) * size(x)).tolist()
     radius = min(0.3 * size(z), 0.035)
-    knob(a, "knob", (spots[0], level), radius, any_metal(a), place, mark=RED)
+    ControlPanel(a, place, any_metal(a), RED).knob("knob", (spots[0], level), radius)
     if a.happens(0.6):
         half = 0.15 * size(x) / len(spots)
+        panel = ControlPanel(a, place, WHITE)
         for i, at in enumerate(spots[2:]):
-            button(a, f"button_{i}", about(half, at), about(half, level), WHITE, place)
+            panel.button(f"button_{i}", about(half, at), about(half, level))
 
 
 def top_loader(a: Assembly) -> None:
@@ -278,6 +279,6 @@ def top_loader(a: Assembly) -> None:
     lid = a.hinge("lid", LEFT, (center[0], lid_y[1], z[1]), a.degrees(70, 88))
     lid.add(box(within(mouth[0], -0.03), lid_y, z), look=a.pick(body.look, GLASS))
     lid.add(box(about(0.06, center[0]), span(lid_y[0], -0.012), span(z[0], 0.01)))
+    panel = ControlPanel(a, facing_front(depth - console), STEEL, RED)
     for i, at in enumerate(between((0.15 * width, 0.85 * width), a.count(1, 4))):
-        spot = (at, height + 0.65 * tall)
-        knob(a, f"knob_{i}", spot, 0.025, STEEL, facing_front(depth - console), mark=RED)
+        panel.knob(f"knob_{i}", (at, height + 0.65 * tall), 0.025)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypedDict, Unpack
 
 import numpy as np
 import numpy.typing as npt
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
-from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh
+from asset_factory.factory.mesh import FloatArray, Material, Mesh, concatenate
 
 from .axes import UP, Place
 from .chance import Chance
@@ -149,28 +149,31 @@ class Assembly(Chance):
         place: Place | None = None,
     ) -> PartDraft:
         parent = on or self.root
-        part = PartDraft(name, look or parent.look, parent, kind)
-        part.lower, part.upper = limits
-        part.slide = slide
-        part.axis = np.asarray(axis, dtype=np.float64)
-        part.origin = np.asarray(at, dtype=np.float64)
-        part.pose = parent.pose
-        part.carry = parent.pose if place is None else _after(parent.pose, place)
-        if part.carry is not None:
-            part.axis = part.carry[:3, :3] @ part.axis
-            part.origin = part.carry[:3, :3] @ part.origin + part.carry[:3, 3]
+        carry = _after(parent.pose, place)
+        way = np.asarray(axis, dtype=np.float64)
+        origin = np.asarray(at, dtype=np.float64)
+        if carry is not None:
+            way = carry[:3, :3] @ way
+            origin = carry[:3, :3] @ origin + carry[:3, 3]
+        joint = (kind, way, origin, *limits, slide)
+        part = PartDraft(name, look or parent.look, parent, *joint, parent.pose, carry)
         self.parts.append(part)
         return part
 
     def articulation(self) -> Articulation:
         """Return the object, standing on z = 0, centred over the origin, everything at rest."""
         drafts = [self.root, *self.parts]
-        vertices, faces, look, materials = _joined(drafts, self.hairline)
-        low = vertices.min(axis=0)
-        middle = (low + vertices.max(axis=0)) / 2
+        whole = concatenate(
+            [
+                Mesh.from_triangles(_shrunk(form.vertices, self.hairline), form.faces, look)
+                for draft in drafts
+                for form, look in draft.forms
+            ]
+        )
+        low, high = whole.bounds
+        middle = (low + high) / 2
         offset = -np.array([middle[0], middle[1], low[2]])
-        uv = laid_over(vertices[faces], look, materials)
-        mesh = Mesh(vertices + offset, faces, uv, None, look, materials)
+        mesh = replace(whole, vertices=whole.vertices + offset, corner_uv=laid_over(whole))
         parts: list[Part] = []
         joints: list[Joint] = []
         number: dict[int, int] = {}
@@ -210,28 +213,10 @@ def _joints(draft: PartDraft, parent: int, child: int, offset: FloatArray) -> li
     ]
 
 
-def _joined(
-    drafts: list[PartDraft], hairline: float
-) -> tuple[FloatArray, IntArray, IntArray, tuple[Material, ...]]:
-    """Return the vertices, faces, the material of each face, and materials; parts in order."""
-    vertices: list[FloatArray] = []
-    faces: list[IntArray] = []
-    looks: list[int] = []
-    materials: dict[str, tuple[int, Material]] = {}
-    count = 0
-    for form, material in (form for draft in drafts for form in draft.forms):
-        corners = _shrunk(form.vertices, hairline) if hairline else form.vertices
-        looks.append(materials.setdefault(material.name, (len(materials), material))[0])
-        vertices.append(corners)
-        faces.append(form.faces + count)
-        count += len(corners)
-    look = np.repeat(looks, [len(each) for each in faces])
-    different = tuple(material for _, material in materials.values())
-    return np.concatenate(vertices), np.concatenate(faces), look, different
-
-
 def _shrunk(corners: FloatArray, reach: float) -> FloatArray:
     """Return a form that ends ``reach`` short of its box on every side [m]."""
+    if not reach:
+        return corners
     low = corners.min(axis=0)
     half = (corners.max(axis=0) - low) / 2
     middle = low + half

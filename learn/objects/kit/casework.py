@@ -13,7 +13,7 @@ from .assembly import Assembly, Hanging, PartDraft
 from .axes import DOWN, FRONT, LEFT, RIGHT, UP, Point, X, facing_front
 from .boards import carcass, stand, tray
 from .hinges import swing
-from .layouts import Cell, Divider, Node, divided
+from .layouts import Cell, Node, divided
 from .panels import panel
 from .pulls import add_pull
 from .shapes import box, cylinder
@@ -83,25 +83,17 @@ class Casework:
         style = self.style
         body = self.a.root
         self.cells, dividers = divided(node, self.x, self.z, style.board, style.bare)
+        deep = within(self.y, 0.0 if style.inset else 0.0005, 0.004)
         *boards, back = carcass(self.x, self.y, self.z, style.board, sill=style.sill)
         body.add(*boards, look=style.body)
         body.add(*([] if style.backless else [back]), look=style.inside)
-        self._divide(dividers)
+        body.add(*(box(x, deep, z) for x, z in dividers), look=style.body)
         for cell in self.cells:
             if not (style.hollow or cell.kind == "open"):
-                deep = (self.start, self.y[1])
-                body.add(box(cell.inner[0], deep, cell.inner[1]), look=style.body)
+                x, z = cell.inner
+                body.add(box(x, (self.start, self.y[1]), z), look=style.body)
             self._fill(cell)
         return self
-
-    def _divide(self, dividers: list[Divider]) -> None:
-        half = self.style.board / 2
-        deep = within(self.y, 0.0 if self.style.inset else 0.0005, 0.004)
-        for divider in dividers:
-            at = about(half, divider.at)
-            long = within(divider.span, half)
-            board = box(at, deep, long) if divider.upright else box(long, deep, at)
-            self.a.root.add(board, look=self.style.body)
 
     def _front(self, cell: Cell) -> _Front:
         style = self.style
@@ -283,8 +275,8 @@ def furniture(
     style: Style,
     sizes: tuple[float, ...],
     node: Node,
-    support: str = "none",
-    base: float = 0.0,
+    support: str,
+    base: float,
     look: Material | None = None,
 ) -> Casework:
     """Build a case of a width, depth and height [m] on a support; its left edge is x = y = 0."""

@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from .chance import Chance
-from .spans import Span
+from .spans import Span, about, within
 
 #: What fills a cell (a name), or its cut, ``h`` left to right or ``v`` bottom up, with shares.
 Node = str | tuple[str, tuple[tuple[float, "Node"], ...]]
@@ -56,25 +56,16 @@ class Cell:
         return replace(near, outer=own), replace(far, outer=(False, *self.outer[1:]))
 
 
-@dataclass(frozen=True)
-class Divider:
-    """A board between cells: upright at x = ``at`` or lying at z = ``at``, over ``span`` [m]."""
-
-    upright: bool
-    at: float
-    span: Span
-
-
 def divided(
     node: Node, x: Span, z: Span, board: float, bare: bool
-) -> tuple[list[Cell], list[Divider]]:
-    """Return the cells of a front and the boards between them.
+) -> tuple[list[Cell], list[tuple[Span, Span]]]:
+    """Return the cells of a front and the boards between them, each by its spans across x and z.
 
     Spans are the outer ones of the case [m]; ``board`` is the thickness of every board [m]. Stacked
     drawers of a ``bare`` case do without boards between them.
     """
     cells: list[Cell] = []
-    dividers: list[Divider] = []
+    boards: list[tuple[Span, Span]] = []
 
     def cut(
         node: Node, spans: tuple[Span, Span], walls: tuple[float, ...], outer: tuple[bool, ...]
@@ -98,12 +89,13 @@ def divided(
                     edges[edge] = BARE if thin[seam] else board / 2
                     mine[edge] = False
             if i and not thin[i - 1]:
-                dividers.append(Divider(way == "h", ends[i], other))
+                seen = (about(board / 2, ends[i]), within(other, board / 2))
+                boards.append(seen if way == "h" else seen[::-1])
             own = (ends[i], ends[i + 1])
             cut(child, (own, other) if way == "h" else (other, own), tuple(edges), tuple(mine))
 
     cut(node, (x, z), (board,) * 4, (True,) * 4)
-    return cells, dividers
+    return cells, boards
 
 
 def column(*children: tuple[float, Node]) -> Node:

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asset_factory.factory.geometry.triangles import doubled_normals
-from asset_factory.factory.mesh import FloatArray, IntArray, Material, Texture
+from asset_factory.factory.mesh import FloatArray, Material, Mesh, Texture
 
 WHITE = Material("white", (0.85, 0.85, 0.83, 1.0))
 BLACK = Material("black", (0.03, 0.03, 0.035, 1.0))
@@ -39,21 +39,17 @@ def wood(seed: int, size: int = 64) -> Material:
     return Material("wood", (1.0, 1.0, 1.0, 1.0), Texture(image, ".png"))
 
 
-def laid_over(
-    corners: FloatArray, face_material: IntArray, materials: tuple[Material, ...]
-) -> FloatArray | None:
-    """Return texture coordinates, [face_count, 3, 2], NaN on plain faces; ``None`` if all are.
-
-    Faces have ``corners`` [m], shape [face_count, 3, 3], and the number of a material each.
-    """
-    textured = np.array([material.texture is not None for material in materials])
+def laid_over(mesh: Mesh) -> FloatArray | None:
+    """Return texture coordinates, [face_count, 3, 2], NaN on plain faces; ``None`` if all are."""
+    textured = np.array([material.texture is not None for material in mesh.materials])
     if not textured.any():
         return None
+    corners = mesh.vertices[mesh.faces]
     normal = doubled_normals(corners)
     # The grain runs along u: along z on upright faces, along x on lying ones.
     across = np.array([[2, 1], [2, 0], [0, 1]])[np.abs(normal).argmax(axis=1)]
     uv = np.take_along_axis(corners, across[:, None], axis=2) / TEXTURE_PERIOD_M
-    return np.asarray(np.where(textured[face_material][:, None, None], uv, np.nan))
+    return np.asarray(np.where(textured[mesh.face_material][:, None, None], uv, np.nan))
 
 
 def png(pixels: npt.NDArray[np.uint8]) -> bytes:

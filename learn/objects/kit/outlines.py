@@ -5,9 +5,11 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+import numpy.typing as npt
 
 from asset_factory.factory.mesh import FloatArray
 
+from .axes import Z
 from .spans import Flat, Span, size, within
 
 
@@ -28,6 +30,11 @@ def arc(center: Flat, radius: float, start: float, stop: float, count: int) -> F
 def oval(half_x: float, half_y: float, count: int = 28) -> FloatArray:
     """Return the points on an ellipse about the origin, shape [count, 2]."""
     return circle(count).T * (half_x, half_y)
+
+
+def raised(line: npt.ArrayLike, height: float, axis: int = Z) -> FloatArray:
+    """Return a line at a height along the axis across its plane, shape [count, 3]."""
+    return np.insert(np.asarray(line, dtype=np.float64), axis, height, axis=1)
 
 
 @lru_cache(maxsize=16)

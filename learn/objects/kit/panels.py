@@ -46,10 +46,6 @@ def _raised(x: Span, y: Span, z: Span, width: float) -> list[Form]:
     return forms
 
 
-def _glazed(x: Span, y: Span, z: Span, width: float) -> list[Form]:
-    return frame(x, y, z, width)
-
-
 def _mullion(x: Span, y: Span, z: Span, width: float) -> list[Form]:
     inner_x = within(x, width)
     inner_z = within(z, width)
@@ -87,12 +83,11 @@ def _two_fields(x: Span, y: Span, z: Span, width: float) -> list[Form]:
     return [*_shaker(x, y, z, width), rail]
 
 
-#: Every style by its name, that of its maker.
+#: Every style by its name; a glazed front is a frame around its pane.
 STYLES: dict[str, PanelMaker] = {
-    maker.__name__.removeprefix("_"): maker
-    for maker in (
-        _slab, _bevel, _shaker, _raised, _glazed, _mullion, _louvre, _planks, _bowed, _two_fields,
-    )
+    "slab": _slab, "bevel": _bevel, "shaker": _shaker, "raised": _raised, "glazed": frame,
+    "mullion": _mullion, "louvre": _louvre, "planks": _planks, "bowed": _bowed,
+    "two_fields": _two_fields,
 }  # fmt: skip
 #: Styles that one looks through, and those of them with a pane.
 OPEN_STYLES = ("glazed", "mullion", "louvre")

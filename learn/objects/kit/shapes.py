@@ -17,7 +17,7 @@ from asset_factory.factory.articulation import rotation_about
 from asset_factory.factory.mesh import FloatArray, IntArray, cross
 
 from .axes import Point, Y, Z
-from .outlines import circle, rounded
+from .outlines import circle, raised, rounded
 from .spans import Flat, Span, mid, within
 
 #: The two axes across each axis.
@@ -102,11 +102,7 @@ def _skin(rings: int, corners: int, looped: bool, flipped: bool) -> IntArray:
 
 def stack(sections: Sequence[tuple[npt.ArrayLike, float]], axis: int = Z) -> Form:
     """Return a skin over outlines, shape [corner_count, 2], each with its height along an axis."""
-    rings = np.empty((len(sections), len(np.asarray(sections[0][0])), 3))
-    for ring, (outline, height) in zip(rings, sections, strict=True):
-        ring[:, _PLANE[axis]] = outline
-        ring[:, axis] = height
-    return loft(rings)
+    return loft([raised(outline, height, axis) for outline, height in sections])
 
 
 def prism(outline: npt.ArrayLike, along: Span, axis: int = Z) -> Form:
@@ -230,11 +226,9 @@ def ribbon(
     Lines, shape [point_count, 2], lie point by point across from each other; ``looped`` ones are
     closed, for a frame around a hole.
     """
-    rings = np.empty((len(np.asarray(left)), 4, 3))
-    for i, (line, height) in enumerate(((left, 0), (right, 0), (right, 1), (left, 1))):
-        rings[:, i, _PLANE[axis]] = line
-        rings[:, i, axis] = along[height]
-    return loft(rings, looped)
+    low, high = along
+    edges = ((left, low), (right, low), (right, high), (left, high))
+    return loft(np.stack([raised(line, at, axis) for line, at in edges], axis=1), looped)
 
 
 def block(

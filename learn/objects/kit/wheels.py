@@ -17,14 +17,15 @@ from .spans import PLAY, about, ends
 _HUB = 0.0008
 
 
-def tyre(center: Point, radius: float, wide: float) -> tuple[Form, Form]:
-    """Build a tyre with rounded shoulders about an axis along x, and a hub."""
+def _add_tyre(part: PartDraft, center: Point, radius: float, wide: float, metal: Material) -> None:
+    """Add a tyre with rounded shoulders about an axis along x, and a hub."""
     half = wide / 2
     soft = min(0.25 * wide, 0.2 * radius)
     round_off = radius - soft
     rim = [(round_off, -half), (radius, soft - half), (radius, half - soft), (round_off, half)]
     hub = [(0.35 * radius, -half - _HUB), (0.35 * radius, half + _HUB)]
-    return lathe(rim, center, X), lathe(hub, center, X, 12)
+    part.add(lathe(rim, center, X))
+    part.add(lathe(hub, center, X, 12), look=metal)
 
 
 def wheel(
@@ -33,9 +34,7 @@ def wheel(
 ) -> PartDraft:  # fmt: skip
     """Return a wheel about an axis along x through ``at`` [m], that turns without end."""
     part = a.spin(name, RIGHT, at, look=rim)
-    outside, hub = tyre(at, radius, wide)
-    part.add(outside)
-    part.add(hub, look=metal)
+    _add_tyre(part, at, radius, wide, metal)
     return part
 
 
@@ -81,6 +80,5 @@ def castor(
     hub = (x, y + trail, radius)
     rolling = a.spin(f"{name}_wheel", RIGHT, hub, on=fork, look=BLACK, place=ahead)
     for shift in (-half / 2 - 0.003, half / 2 + 0.003) if twin else (0.0,):
-        outside, core = tyre((x + shift, y + trail, radius), radius, half if twin else wide)
-        rolling.add(outside)
-        rolling.add(core, look=metal)
+        at_tyre = (x + shift, y + trail, radius)
+        _add_tyre(rolling, at_tyre, radius, half if twin else wide, metal)

@@ -78,7 +78,7 @@ def test_size_and_place_are_undone_exactly(scale, shift):
 
 def test_a_fused_mesh_keeps_its_moving_parts():
     """Where we leave the release: by default it makes one part of a mesh of one component."""
-    truth = fused_like(make_object("cabinet", 1), seed=0, resolution=60)
+    truth = fused_like(make_object("cabinet", 1), seed=0)
     found = asked(truth, wrong=0.05)
     assert len(found.movable_joints) == len(truth.movable_joints)
     owner = face_parts(truth)

@@ -35,8 +35,10 @@ def test_shares_are_heights_and_bare_drawers_have_no_boards_between_them():
     assert [(c.kind, round(c.z[0], 6), round(c.z[1], 6)) for c in cells] == [
         ("drawer", 0.0, 0.2), ("door", 0.2, 0.8), ("open", 0.2, 0.8), ("drawer", 0.8, 1.0),
     ]  # fmt: skip
-    wanted = [(False, 0.2), (False, 0.8), (True, 0.5)]
-    assert sorted((d.upright, round(d.at, 6)) for d in dividers) == wanted
+    lying = (0.01, 0.99)
+    upright = ((0.49, 0.51), (0.21, 0.79))
+    wanted = [(lying, (0.19, 0.21)), upright, (lying, (0.79, 0.81))]
+    np.testing.assert_allclose(dividers, wanted)
     pile = drawers(Chance(np.random.default_rng(0)), 4)
     assert divided(pile, (0.0, 1.0), (0.0, 1.0), 0.02, True)[1] == []
     assert len(divided(pile, (0.0, 1.0), (0.0, 1.0), 0.02, False)[1]) == 3

@@ -11,7 +11,7 @@ from plain_solids import box, parted
 from asset_factory.factory.articulate.catalog import choose
 from asset_factory.factory.articulation import Joint, JointKind, Part
 from asset_factory.factory.config import BuildConfig, IntakeConfig
-from asset_factory.factory.geometry.posing import posed
+from asset_factory.factory.geometry.posing import face_parts, posed
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.mesh import Material
@@ -37,19 +37,14 @@ def same_joint(read_joint, joint):
 
 
 def same_object(found, wanted):
-    """Parts may come in another order: they are matched by where they are."""
-    assert len(found.parts) == len(wanted.parts)
-
-    def places(articulation):
-        meshes = [articulation.part_mesh(part) for part in range(len(articulation.parts))]
-        return [np.concatenate([*mesh.bounds, [len(mesh.faces) * 1e-3]]) for mesh in meshes]
-
-    order = {}
-    for part, place in enumerate(places(found)):
-        far = [np.abs(place - other).max() for other in places(wanted)]
-        order[part] = int(np.argmin(far))
-        assert min(far) < 1e-5
-    assert sorted(order.values()) == list(range(len(wanted.parts)))
+    """Parts may come in another order: they are matched by their faces, which a file groups."""
+    written = np.argsort(wanted.mesh.face_material, kind="stable")
+    there = wanted.mesh.vertices[wanted.mesh.faces[written]]
+    np.testing.assert_allclose(found.mesh.vertices[found.mesh.faces], there, atol=1e-5)
+    owner = face_parts(wanted)[written]
+    order = [int(owner[part.faces[0]]) for part in found.parts]
+    assert sorted(order) == list(range(len(wanted.parts)))
+    np.testing.assert_array_equal(np.take(order, face_parts(found)), owner)
     for joint in found.joints:
         match = wanted.joints[order[joint.child] - 1]
         assert order[joint.parent] == match.parent

@@ -24,10 +24,11 @@ from asset_factory.learn.objects.kit.shapes import (
 )
 from asset_factory.learn.objects.kit.spans import about, between, shares, span, within
 
+SQUARE = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
 
-def bounds(forms):
-    corners = np.concatenate([form.vertices for form in forms])
-    return np.stack([corners.min(axis=0), corners.max(axis=0)], axis=1)
+
+def bounds(form):
+    return np.stack([form.vertices.min(axis=0), form.vertices.max(axis=0)], axis=1)
 
 
 def solid(form):
@@ -77,19 +78,18 @@ def test_a_ribbon_between_two_lines_has_the_area_between_them_times_its_thicknes
     for axis in range(3):
         plate = solid(ribbon(wavy, wavy + np.array([0.0, 0.2]), (-0.1, 0.2), axis))
         assert plate.volume() == pytest.approx(0.2 * 0.3, rel=1e-9)
-    square = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)], dtype=float)
-    frame = solid(ribbon(square, 0.5 * square, (0.0, 0.1), looped=True))
+    frame = solid(ribbon(SQUARE, 0.5 * SQUARE, (0.0, 0.1), looped=True))
     assert frame.volume() == pytest.approx((4.0 - 1.0) * 0.1, rel=1e-9)
 
 
 def test_a_rounded_block_fills_its_spans_and_loses_only_its_corners():
     brick = block((0.0, 2.0), (0.0, 1.0), (0.0, 0.5), 0.1)
-    np.testing.assert_allclose(bounds([brick]), [[0, 2], [0, 1], [0, 0.5]], atol=1e-12)
+    np.testing.assert_allclose(bounds(brick), [[0, 2], [0, 1], [0, 0.5]], atol=1e-12)
     lost = 1.0 - solid(brick).volume()
     assert 0.5 * (4.0 - np.pi) * 0.01 <= lost < 0.02
     for axis in (X, Y, Z):
         soft = block((0.0, 2.0), (0.0, 1.0), (0.0, 0.5), 0.2, 0.05, axis)
-        np.testing.assert_allclose(bounds([soft]), [[0, 2], [0, 1], [0, 0.5]], atol=1e-12)
+        np.testing.assert_allclose(bounds(soft), [[0, 2], [0, 1], [0, 0.5]], atol=1e-12)
         assert solid(soft).volume() < 1.0 - lost
     leaning = solid(block((0.0, 2.0), (0.0, 1.0), (0.0, 0.5), 0.1, taper=0.5))
     assert 0.5 < leaning.volume() < 0.6
@@ -113,12 +113,11 @@ def test_turning_shifting_and_mirroring_move_every_corner_and_keep_the_volume():
 
 
 def test_outlines_may_change_on_the_way_up():
-    square = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)], dtype=float)
-    pyramid = solid(stack([(square, 0.0), (0.5 * square, 1.0)]))
+    pyramid = solid(stack([(SQUARE, 0.0), (0.5 * SQUARE, 1.0)]))
     assert pyramid.volume() == pytest.approx((4.0 + 2.0 + 1.0) / 3.0, rel=1e-9)
     same = solid(frustum((about(1.0), about(1.0)), (about(0.5), about(0.5)), (0.0, 1.0)))
     assert same.volume() == pytest.approx(pyramid.volume(), rel=1e-9)
-    skin = loft(np.stack([np.column_stack([square, np.full(4, z)]) for z in (1.0, 0.0)]))
+    skin = loft(np.stack([np.column_stack([SQUARE, np.full(4, z)]) for z in (1.0, 0.0)]))
     assert solid(skin).volume() == pytest.approx(4.0)
 
 
@@ -134,7 +133,7 @@ def test_boxes_cylinders_hoops_and_prisms_have_the_volume_of_their_outlines(axis
         assert solid(wedge).volume() == pytest.approx(3.0)
         spans = [(0.0, 2.0), (0.0, 1.0)]
         spans.insert(axis, (0.0, 3.0))
-        np.testing.assert_allclose(bounds([wedge]), spans, atol=1e-12)
+        np.testing.assert_allclose(bounds(wedge), spans, atol=1e-12)
     assert solid(box((0, 1), (1, 3), (2, 5))).volume() == pytest.approx(6.0)
 
 
