@@ -13,7 +13,6 @@ from ...mesh import BoolArray, FloatArray
 from ...views.raster import Side, side_facing
 from ...views.view import View, elevation
 from ..poses import joints_above
-from .box import Box
 from .bump import Bump, find_bump
 from .panel import BESIDE_M, FlatPanel, ended_at, find_panel, opens
 from .seam import CutSkin, cut
@@ -122,24 +121,17 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
         pieces = cut(pieces, frame[axis], end, pieces.touching(room))
     skin = skin.chosen(~near).joined(pieces)
     middles = skin.middles @ frame.T
-    lining = _inner_side(skin, frame) & _behind(panel).holds(middles) & ~_beyond(skin, panel)
+    own_back = panel.within(INSET_M, panel.back, panel.back + OWN_BACK_M)
+    lining = _inner_side(skin, frame) & own_back.holds(middles) & ~_beyond(skin, panel)
     inside = column.holds(middles) | lining
     own = skin.part == panel.part
     part = skin.part.copy()
     part[inside & np.isin(part, list(claimants - {panel.part}))] = panel.part
-    fitted = _behind(panel, np.inf).holds(middles) & (not panel.slides)
+    fitted = panel.within(INSET_M, panel.back).holds(middles) & (not panel.slides)
     # Straps and locks stand out of a lid; above its seam is nothing else.
     proud = (middles[:, 2] <= panel.back) & panel.is_lid
     part[own & ~inside & ~fitted & ~proud] = 0
     return replace(skin, part=part)
-
-
-def _behind(panel: FlatPanel, depth: float = OWN_BACK_M) -> Box:
-    """Return the solid right behind a panel, clear of its frame."""
-    return Box(
-        np.append(panel.low + INSET_M, panel.back),
-        np.append(panel.high - INSET_M, panel.back + depth),
-    )
 
 
 def _beyond(skin: CutSkin, panel: FlatPanel) -> BoolArray:
