@@ -157,9 +157,9 @@ def _prepared(
     hosts = {part: held_by(articulation, part) or 0 for part in bumps}
     skin = cut_bases(skin, bumps, hosts)
     joints = list(articulation.joints)
-    of_panels = planes_of_panels(panels, joints, config)
-    of_bumps = planes_of_bumps(bumps, joints)
-    planes = [some + more for some, more in zip(of_panels, of_bumps, strict=True)]
+    planes: list[list[float]] = [[], [], []]
+    for axis, at in (*planes_of_panels(panels, joints, config), *planes_of_bumps(bumps, joints)):
+        planes[axis].append(at)
     lattice = Lattice.over(articulation.mesh.bounds, config.cells, planes)
     whole = enclosed(articulation.mesh, lattice)
     owner = np.where(whole, 0, -1).astype(np.int64)

@@ -64,9 +64,8 @@ def gaps(panel: FlatPanel, joint: Joint, gap: float) -> FloatArray:
 
 def planes_of_panels(
     panels: dict[int, FlatPanel], joints: list[Joint], config: SolidsConfig
-) -> list[list[float]]:
-    """Return where the lattice must have planes, across each axis of the working frame [m]."""
-    planes: list[list[float]] = [[], [], []]
+) -> Iterator[tuple[int, float]]:
+    """Yield the axes of the working frame that the lattice has planes across, and where [m]."""
     for part, panel in panels.items():
         margin = gaps(panel, joints[part - 1], config.gap_m)
         for box in (
@@ -76,10 +75,8 @@ def planes_of_panels(
             panel.reach(-config.wall_m, panel.back + config.behind_m),
         ):
             turned = box.turned(panel.side.frame.T)
-            for axis in range(3):
-                ends = (turned.low[axis], turned.high[axis])
-                planes[axis] += [float(end) for end in ends if np.isfinite(end)]
-    return planes
+            yield from enumerate(turned.low.tolist())
+            yield from enumerate(turned.high.tolist())
 
 
 def surface_points(work: Workpiece, part: int) -> FloatArray:
