@@ -72,14 +72,6 @@ def _pose(joints: list[Joint], values: dict[str, float]) -> FloatArray:
     return pose
 
 
-def jointed(articulation: Articulation, a: int, b: int) -> bool:
-    """Return whether one of two parts is held in the other: by a joint, or over empty links.
-
-    A cap that turns and lifts hangs on a link without geometry between its two joints.
-    """
-    return b == held_by(articulation, a) or a == held_by(articulation, b)
-
-
 def held_by(articulation: Articulation, part: int) -> int | None:
     """Return the next part above one that has a body; ``None`` if there is none."""
     holders = (joint.parent for joint in joints_above(articulation, part))

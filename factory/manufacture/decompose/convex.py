@@ -54,9 +54,14 @@ def hull_of(points: FloatArray) -> Hull | None:
 
 def canonical_faces(faces: IntArray) -> IntArray:
     """Put faces in one order, each from its smallest index on: the same hull has the same bytes."""
-    first = faces.argmin(axis=1)
-    turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
+    turned = begun_lowest(faces)
     return np.asarray(turned[np.lexsort(turned.T[::-1])], dtype=np.int64)
+
+
+def begun_lowest(faces: IntArray) -> IntArray:
+    """Return the same faces, each from its smallest index on, shape [m, 3]."""
+    first = faces.argmin(axis=1)
+    return np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
 
 
 def thickness(vertices: FloatArray, planes: FloatArray) -> float:

@@ -9,13 +9,14 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...asset import Hull
+from ...config import DecomposeConfig
 from ...geometry.edges import shared_edges
 from ...geometry.rows import distinct_rows
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray, IntArray
 from .convex import THINNEST_M, concavity, hull_of
 from .pieces import NOTHING, SolidPieces
-from .pockets import fills_little
+from .pockets import fills_little, slot_of
 from .solids import LEAST_VOLUME_M3, triangles_of
 
 #: Share of its hull that a convex body fills, rounding of the input's vertices allowed for.
@@ -28,11 +29,13 @@ LAYER_SHARE = 2e-6
 PLANES_TRIED = 24
 #: Solids with more inward edges are curved: not made of boards, not worth cutting along planes.
 REFLEX_EDGES = 400
+#: Exact pieces that are kept as they are; more are joined where that fills little.
+FEW_PIECES = 32
 #: Where planes across a piece are tried, as shares of its extents.
 PLACES = (0.25, 0.5, 0.75)
 
 
-def as_one(solid: Manifold, error_m: float, slot_m: float) -> SolidPieces | None:
+def as_one(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces | None:
     """Return a solid as one hull if that fills little, see ``fills_little``; else ``None``."""
     vertices, faces = triangles_of(solid)
     hull = hull_of(vertices)
@@ -43,18 +46,18 @@ def as_one(solid: Manifold, error_m: float, slot_m: float) -> SolidPieces | None
     flat_m = THINNEST_M + 1e-5 * float(np.ptp(vertices, axis=0).max())
     if dent <= flat_m and solid.volume() >= CONVEX_SHARE * hull.volume:
         return SolidPieces((hull,), "exact")
-    return SolidPieces((hull,), "single") if fills_little(hull, solid, error_m, slot_m) else None
+    little = fills_little(hull, solid, error_m, slot_of(config))
+    return SolidPieces((hull,), "single") if little else None
 
 
 def cut_along_faces(
-    solid: Manifold, error_m: float, most: int, slot_m: float
+    solid: Manifold, error_m: float, config: DecomposeConfig, most: int = FEW_PIECES
 ) -> SolidPieces | None:
     """Return the convex pieces of a solid made of flat faces; ``None`` of one that is curved.
 
     Each piece is cut along that plane of one of its inward edges which leaves the least volume
     between the pieces and their hulls, until no dent is deeper than ``error_m`` [m] (notch cutting:
-    Chazelle 1984, greedily). Slots up to ``slot_m`` wide may be filled [m]. ``None`` too where more
-    than ``most`` pieces are needed.
+    Chazelle 1984, greedily). ``None`` too where more than ``most`` pieces are needed.
     """
     waiting = list(solid.decompose())
     found = NOTHING
@@ -62,7 +65,7 @@ def cut_along_faces(
         piece = waiting.pop()
         if piece.volume() <= LEAST_VOLUME_M3 or hull_of(triangles_of(piece)[0]) is None:
             continue
-        whole = as_one(piece, error_m, slot_m)
+        whole = as_one(piece, error_m, config)
         if whole is not None:
             found += whole
             continue

@@ -11,8 +11,8 @@ from ...runtime.packing import contents
 from ...runtime.stages import Stages
 from .convex import limit_vertices
 from .merge import merge
-from .methods import slot_of
 from .pieces import SolidPieces
+from .pockets import slot_of
 from .room import NOWHERE, Room, Rooms
 
 FEWER = Stage(

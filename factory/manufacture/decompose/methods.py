@@ -13,15 +13,13 @@ from ...config import DecomposeConfig
 from .cut import as_one, cut_along_faces
 from .ladder import search
 from .pieces import NOTHING, SolidPieces
-from .pockets import fills_little
+from .pockets import fills_little, slot_of
 from .room import Room
 from .simplify import smoothed
 from .solids import LEAST_VOLUME_M3, inside, manifold_of_hull
 
-__all__ = ["METHODS", "SolidPieces", "slot_of", "split_closely", "split_solid"]
+__all__ = ["METHODS", "SolidPieces", "split_closely", "split_solid"]
 
-#: Exact pieces that are kept as they are; more are joined where that fills little.
-FEW_PIECES = 32
 #: Pieces that cutting along faces may leave of one solid before CoACD is asked instead.
 MOST_CUTS = 96
 #: No solid is split more finely than to this share of the least error.
@@ -32,32 +30,17 @@ MOST_AGAIN = 32
 Method = Callable[[Manifold, float, DecomposeConfig], SolidPieces | None]
 
 
-def slot_of(config: DecomposeConfig) -> float:
-    """Return the width of slots that a hull may fill [m], however far it may be off elsewhere."""
-    return 2.0 * config.error_m
-
-
-def whole(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces | None:
-    """Return one hull, where that fills little."""
-    return as_one(solid, error_m, slot_of(config))
-
-
-def along_faces(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces | None:
-    """Return a few pieces, cut along the solid's own faces."""
-    return cut_along_faces(solid, error_m, FEW_PIECES, slot_of(config))
-
-
 def along_simplified_faces(
     solid: Manifold, error_m: float, config: DecomposeConfig
 ) -> SolidPieces | None:
     """Return more pieces, cut along the faces of a smoother solid."""
     light = smoothed(solid, error_m, config)
-    cut = cut_along_faces(light, error_m, MOST_CUTS, slot_of(config))
+    cut = cut_along_faces(light, error_m, config, MOST_CUTS)
     return None if cut is None else replace(cut, method="cut")
 
 
 #: Every method, in the order in which they are tried; the last always has an answer.
-METHODS: tuple[Method, ...] = (whole, along_faces, along_simplified_faces, search)
+METHODS: tuple[Method, ...] = (as_one, cut_along_faces, along_simplified_faces, search)
 
 
 def split_solid(solid: Manifold, error_m: float, config: DecomposeConfig) -> SolidPieces:

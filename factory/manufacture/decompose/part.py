@@ -14,10 +14,11 @@ from ...mesh import FloatArray, IntArray
 from .convex import SAME_M, concavity, depth_below, hull_of, limit_vertices, surface_points
 from .cut import opened
 from .merge import TOGETHER, merge
-from .methods import slot_of, split_closely
+from .methods import split_closely
 from .openings import as_shell, closed
 from .outside import uncovered
 from .pieces import NOTHING, SolidPieces
+from .pockets import slot_of
 from .room import NOWHERE, Room
 from .sheets import slabs
 from .simplify import lighter

@@ -7,6 +7,7 @@ from manifold3d import Manifold
 from scipy.spatial import HalfspaceIntersection, QhullError
 
 from ...asset import Hull
+from ...config import DecomposeConfig
 from ...geometry.triangles import doubled_normals
 from .convex import depth_below, hull_of, thickness
 from .solids import LEAST_VOLUME_M3, manifold_of_hull, triangles_of
@@ -18,6 +19,11 @@ SKIN_SHARE = 0.1
 #: A pocket is a slot, not a dent, when its thin direction makes at most this cosine with its
 #: mouth's normal.
 SLOT_COSINE = 0.3
+
+
+def slot_of(config: DecomposeConfig) -> float:
+    """Return the width of slots that a hull may fill [m], however far it may be off elsewhere."""
+    return 2.0 * config.error_m
 
 
 def fills_little(hull: Hull, solid: Manifold, error_m: float, slot_m: float) -> bool:

@@ -16,6 +16,7 @@ from ...geometry.edges import SharedEdges, label_linked, shared_edges
 from ...geometry.rows import distinct_rows
 from ...geometry.triangles import doubled_normals
 from ...mesh import BoolArray, FloatArray, IntArray
+from .convex import begun_lowest
 
 #: Less volume than this is nothing to collide with [m3]: a cube of a tenth of a millimetre.
 LEAST_VOLUME_M3 = 1e-12
@@ -162,9 +163,7 @@ def gate(vertices: FloatArray, faces: IntArray) -> Gated:
 def _without_repeats(vertices: FloatArray, faces: IntArray) -> IntArray:
     """Return the faces that have an area, each once, whichever corner it begins with."""
     faces = faces[np.linalg.norm(doubled_normals(vertices[faces]), axis=1) > 0.0]
-    first = faces.argmin(axis=1)
-    turned = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
-    kept, _ = distinct_rows(turned)
+    kept, _ = distinct_rows(begun_lowest(faces))
     return faces[np.sort(kept)]
 
 

@@ -24,6 +24,9 @@ PIECE_SHARE = 0.25
 #: again.
 MOST_PASSES = 3
 
+#: Hulls may be as near as this between two poses: PyBullet feels what is nearer [m].
+LEAST_M = 0.002
+
 Sides = tuple[list[Hull], list[Hull]]
 
 

@@ -16,12 +16,12 @@ from ...mesh import FloatArray
 from ..decompose.convex import hull_of
 from ..decompose.solids import thickness_m, volume_within
 from ..hinges import is_crooked
-from ..poses import held_by, jointed, joints_between, moved, relative_poses
+from ..poses import held_by, joints_between, moved, relative_poses
 from ..repair import Pair
 from .along import Sides, hull_depth
 from .budget import CutSide, Loss, SeenSurface, overdone
 from .clip import SHEET_M
-from .hung import at_an_edge, stands_out_m, trimmed_limit, well_hung
+from .hung import at_an_edge, reach_m, stands_out_m, trimmed_limit, well_hung
 from .overlap import overlap_m, part_solid
 
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
@@ -30,6 +30,13 @@ HOPELESS_M = 0.06
 PRESSED_M = 0.012
 #: What turns may need so many times the room that it takes where it is modelled: a square stem.
 TURNED_ROOM = 2.0
+#: After a cut all of a hinge's way is looked at, in steps so long at the end of its arm [m],
+STEP_M = 0.004
+#: at most so many for each that was cut at.
+FINEST = 8
+#: In the first share of its range a door leaves its frame, corner past corner: steps are shorter.
+LEAVING = 0.1
+LEAVING_STEP_M = 0.0015
 
 
 @dataclass(frozen=True)
@@ -99,14 +106,38 @@ class PartPair:
         return relative_poses(self.bodies.articulation, *self.parts, self.bodies.config.poses)
 
     @cached_property
+    def poses_between(self) -> list[FloatArray]:
+        """Return poses between those, so near that a sheet at a hinged arm's end meets another.
+
+        None for slides, which are cut on all of their way, where the poses that are cut at are near
+        enough, and where no joint holds one part in the other.
+        """
+        mover = self.bodies.surfaces[self.parts[1 - self.holder]]
+        if mover is None or not self.jointed:
+            return []
+        count = self.bodies.config.poses
+        turning = [joint for joint in self.joints if joint.turns]
+        way = max((joint.range * reach_m(mover, joint) for joint in turning), default=0.0)
+        most = FINEST * (count - 1)
+        finer = min(int(way / STEP_M), most) + 1
+        if finer <= count:
+            return []
+        leaving = min(int(LEAVING * way / LEAVING_STEP_M), most) + 1
+        pair = (self.bodies.articulation, *self.parts)
+        return relative_poses(*pair, leaving, LEAVING) + relative_poses(*pair, finer)
+
+    @cached_property
     def joints(self) -> list[Joint]:
         """Return the joints that move one part against the other."""
         return joints_between(self.bodies.articulation, *self.parts)
 
     @cached_property
     def jointed(self) -> bool:
-        """Tell whether a joint holds one part in the other."""
-        return jointed(self.bodies.articulation, *self.parts)
+        """Tell whether one part is held in the other: by a joint, or over empty links.
+
+        A cap that turns and lifts hangs on a link without geometry between its two joints.
+        """
+        return held_by(self.bodies.articulation, self.parts[1 - self.holder]) in self.parts
 
     @cached_property
     def holder(self) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from operator import is_
@@ -15,8 +15,7 @@ from ..decompose.convex import THINNEST_M, limit_vertices
 from ..decompose.merge import merge
 from ..decompose.pieces import SolidPieces
 from ..repair import Pair
-from .along import Sides, carved_apart_along, cut_apart_along, hull_depth
-from .between import Cut, cut_between
+from .along import LEAST_M, Sides, carved_apart_along, cut_apart_along, hull_depth
 from .budget import SHAVED_M, Loss, too_bare
 from .pair import PartPair, Workpieces
 
@@ -26,6 +25,10 @@ from .pair import PartPair, Workpieces
 SOCKET_SHARE = 0.05
 SOCKET_RIM = 0.01
 SOCKET_DEEP = 0.01
+#: How often what a cut missed between two poses is looked for, and cut.
+MOST_LOOKS = 3
+
+Cut = Callable[..., Sides]
 
 
 @dataclass(frozen=True)
@@ -198,13 +201,23 @@ def _along(pair: PartPair) -> _CutPair:
 
 
 def _attempt(pair: PartPair, cut: Cut, poses: Sequence[FloatArray]) -> _CutPair:
-    """Cut two parts at some poses, and between those along a joint."""
+    """Cut two parts at some poses; along a joint anew where they are too near between two."""
     cut = partial(cut, clearance_m=pair.bodies.config.clearance_m)
     tried = _CutPair.of(pair, cut(*pair.before, poses))
     if tried.overdone is not None or len(poses) <= 2:
         return tried
-    closer = cut_between(cut, pair, tried.after, poses)
-    return tried if closer is None else _CutPair.of(pair, closer)
+    after = tried.after
+    way = list(poses)
+    for _ in range(MOST_LOOKS):
+        missed = [
+            pose for pose in pair.poses_between if hull_depth(*after, pose, LEAST_M) > -LEAST_M
+        ]
+        if not missed:
+            break
+        # Where nearly all of a long way is missed, as that of a wheel, some of it shows the rest.
+        way += missed[:: -(-len(missed) // len(poses))]
+        after = cut(*pair.before, way)
+    return tried if after is tried.after else _CutPair.of(pair, after)
 
 
 def _keep(found: Separation, cut: _CutPair) -> None:

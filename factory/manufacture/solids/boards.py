@@ -33,12 +33,12 @@ def drawer_box(hollow: Box, back: float, up: int = 1) -> tuple[Box, ...]:
         return ()
     across = 1 - up
     outer = Box(low, high)
-    bottom = _part(outer, up, low[up], low[up] + BOTTOM_M)
-    above = _part(outer, up, low[up] + BOTTOM_M, high[up])
-    left = _part(above, across, low[across], low[across] + WALL_M)
-    right = _part(above, across, high[across] - WALL_M, high[across])
-    between = _part(above, across, low[across] + WALL_M, high[across] - WALL_M)
-    return bottom, left, right, _part(between, 2, high[2] - WALL_M, high[2])
+    bottom = outer.between(low[up], low[up] + BOTTOM_M, up)
+    above = outer.between(low[up] + BOTTOM_M, high[up], up)
+    left = above.between(low[across], low[across] + WALL_M, across)
+    right = above.between(high[across] - WALL_M, high[across], across)
+    inner = above.between(low[across] + WALL_M, high[across] - WALL_M, across)
+    return bottom, left, right, inner.between(high[2] - WALL_M, high[2])
 
 
 def shelf_boards(hollow: Box, spacing: float, up: int = 1) -> tuple[Box, ...]:
@@ -48,21 +48,10 @@ def shelf_boards(hollow: Box, spacing: float, up: int = 1) -> tuple[Box, ...]:
     points up. None where the hollow is lower than one and a half of the usual spacing of shelves
     [m], or too shallow.
     """
-    low = hollow.low.copy()
-    low[2] += SETBACK_M
-    high = hollow.high
-    if (high - low).min() <= 2.0 * SHELF_M:
+    inner = hollow.between(hollow.low[2] + SETBACK_M, hollow.high[2])
+    if inner.size.min() <= 2.0 * SHELF_M:
         return ()
-    rooms = max(round(float(high[up] - low[up]) / spacing), 1)
-    heights = np.linspace(low[up], high[up], rooms + 1)[1:-1]
+    rooms = max(round(float(inner.size[up]) / spacing), 1)
+    heights = np.linspace(inner.low[up], inner.high[up], rooms + 1)[1:-1]
     half = 0.5 * SHELF_M
-    return tuple(_part(Box(low, high), up, at - half, at + half) for at in heights.tolist())
-
-
-def _part(box: Box, axis: int, start: float, end: float) -> Box:
-    """Return the part of a box between two planes across an axis [m]."""
-    low = box.low.copy()
-    high = box.high.copy()
-    low[axis] = start
-    high[axis] = end
-    return Box(low, high)
+    return tuple(inner.between(at - half, at + half, up) for at in heights.tolist())

@@ -51,6 +51,18 @@ class Box:
         """Return the box with every side moved out by ``margin`` [m], one or shape [3]."""
         return Box(self.low - np.asarray(margin), self.high + np.asarray(margin))
 
+    def between(self, start: float, end: float, axis: int = 2) -> Box:
+        """Return the box from one plane to another across an axis [m], wherever it ended there."""
+        low = self.low.copy()
+        high = self.high.copy()
+        low[axis] = start
+        high[axis] = end
+        return Box(low, high)
+
+    def shared(self, other: Box) -> Box:
+        """Return what lies in both boxes."""
+        return Box(np.maximum(self.low, other.low), np.minimum(self.high, other.high))
+
     def turned(self, rows: FloatArray) -> Box:
         """Return the same box in a frame whose axes are ``rows``, quarter turns of this one's."""
         which = np.abs(rows).argmax(axis=1)

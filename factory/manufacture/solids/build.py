@@ -11,13 +11,15 @@ import numpy as np
 from ...articulation import Articulation
 from ...asset import Hull, InnerSurface
 from ...config import SolidsConfig
-from ...geometry.posing import rotated
+from ...geometry.posing import face_parts, rotated
 from ...intake.categories import UNKNOWN, Category
 from ...mesh import FloatArray, Mesh
 from ...runtime.keys import Stage
 from ...runtime.packing import contents
 from ...runtime.stages import Stages
 from ...runtime.store import digest_bytes
+from ...views.raster import Side
+from ...views.view import elevation
 from ..decompose.pieces import SolidPieces
 from ..poses import held_by
 from .body import add_shelves, hang_panels, make_body, make_rest, share_out
@@ -145,16 +147,19 @@ def _notes(work: Workpiece, pieces: tuple[SolidPieces | None, ...]) -> Iterator[
 def _prepared(
     articulation: Articulation, parts: tuple[int, ...], config: SolidsConfig, usual: Category
 ) -> Workpiece:
-    seen = recognize(articulation, parts, config.behind_m)
-    others = [part for part in range(1, len(articulation.parts)) if part not in seen.panels]
+    owners = face_parts(articulation)
+    sides: list[Side] = [side for side in Side if side is not Side.BOTTOM]
+    views = {side: elevation(articulation.mesh, side, owner=owners) for side in sides}
+    panels, skin = recognize(articulation, parts, views, config.behind_m)
+    others = [part for part in range(1, len(articulation.parts)) if part not in panels]
     others = [part for part in others if len(articulation.parts[part].faces)]
     bumps, rest = recognize_bumps(articulation, others)
     hosts = {part: held_by(articulation, part) or 0 for part in bumps}
-    skin = cut_bases(seen.skin, bumps, hosts)
+    skin = cut_bases(skin, bumps, hosts)
     joints = list(articulation.joints)
-    of_panels = planes_of_panels(seen.panels, joints, config)
-    of_bumps = planes_of_bumps(bumps, joints)
-    planes = [some + more for some, more in zip(of_panels, of_bumps, strict=True)]
+    planes: list[list[float]] = [[], [], []]
+    for axis, at in (*planes_of_panels(panels, joints, config), *planes_of_bumps(bumps, joints)):
+        planes[axis].append(at)
     lattice = Lattice.over(articulation.mesh.bounds, config.cells, planes)
     whole = enclosed(articulation.mesh, lattice)
     owner = np.where(whole, 0, -1).astype(np.int64)
@@ -162,9 +167,9 @@ def _prepared(
         articulation,
         config,
         usual,
-        seen.views,
+        views,
         joints,
-        seen.panels,
+        panels,
         bumps,
         rest,
         skin,

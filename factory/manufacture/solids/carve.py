@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 from scipy import ndimage
@@ -63,22 +64,19 @@ def gaps(panel: FlatPanel, joint: Joint, gap: float) -> FloatArray:
 
 def planes_of_panels(
     panels: dict[int, FlatPanel], joints: list[Joint], config: SolidsConfig
-) -> list[list[float]]:
-    """Return where the lattice must have planes, across each axis of the working frame [m]."""
-    planes: list[list[float]] = [[], [], []]
+) -> Iterator[tuple[int, float]]:
+    """Yield the axes of the working frame that the lattice has planes across, and where [m]."""
     for part, panel in panels.items():
         margin = gaps(panel, joints[part - 1], config.gap_m)
         for box in (
             panel.reach(-config.gap_m, panel.back),
-            Box(np.append(panel.low, panel.front), np.append(panel.high, panel.back)),
+            panel.within(0.0, panel.front, panel.back),
             panel.reach(margin, panel.back + config.behind_m),
             panel.reach(-config.wall_m, panel.back + config.behind_m),
         ):
             turned = box.turned(panel.side.frame.T)
-            for axis in range(3):
-                ends = (turned.low[axis], turned.high[axis])
-                planes[axis] += [float(end) for end in ends if np.isfinite(end)]
-    return planes
+            yield from enumerate(turned.low.tolist())
+            yield from enumerate(turned.high.tolist())
 
 
 def surface_points(work: Workpiece, part: int) -> FloatArray:
@@ -165,9 +163,8 @@ def _behind_face(
     """Return a slab's cells, between its face and its back, and all cells behind its face."""
     frame = panel.side.frame
     lattice = work.lattice
-    plain = Box(np.append(panel.low, -np.inf), np.append(panel.high, np.inf))
     inside = np.zeros(lattice.shape, dtype=bool)
-    inside[work.cells_of(panel, plain)] = True
+    inside[work.cells_of(panel, panel.within(0.0))] = True
     cells = np.argwhere(inside)
     behind = face.above(lattice.centers(cells) @ frame.T)
     inside[tuple(cells.T)] = np.isfinite(behind) & (behind < 0.0)
@@ -183,9 +180,8 @@ def _lid_hollow(work: Workpiece, panel: FlatPanel) -> tuple[Box, ...]:
     frame = panel.side.frame * np.array([[1.0], [1.0], [-1.0]])
     room = _inner(work, (panel.part, 0), LID_WALL_M)
     column = panel.reach(-work.config.wall_m, panel.back)
-    low = np.maximum(column.low[:2], panel.low + LID_WALL_M)
-    high = np.minimum(column.high[:2], panel.high - LID_WALL_M)
-    inner = Box(np.append(low, -panel.back), np.append(high, -panel.front - LID_WALL_M))
+    inner = column.shared(panel.within(LID_WALL_M))
+    inner = inner.between(-panel.back, -panel.front - LID_WALL_M)
     boxes = hollow(work.lattice, room, inner, frame)
     turn = np.diag([1.0, 1.0, -1.0])
     return tuple(box.turned(turn) for box in boxes)
@@ -216,7 +212,7 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     wall = work.config.wall_m
     start = panel.back + work.config.behind_m
     far = float((work.source.mesh.bounds @ frame.T)[:, 2].max())
-    column = Box(np.append(panel.low + wall, start), np.append(panel.high - wall, far))
+    column = panel.within(wall, start, far)
     if column.empty:
         return
     work.filled[part] = _filled_behind(work, panel, column)
@@ -227,8 +223,7 @@ def hollow_behind(work: Workpiece, part: int) -> None:
         if not panel.slides:
             return
         room = _empty(work, marked(work.lattice, surface_points(work, 0)))
-        layer = Box(column.low, np.append(column.high[:2], start + BEHIND_BACK_M))
-        room[work.cells_of(panel, layer)] = True
+        room[work.cells_of(panel, column.between(start, start + BEHIND_BACK_M))] = True
     for taken in _taken(work, part):
         room[work.lattice.span(taken.grown(wall))] = False
     boxes = hollow(work.lattice, room, column, frame)
@@ -237,9 +232,7 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     work.hollows[part] = boxes
     for box in boxes:
         work.clear_way(0, work.cells_of(panel, box), PATH if panel.slides else INSIDE)
-    low = np.max([box.low for box in boxes], axis=0)
-    high = np.min([box.high for box in boxes], axis=0)
-    clear = Box(np.append(low[:2], boxes[0].low[2]), np.append(high[:2], boxes[-1].high[2]))
+    clear = reduce(Box.shared, boxes).between(boxes[0].low[2], boxes[-1].high[2])
     if panel.slides:
         _give_box(work, panel, clear)
     elif work.usual.shelves is not None and (upward := np.abs(frame[:2, 2])).max() > ALIKE:
@@ -259,8 +252,8 @@ def _taken(work: Workpiece, part: int) -> Iterator[Box]:
 
 
 def _filled_behind(work: Workpiece, panel: FlatPanel, column: Box) -> bool:
-    layer = Box(column.low, np.append(column.high[:2], column.low[2] + 0.03))
-    cells = work.whole[work.cells_of(panel, layer)]
+    start = float(column.low[2])
+    cells = work.whole[work.cells_of(panel, column.between(start, start + 0.03))]
     return bool(cells.size and cells.mean() > FILLED)
 
 

@@ -34,9 +34,7 @@ def hollow(lattice: Lattice, room: BoolArray, column: Box, frame: FloatArray) ->
     found: list[Box] = []
     for front, back in pairwise(depths):
         before = found[-1] if found else column
-        low = np.append(np.maximum(column.low[:2], before.low[:2]), front)
-        high = np.append(np.minimum(column.high[:2], before.high[:2]), back)
-        box = _shrunk(lattice, room, Box(low, high), frame)
+        box = _shrunk(lattice, room, column.shared(before).between(front, back), frame)
         if box is None:
             break
         found.append(box)
@@ -87,7 +85,5 @@ def _merged(slices: list[Box], alike: float) -> tuple[Box, ...]:
         if not kept or off.max() >= alike:
             kept.append(box)
             continue
-        low = np.append(np.maximum(last.low[:2], box.low[:2]), last.low[2])
-        high = np.append(np.minimum(last.high[:2], box.high[:2]), box.high[2])
-        kept[-1] = Box(low, high)
+        kept[-1] = last.shared(box).between(last.low[2], box.high[2])
     return tuple(box for box in kept if kept[-1].high[2] - kept[0].low[2] >= LEAST_M)

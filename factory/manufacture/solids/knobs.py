@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ...articulation import Joint, JointKind
@@ -25,9 +27,8 @@ WELL_LEFT = 0.98
 PANEL_LEFT = 0.9
 
 
-def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> list[list[float]]:
-    """Return, per axis, where the lattice needs planes for rooms to end by knobs [m]."""
-    planes: list[list[float]] = [[], [], []]
+def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> Iterator[tuple[int, float]]:
+    """Yield the axes that planes lie across for rooms to end by knobs, and where [m]."""
     for part, bump in bumps.items():
         room = Box.around(_passed(bump.hull, joints[part - 1])).grown(CLEAR_M)
         ends = np.stack([room.low, room.high], axis=1).tolist()
@@ -39,8 +40,7 @@ def planes_of_bumps(bumps: dict[int, Bump], joints: list[Joint]) -> list[list[fl
             foot = [bump.base * side, (bump.base + LAYER_M) * side]
             ends[across] = foot + [end for end in ends[across] if abs(end - foot[0]) > LAYER_M]
         for axis in range(3):
-            planes[axis] += ends[axis]
-    return planes
+            yield from ((axis, end) for end in ends[axis])
 
 
 def make_bumps(work: Workpiece) -> None:

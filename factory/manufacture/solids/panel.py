@@ -95,6 +95,10 @@ class FlatPanel:
             np.array([self.high[0] + out[1], self.high[1] + out[3], back]),
         )
 
+    def within(self, inset: float, start: float = -np.inf, end: float = np.inf) -> Box:
+        """Return what lies within its edges by ``inset``, from one depth to another [m]."""
+        return Box(np.append(self.low + inset, start), np.append(self.high - inset, end))
+
 
 def opens(joint: Joint, panel: Panel) -> bool:
     """Tell whether a joint moves a panel out of the side that it closes."""

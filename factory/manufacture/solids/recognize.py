@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,9 +12,8 @@ from ...geometry.posing import face_parts
 from ...geometry.triangles import doubled_normals
 from ...mesh import BoolArray, FloatArray
 from ...views.raster import Side, side_facing
-from ...views.view import View, elevation
+from ...views.view import View
 from ..poses import joints_above
-from .box import Box
 from .bump import Bump, find_bump
 from .panel import BESIDE_M, FlatPanel, ended_at, find_panel, opens
 from .seam import CutSkin, cut
@@ -25,31 +25,17 @@ OWN_BACK_M = 0.04
 INSET_M = 0.01
 
 
-@dataclass(frozen=True)
-class Recognized:
-    """The parts seen on an object.
-
-    Attributes:
-        views: of its sides.
-        panels: by part.
-        skin: cut along their outlines and labelled anew.
-    """
-
-    views: dict[Side, View]
-    panels: dict[int, FlatPanel]
-    skin: CutSkin
-
-
-def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float) -> Recognized:
+def recognize(
+    articulation: Articulation, parts: tuple[int, ...], views: Mapping[Side, View], behind: float
+) -> tuple[dict[int, FlatPanel], CutSkin]:
     """Measure the panels among some patches of one surface and cut the mesh along them.
 
     A part whose faces all lie within another panel's claim is no panel, and keeps them. The object
-    is in the working frame, and ``behind`` the gap behind a panel [m].
+    is in the working frame, seen on ``views``, and ``behind`` the gap behind a panel [m].
+
+    Returns:
+        The panels by part, and the mesh cut along their outlines and labelled anew.
     """
-    mesh = articulation.mesh
-    part = face_parts(articulation)
-    sides: list[Side] = [side for side in Side if side is not Side.BOTTOM]
-    views = {side: elevation(mesh, side, owner=part) for side in sides}
     panels: dict[int, FlatPanel] = {}
     for index in parts:
         joint = articulation.joints[index - 1]
@@ -67,14 +53,14 @@ def recognize(articulation: Articulation, parts: tuple[int, ...], behind: float)
         if panel is not None:
             panels[index] = panel
     panels = _apart(panels)
-    skin = CutSkin.of(mesh, part)
+    part = face_parts(articulation)
+    skin = CutSkin.of(articulation.mesh, part)
     for panel in panels.values():
         skin = _claimed(skin, panel, set(panels) | {0}, behind)
     lost = [index for index in panels if not (skin.part == index).any()]
     panels = {index: panel for index, panel in panels.items() if index not in lost}
     own = part[skin.face]
-    skin = replace(skin, part=np.where(np.isin(own, lost), own, skin.part))
-    return Recognized(views, panels, skin)
+    return panels, replace(skin, part=np.where(np.isin(own, lost), own, skin.part))
 
 
 def _apart(panels: dict[int, FlatPanel]) -> dict[int, FlatPanel]:
@@ -122,24 +108,17 @@ def _claimed(skin: CutSkin, panel: FlatPanel, claimants: set[int], behind: float
         pieces = cut(pieces, frame[axis], end, pieces.touching(room))
     skin = skin.chosen(~near).joined(pieces)
     middles = skin.middles @ frame.T
-    lining = _inner_side(skin, frame) & _behind(panel).holds(middles) & ~_beyond(skin, panel)
+    own_back = panel.within(INSET_M, panel.back, panel.back + OWN_BACK_M)
+    lining = _inner_side(skin, frame) & own_back.holds(middles) & ~_beyond(skin, panel)
     inside = column.holds(middles) | lining
     own = skin.part == panel.part
     part = skin.part.copy()
     part[inside & np.isin(part, list(claimants - {panel.part}))] = panel.part
-    fitted = _behind(panel, np.inf).holds(middles) & (not panel.slides)
+    fitted = panel.within(INSET_M, panel.back).holds(middles) & (not panel.slides)
     # Straps and locks stand out of a lid; above its seam is nothing else.
     proud = (middles[:, 2] <= panel.back) & panel.is_lid
     part[own & ~inside & ~fitted & ~proud] = 0
     return replace(skin, part=part)
-
-
-def _behind(panel: FlatPanel, depth: float = OWN_BACK_M) -> Box:
-    """Return the solid right behind a panel, clear of its frame."""
-    return Box(
-        np.append(panel.low + INSET_M, panel.back),
-        np.append(panel.high - INSET_M, panel.back + depth),
-    )
 
 
 def _beyond(skin: CutSkin, panel: FlatPanel) -> BoolArray:

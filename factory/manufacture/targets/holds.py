@@ -55,8 +55,14 @@ class HoldSearch:
     everything: Surroundings
 
     def view(self, point: FloatArray, axes: FloatArray, reach: float = GRIPPER.reach) -> HandView:
-        """Look at what a hand at a point may meet, in a frame whose axes are rows."""
-        return self.everything.view(self.moving.shape.parts, point, axes, reach)
+        """Look at what a hand may meet at a point [m], shape [3], in a frame whose axes are rows.
+
+        Things further off than ``reach`` along an axis of the object frame [m] are not seen.
+        """
+        low, high = self.everything.boxes
+        rows = np.flatnonzero(((low <= point + reach) & (high >= point - reach)).all(axis=1))
+        own = np.isin(self.everything.parts[rows], self.moving.shape.parts)
+        return HandView(self.everything, point, axes, self.everything.triangles[rows], own)
 
     def target(
         self,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,8 +11,8 @@ from trimesh.bounds import oriented_bounds_2D
 from trimesh.triangles import closest_point
 
 from ...articulation import Articulation, Joint, JointKind
-from ...geometry.triangles import doubled_normals
-from ...mesh import BoolArray, FloatArray, IntArray
+from ...geometry.triangles import areas_of, doubled_normals
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh
 
 #: A part whose centre is this much nearer to its axis than its rim turns on the spot, like a knob.
 KNOB_SHARE = 0.25
@@ -25,25 +25,39 @@ class PartShape:
     """A part and all that is fixed to it.
 
     Attributes:
+        mesh: of the object, at rest.
         parts: indices of the parts, the one that carries the others first.
         faces: of the mesh, shape [face_count].
-        welded: their vertex indices, shape [face_count, 3].
-        corners: [m], object frame at rest, shape [face_count, 3, 3].
-        normals: outward, unit, shape [face_count, 3].
-        areas: [m2], shape [face_count].
     """
 
+    mesh: Mesh
     parts: tuple[int, ...]
     faces: IntArray
-    welded: IntArray
-    corners: FloatArray
-    normals: FloatArray
-    areas: FloatArray
 
     @property
     def part(self) -> int:
         """Return the part that the others are fixed to."""
         return self.parts[0]
+
+    @property
+    def welded(self) -> IntArray:
+        """Return the vertices of each face, shape [face_count, 3]."""
+        return self.mesh.faces[self.faces]
+
+    @cached_property
+    def corners(self) -> FloatArray:
+        """Return where these are [m], object frame at rest, shape [face_count, 3, 3]."""
+        return self.mesh.vertices[self.welded]
+
+    @cached_property
+    def areas(self) -> FloatArray:
+        """Return the area of each face [m2], shape [face_count]."""
+        return areas_of(self.corners)
+
+    @cached_property
+    def normals(self) -> FloatArray:
+        """Return the outward unit normal of each face, shape [face_count, 3]."""
+        return np.asarray(doubled_normals(self.corners) / (2.0 * self.areas[:, None]))
 
     @property
     def centers(self) -> FloatArray:
@@ -62,14 +76,7 @@ class PartShape:
 
     def only(self, chosen: IntArray | BoolArray) -> PartShape:
         """Return some of its faces."""
-        return PartShape(
-            self.parts,
-            self.faces[chosen],
-            self.welded[chosen],
-            self.corners[chosen],
-            self.normals[chosen],
-            self.areas[chosen],
-        )
+        return replace(self, faces=self.faces[chosen])
 
 
 @dataclass(frozen=True)
@@ -129,16 +136,9 @@ def shape_of(articulation: Articulation, part: int) -> PartShape:
         if joint.parent in carried and joint.kind is JointKind.FIXED:
             carried.add(joint.child)
     parts = tuple(sorted(carried))
-    mesh = articulation.mesh
     faces = np.concatenate([articulation.parts[i].faces for i in parts])
-    corners = mesh.vertices[mesh.faces[faces]]
-    cross = doubled_normals(corners)
-    double = np.linalg.norm(cross, axis=1)
-    real = double > 0.0
-    normals = cross[real] / double[real, None]
-    return PartShape(
-        parts, faces[real], mesh.faces[faces[real]], corners[real], normals, double[real] / 2.0
-    )
+    shape = PartShape(articulation.mesh, parts, faces)
+    return shape.only(shape.areas > 0.0)
 
 
 def middle_of(points: FloatArray) -> FloatArray:

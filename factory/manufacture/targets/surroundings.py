@@ -55,22 +55,6 @@ class Surroundings:
         near = np.flatnonzero(((low <= point) & (high >= point)).all(axis=1)).tolist()
         return any(depth_below(self.hulls[hull], point[None])[0] > THINNEST_M for hull in near)
 
-    def view(
-        self, own: Sequence[int], point: FloatArray, axes: FloatArray, reach: float
-    ) -> HandView:
-        """Look at the surface near a point, in the frame of a hand there.
-
-        Args:
-            own: parts that are taken hold of.
-            point: [m], shape [3].
-            axes: of the frame, as rows, shape [3, 3].
-            reach: how far to look along each axis of the object frame [m].
-        """
-        low, high = self.boxes
-        rows = np.flatnonzero(((low <= point + reach) & (high >= point - reach)).all(axis=1))
-        mine = np.isin(self.parts[rows], list(own))
-        return HandView(self, point, axes, self.triangles[rows], mine)
-
 
 def surroundings_of(articulation: Articulation, hulls: Sequence[Sequence[Hull]]) -> Surroundings:
     """Gather the meshes and hulls of all parts, at rest; of some only the mesh is known."""

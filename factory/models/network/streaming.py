@@ -22,6 +22,7 @@ from ...mesh import Float32Array, IntArray
 from .layers import RMS_EPS, Attention, Block, Tensor, split_first_layer
 from .transformer import PartArticulationTransformer
 
+#: Points at a time.
 CHUNK = 512
 
 
@@ -119,9 +120,7 @@ class QueryPass:
 
 
 @torch.inference_mode()  # type: ignore[untyped-decorator]
-def drive(
-    network: PartArticulationTransformer, hidden: Tensor, dtype: Any, chunk: int = CHUNK
-) -> Driven:
+def drive(network: PartArticulationTransformer, hidden: Tensor, dtype: Any) -> Driven:
     """Let a cloud drive the queries through all blocks.
 
     Args:
@@ -129,14 +128,13 @@ def drive(
         hidden: embedded points, shape [n, width], float32; changed in place to what they are before
             the last block's update, so that ``Driven.updates[-1]`` finishes them.
         dtype: of the products over points; sums, norms and queries are float32 regardless.
-        chunk: points at a time.
     """
     queries = network.first_queries()
     updates: list[PointUpdate] = []
     for block in network.blocks:
         queries = block.among_queries(queries)
         query_pass = QueryPass(block.attn2, block.norm2(queries), dtype)
-        for points in hidden.split(chunk):
+        for points in hidden.split(CHUNK):
             if updates:
                 updates[-1].apply(points)
             query_pass.see(points)
@@ -152,12 +150,11 @@ def embed_chunks(
     points: Float32Array,
     normals: Float32Array | None,
     features: Float32Array | None,
-    chunk: int = CHUNK,
 ) -> Tensor:
     """Return the points before the first block, shape [n, width], float32, where the network is."""
     device = network.pos_embed.mlp[0].weight.device
     hidden = torch.empty(len(points), network.shape.hidden, device=device)
-    for rows in chunks(len(points), chunk):
+    for rows in chunks(len(points), CHUNK):
         cloud = (points, normals, features)
         given = [x if x is None else torch.tensor(x[rows], device=device) for x in cloud]
         hidden[rows] = network.embed(*given)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...geometry.edges import label_linked
 from ...mesh import FloatArray, IntArray
-from .surface import BoolArray, Surface
+from .surface import BoolArray, Surface, last_of
 
 TINY = 0.0005
 """A label with a smaller share of the mesh's area is a stray, not a part fused to others."""
@@ -159,7 +159,8 @@ def merged_into_one_each(surface: Surface, labels: IntArray, inside: BoolArray) 
         graph.neighbours[one].add(other)
         graph.neighbours[other].add(one)
     graph.merge()
-    return np.asarray(graph.label, dtype=np.int64)[graph.owners()][patch]
+    owners = last_of(np.array(graph.parent, dtype=np.int64))
+    return np.asarray(graph.label, dtype=np.int64)[owners][patch]
 
 
 @dataclass
@@ -192,13 +193,6 @@ class _Patches:
                 continue
             kept = self._relabel(patch)
             heapq.heappush(queue, (self.area[kept], self.label[kept], kept))
-
-    def owners(self) -> IntArray:
-        """Return the patch that each one is part of in the end, shape [patch_count]."""
-        owners = np.asarray(self.parent, dtype=np.int64)
-        while not np.array_equal(owners, owners[owners]):
-            owners = owners[owners]
-        return owners
 
     def _relabel(self, patch: int) -> int:
         """Give the patch to the bordering label that covers most; returns its patch's number."""

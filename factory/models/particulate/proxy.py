@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...mesh import FloatArray, IntArray
-from .surface import Surface, has_three_corners
+from .surface import Surface, has_three_corners, last_of
 
 CHUNK = 1 << 18
 """Faces labelled at once: bounds memory."""
@@ -45,7 +45,10 @@ def proxy_of(surface: Surface, most_faces: int) -> Proxy:
     points, fewer, collapses = fast_simplification.simplify(
         unit, surface.faces.astype(np.int32), target_count=most_faces, agg=3, return_collapses=True
     )
-    kept = _became(len(unit), np.asarray(collapses, dtype=np.int64))
+    # A pair's second vertex was drawn into its first.
+    into = np.arange(len(unit))
+    into[collapses[:, 1]] = collapses[:, 0]
+    kept = last_of(into)
     corners = kept[surface.faces]
     corners = corners[has_three_corners(corners)]
     used = np.unique(corners)
@@ -56,17 +59,6 @@ def proxy_of(surface: Surface, most_faces: int) -> Proxy:
     vertex = np.where(used[np.minimum(vertex, len(used) - 1)] == kept, vertex, -1)
     vertices = np.asarray(points, dtype=np.float64) * size + low
     return Proxy(Surface(vertices, np.asarray(fewer, dtype=np.int64)), vertex)
-
-
-def _became(count: int, collapses: IntArray) -> IntArray:
-    """Return the vertex each ended in, [count]; a pair's second was drawn into its first."""
-    into = np.arange(count)
-    into[collapses[:, 1]] = collapses[:, 0]
-    while True:
-        further = into[into]
-        if np.array_equal(further, into):
-            return into
-        into = further
 
 
 def carried_back(proxy: Proxy, labels: IntArray, faces: IntArray) -> IntArray:

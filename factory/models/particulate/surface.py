@@ -198,6 +198,13 @@ def has_three_corners(faces: IntArray) -> BoolArray:
     return np.asarray((faces != np.roll(faces, 1, axis=1)).all(axis=1), dtype=np.bool_)
 
 
+def last_of(following: IntArray) -> IntArray:
+    """Return where chains end in which each thing names the one after it, or itself, [count]."""
+    while not np.array_equal(following, following[following]):
+        following = following[following]
+    return following
+
+
 def _squared(vectors: FloatArray) -> FloatArray:
     return np.asarray(np.einsum("ij,ij->i", vectors, vectors))
 

@@ -13,7 +13,7 @@ from ...asset import Asset
 from ...geometry.posing import face_parts
 from ...manufacture.plan import Plan
 from ...manufacture.repair import RepairKind
-from ...manufacture.separate.between import LEAST_M
+from ...manufacture.separate.along import LEAST_M
 from ...manufacture.separate.sweep import free_until
 from ...mesh import FloatArray
 from .evidence import RepairEvidence, record_change

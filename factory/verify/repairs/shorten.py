@@ -7,7 +7,7 @@ from dataclasses import replace
 from ...asset import Asset
 from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
-from ...manufacture.separate.between import LEAST_M
+from ...manufacture.separate.along import LEAST_M
 from ...manufacture.separate.sweep import swept_m
 from .evidence import RepairEvidence, record_change
 from .give_up import BY_A_GUESS

@@ -221,7 +221,7 @@ def test_what_a_clock_or_somebody_stopped_is_unjudged_and_not_kept(
     monkeypatch, tmp_path, outcome, code
 ):
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: outcome)
-    monkeypatch.setattr(methods, "cut_along_faces", lambda *_: None)
+    monkeypatch.setattr(methods, "METHODS", (ladder.search,))
     with pytest.raises(Unjudged) as caught:
         decomposed(one_part(*torus()), CONFIG, Store(tmp_path))
     assert caught.value.finding.code == f"decomposition_{code}"
@@ -296,7 +296,7 @@ def test_a_hundred_thousand_faces_in_two_blobs_become_hulls(tmp_path):
 def test_without_memory_the_next_method_is_tried_and_that_is_kept(monkeypatch, tmp_path):
     full = Outcome[object](None, Failure.RAISED, "ran out of memory", "", 0.1, error=MemoryError())
     monkeypatch.setattr(ladder, "run_isolated", lambda *_, limits: full)
-    monkeypatch.setattr(methods, "cut_along_faces", lambda *_: None)
+    monkeypatch.setattr(methods, "METHODS", (ladder.search,))
     first, kept = (decomposed(one_part(*torus()), CONFIG, Store(tmp_path))[0] for _ in range(2))
     assert (first.method, first.degraded) == (kept.method, kept.degraded)
     assert "ran out of memory" in first.degraded[0]

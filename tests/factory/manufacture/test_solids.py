@@ -198,7 +198,7 @@ def test_boards_and_the_bars_of_a_frame_are_cut_exactly():
     boards = solid_box((0.4, 0.3, 0.02)) + solid_box((0.02, 0.3, 0.4))
     bars = solid_box((1.0, 0.05, 2.0)) - solid_box((0.8, 0.05, 1.8), (0.1, 0.0, 0.1))
     for shape, count in ((boards, 2), (bars, 4)):
-        cut = cut_along_faces(shape, 0.005, 16, 0.01)
+        cut = cut_along_faces(shape, 0.005, DecomposeConfig())
         assert (cut.method, len(cut.hulls)) == ("exact", count)
         assert sum(hull.volume for hull in cut.hulls) == pytest.approx(shape.volume(), rel=1e-9)
 
@@ -207,8 +207,8 @@ def test_cutting_gives_up_beyond_the_limit():
     comb = solid_box((0.5, 0.1, 0.02))
     for tooth in range(8):
         comb = comb + solid_box((0.02, 0.1, 0.2), (0.06 * tooth, 0, 0))
-    assert cut_along_faces(comb, 0.005, 4, 0.01) is None
-    assert cut_along_faces(comb, 0.005, 32, 0.01) is not None
+    assert cut_along_faces(comb, 0.005, DecomposeConfig(), 4) is None
+    assert cut_along_faces(comb, 0.005, DecomposeConfig()) is not None
 
 
 def test_halves_of_a_board_are_joined_and_the_legs_of_a_table_are_not():
