@@ -31,7 +31,7 @@ from ..detector.sides import Instances, labelled_sides
 from ..evaluate.cases import in_settings, make_case
 from ..evaluate.listing import real_requests
 from ..surfaces import coloured_skin
-from .perceptron import Examples, FitSettings, Weighing, fit_examples
+from .perceptron import FitSettings, Weighing, cross_entropy, fit_scaled
 from .writing import networks_stored
 
 #: A part is right if a true one has a box of this intersection over union on some side.
@@ -166,9 +166,9 @@ def _reliability(network: Perceptron, rows: Sequence[tuple[float, ...]]) -> Iter
 
 def _fitted(rows: Sequence[tuple[float, ...]]) -> Perceptron:
     table = np.array(rows)
-    examples = Examples(table[:, :-1], table[:, -1:], np.ones(len(table)))
     weights = {name: Weighing(0.0, 1e-3) for name in ("base", "direct")}
-    return fit_examples(examples, FitSettings(0, 1, weights, STEPS))
+    settings = FitSettings(0, 1, weights, STEPS)
+    return fit_scaled(table[:, :-1], cross_entropy(table[:, -1:]), settings)
 
 
 def _boxes(cells: CellParts, part: int) -> Iterator[tuple[int, FloatArray]]:
