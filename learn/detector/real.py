@@ -23,7 +23,7 @@ from asset_factory.factory.models.detector.canvas import (
 )
 
 from .labelled import LabelledObject, LabelledPart, labelled_objects
-from .sides import LabelledSides
+from .sides import COLUMNS, LabelledSides
 
 #: Of the meshes of a folder every so many is kept for measuring.
 HELD_OUT = 5
@@ -66,7 +66,7 @@ def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObj
 def _on_canvas(parts: Sequence[LabelledPart], mesh: Mesh) -> FloatArray:
     """Return the table of what a person saw."""
     sizes = mesh.extents / mesh.extents.max() * LONGEST
-    table = np.zeros((len(parts), 10))
+    table = np.zeros((len(parts), COLUMNS))
     for number, part in enumerate(parts):
         box = on_canvas(np.array(part.box), np.abs(part.side.frame[:2] @ sizes))
         sort = SORTS.index(part.sort)
