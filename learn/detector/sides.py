@@ -120,7 +120,7 @@ def labelled_sides(
         canvases, part = _pictures(articulation)
     rows = []
     for joint in articulation.movable_joints:
-        meaning = meanings.get(joint.child)
+        meaning = meanings.get(joint.child, _Meaning(Sort.OTHER, {}))
         share = shares.get(joint.name, 0.0)
         for view in range(len(SIDES)):
             rows += _row(part[view] == joint.child + 1, view, joint.child, meaning, share)
@@ -129,18 +129,17 @@ def labelled_sides(
 
 
 def _row(
-    mask: BoolArray, view: int, part: int, meaning: _Meaning | None, share: float
+    mask: BoolArray, view: int, part: int, meaning: _Meaning, share: float
 ) -> list[tuple[float, ...]]:
     """Return the row of one part on one side, if it is seen there."""
     if mask.sum() < LEAST_CONTROL:
         return []
     box = _box(mask)
     wide, high = box[2:] - box[:2]
-    known = meaning is not None and view in meaning.ways
-    sort = meaning.sort if meaning is not None else Sort.OTHER
-    way = meaning.ways[view] if meaning is not None and known else PanelWay.OTHER
-    panel = sort not in (Sort.CONTROL, Sort.OTHER)
-    if panel:
+    known = view in meaning.ways
+    sort = meaning.sort
+    way = meaning.ways.get(view, PanelWay.OTHER)
+    if sort not in (Sort.CONTROL, Sort.OTHER):
         filled = float(mask.sum()) / max(wide * high, 1.0)
         large = float(mask.sum()) >= LEAST_PANEL * CANVAS**2
         if not large or (filled < FILLED and sort is not Sort.LID) or min(wide, high) < 4:
