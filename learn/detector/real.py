@@ -44,17 +44,17 @@ def is_held_out(name: str) -> bool:
     return zlib.crc32(name.encode()) % HELD_OUT == 0
 
 
-def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObject]:
+def real_objects(folder: Path, held_out: bool = False) -> Iterator[RealObject]:
     """Yield the meshes of a folder with ``INVENTORY.csv`` of which the package has labels.
 
-    Left out are, by ``held_out``, those that are kept for measuring, or those that are not.
+    With ``held_out`` only those that are kept for measuring.
     """
     with (folder / "INVENTORY.csv").open(newline="") as rows:
         files = {Path(row["file"]).stem: row["file"] for row in csv.DictReader(rows)}
     labels = labelled_objects()
     for name, file in files.items():
         label = labels.get(name)
-        if label is None or (held_out is not None and is_held_out(name) is not held_out):
+        if label is None or (held_out and not is_held_out(name)):
             continue
         mesh = load(folder / file, IntakeConfig()).mesh
         part = np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8)
