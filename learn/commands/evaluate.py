@@ -207,12 +207,9 @@ def _weights(checkpoint: str) -> dict[str, str]:
 
 
 def _write_meshes(folder: Path, requests: Sequence[Request], cache: Path | None) -> None:
-    from asset_factory.factory.runtime.store import Store
-
     from ..evaluate.cases import make_case
     from ..evaluate.files import write_obj
 
     folder.mkdir(parents=True, exist_ok=True)
     for request in requests:
-        case = make_case(request, None if cache is None else Store(cache))
-        write_obj(folder / f"{request.name}.obj", case.mesh)
+        write_obj(folder / f"{request.name}.obj", make_case(request, cache).mesh)
