@@ -18,7 +18,7 @@ def volume(box: FloatArray) -> float:
 
 
 def intersection(a: FloatArray, b: FloatArray) -> float:
-    """Return the volume of what is in both."""
+    """Return the volume that two boxes share."""
     return volume(np.stack([np.maximum(a[0], b[0]), np.minimum(a[1], b[1])]))
 
 
