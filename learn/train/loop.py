@@ -185,8 +185,9 @@ class _Run:
         return validate(network, self._held_out, self._config, self._group.device)
 
     def _save(self, step: int) -> None:
+        half = self._config.half
         weights = self._trainer.mean_network.state_dict()
-        kept = {name: each.float() for name, each in weights.items()}
+        kept = {name: each.half() if half else each.float() for name, each in weights.items()}
         # The checkpoint last: cut off in between, the run goes on from the one before.
         write_safetensors(self._output / MODEL, kept, self._about(step))
         write_state(self._output / LAST, self._state(step))

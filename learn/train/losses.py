@@ -24,8 +24,6 @@ Tensor = Any
 NAMES = tuple(each.name for each in fields(LossSettings) if each.type == "Amount")
 """Losses, by the settings that are their weights."""
 _DICE_EPS = 1e-6
-_AUXILIARY = 4
-"""One in so many points takes part in the losses after every block but the last."""
 _SYMMETRIC = 0.02
 """A range whose middle is this near to 0, as a share of its width, reads the same both ways."""
 
@@ -99,10 +97,10 @@ class Counts(LossTargets):
         return (self.pairs - self.edges) / self.edges if self.edges else 1.0
 
 
-def count(batch: Batch, targets: LossTargets) -> list[float]:
+def count(batch: Batch, targets: LossTargets, settings: LossSettings) -> list[float]:
     """Return the fields of :class:`Counts` for one micro-batch; those of a step are their sums."""
     points = batch.part_ids.shape[1]
-    auxiliary = math.ceil(points / _AUXILIARY)
+    auxiliary = math.ceil(points / settings.auxiliary_points)
     rows = [float(getattr(targets, each.name).sum()) for each in fields(LossTargets)]
     return [*rows, float(len(batch) * points), float(len(batch) * auxiliary)]
 
@@ -136,7 +134,7 @@ def forward(network: Any, batch: Batch, settings: LossSettings) -> tuple[Answers
     for number, block in enumerate(network.blocks, start=1):
         hidden, queries = block(hidden, queries)
         if settings.auxiliary and number < len(network.blocks):
-            early.append(network.mask_logits(hidden[:, ::_AUXILIARY], queries))
+            early.append(network.mask_logits(hidden[:, :: settings.auxiliary_points], queries))
     masks = network.mask_logits(hidden, queries)
     found = match(masks, batch.part_ids, batch.counts, root_first=settings.root_first)
     queries = arranged(queries, found)
@@ -186,7 +184,7 @@ def losses(
     found["closest_points"] = mean("closest_points", _place_error(answers, batch))
     found["auxiliary"] = zero
     if early:
-        found["auxiliary"] = _auxiliary(early, answers.queries, batch, counts)
+        found["auxiliary"] = _auxiliary(early, answers.queries, batch, counts, settings)
     return found
 
 
@@ -199,8 +197,10 @@ def _cross_entropy(masks: Tensor, part_ids: Tensor) -> Tensor:
     return functional.cross_entropy(masks.flatten(0, 1), part_ids.flatten(), reduction="sum")
 
 
-def _auxiliary(early: list[Tensor], queries: Tensor, batch: Batch, counts: Counts) -> Tensor:
-    part_ids = batch.part_ids[:, ::_AUXILIARY]
+def _auxiliary(
+    early: list[Tensor], queries: Tensor, batch: Batch, counts: Counts, settings: LossSettings
+) -> Tensor:
+    part_ids = batch.part_ids[:, :: settings.auxiliary_points]
     sums = [_cross_entropy(arranged_columns(each, queries).float(), part_ids) for each in early]
     return sum(sums) / (len(sums) * counts.auxiliary)
 

@@ -53,30 +53,34 @@ class NetworkSettings:
     """Sizes of the network.
 
     Attributes:
-        hidden, blocks, heads, mlp_ratio, max_parts: see ``NetworkShape``.
+        hidden, blocks, heads, mlp_ratio, raw_coords, max_parts: see ``NetworkShape``.
         features: of a point beside place and normal: ``none``, or ``components``, what its
             connected component looks like.
         axes: ``per_point_closest``: every point votes for where its part's axis is; or
             ``per_part_plucker``: its part says so once, by a moment. See ``AxisForm``.
         dropout: in training.
-        quiet_start: weights on the fast sinusoids, those that turn by more than 30 rad per unit of
-            length, start the smaller the faster they are: a short training has no use for them.
+        quiet_start: weights on the fast sinusoids, those that turn by more than ``quiet_below`` per
+            unit of length, start the smaller the faster they are: a short training has no use for
+            them.
+        quiet_below: [rad per unit of length].
     """
 
     hidden: Count = 768
     blocks: Count = 6
     heads: Count = 12
     mlp_ratio: Count = 4
+    raw_coords: bool = True
     max_parts: Annotated[int, Meta(ge=2)] = 16
     features: str = "none"
     axes: str = AxisForm.CLOSEST_POINTS.value
     dropout: Dropout = 0.0
     quiet_start: bool = False
+    quiet_below: float = 30.0
 
     @property
     def shape(self) -> NetworkShape:
         """Return the sizes as the network wants them."""
-        same = ("hidden", "blocks", "heads", "mlp_ratio", "max_parts")
+        same = ("hidden", "blocks", "heads", "mlp_ratio", "raw_coords", "max_parts")
         sizes: dict[str, Any] = {name: getattr(self, name) for name in same}
         features = COMPONENT_FEATURES if self.features == "components" else 0
         return NetworkShape(**sizes, features=features, axis_form=AxisForm(self.axes))
@@ -97,7 +101,8 @@ class LossSettings:
         revolute_range, prismatic_range: distance of limits.
         closest_points: distance of the nearest points on the axes; of a network that says axes by
             their moments, distance of those.
-        auxiliary: cross-entropy of the part of one point in four after every block but the last.
+        auxiliary: cross-entropy of each point's part after every block but the last.
+        auxiliary_points: one in so many points takes part in it.
         root_first: the base always answers to query 0.
         sign_free: where a range reads the same from both ends, the opposite direction is as good.
         unseen_parts: parts of which no point was drawn teach too.
@@ -117,6 +122,7 @@ class LossSettings:
     prismatic_range: Amount = 1.0
     closest_points: Amount = 1.0
     auxiliary: Amount = 0.0
+    auxiliary_points: Count = 4
     root_first: bool = False
     sign_free: bool = False
     unseen_parts: bool = True
@@ -237,6 +243,7 @@ class TrainConfig:
         held_out: sources of validation examples; none: no validation.
         seed: of everything; a sample depends on it, the step and its place in the step alone.
         batch: samples per step, over all processes.
+        half: write the weights as float16.
         recipe: a name for the run.
         terms: under which the weights may be used, with the sources of the data; written into the
             file.
@@ -246,6 +253,7 @@ class TrainConfig:
     held_out: tuple[DataSource, ...] = ()
     seed: Whole = 0
     batch: Count = 128
+    half: bool = False
     recipe: str = "paper"
     terms: str = ""
     draw: DrawSettings = field(default_factory=DrawSettings)

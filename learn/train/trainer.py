@@ -28,8 +28,6 @@ _MOST_MISSED = 20
 """Steps in a row whose gradients are not finite, after which a run ends."""
 _SPREAD = 1000.0
 _BASE = 10000.0
-_QUIET = 30.0
-"""Sinusoids above this many rad per unit of length are fast."""
 
 
 class Trainer:
@@ -41,7 +39,7 @@ class Trainer:
         torch.manual_seed(config.seed)
         network = PartArticulationTransformer(config.network.shape, config.network.dropout)
         if config.network.quiet_start:
-            quieten(network)
+            quieten(network, config.network.quiet_below)
         self.network = network.to(group.device).train()
         self.mean_network = copy.deepcopy(self.network).requires_grad_(False).eval()
         self.optimiser = _optimiser(self.network, config)
@@ -99,7 +97,7 @@ class Trainer:
             for each in batch.split(config.run.micro_batch or len(batch))
         ]
         # Counted before anything is sent to a GPU: to ask one for a number is to wait for it.
-        counted = [count(each, targets_of(each, config.loss)) for each in host]
+        counted = [count(each, targets_of(each, config.loss), config.loss) for each in host]
         micro = [each.to(group.device) for each in host]
         mine = [sum(column) for column in zip(*counted, strict=True)]
         *sums, stops = group.sums([*mine, float(stop)])
@@ -147,14 +145,15 @@ class Trainer:
         torch.manual_seed(int(seed.generate_state(1, np.uint64)[0] >> np.uint64(1)))
 
 
-def quieten(network: Any) -> None:
-    """Make fast sinusoids' weights start small: ``_QUIET`` over their angular frequency, if less.
+def quieten(network: Any, below: float) -> None:
+    """Make fast sinusoids' weights start small: ``below`` over their angular frequency, if less.
 
     Coordinates are expanded into sines and cosines of up to 1000 rad per unit of length. At first
     the fastest tell neighbouring points nothing in common; their weights would have to be unlearnt.
+    ``below`` is in rad per unit of length.
     """
     frequencies = _SPREAD * torch.exp(-math.log(_BASE) * torch.arange(FREQUENCIES) / FREQUENCIES)
-    factors = (_QUIET / frequencies).clamp(max=1.0)
+    factors = (below / frequencies).clamp(max=1.0)
     embeddings = [network.pos_embed, *([network.normal_embed] if network.shape.normals else [])]
     with torch.no_grad():
         for embedding in embeddings:

@@ -55,7 +55,7 @@ def validate(network: Any, samples: Sequence[Sample], config: TrainConfig, devic
         targets = targets_of(batch, settings)
         with torch.no_grad():
             answers, early = forward(network, batch, settings)
-            counts = Counts(*count(batch, targets))
+            counts = Counts(*count(batch, targets, settings))
             found = losses(answers, early, batch, targets, counts, settings)
         loss += len(batch) * sum(settings.weight(name) * float(found[name]) for name in NAMES)
         labels = arranged_columns(answers.mask_logits, answers.queries).argmax(-1)

@@ -61,7 +61,7 @@ def boxes(count):
 def found_losses(network, batch, settings, counts=None):
     targets = targets_of(batch, settings)
     answers, early = forward(network, batch, settings)
-    counts = counts or Counts(*count(batch, targets))
+    counts = counts or Counts(*count(batch, targets, settings))
     return losses(answers, early, batch, targets, counts, settings)
 
 
@@ -148,7 +148,7 @@ def test_micro_batches_add_up_to_the_whole_step(network):
     settings = LossSettings(dice=1.0, auxiliary=0.5)
     whole = found_losses(network, batch, settings)
     micro = list(batch.split(2))
-    counted = [count(each, targets_of(each, settings)) for each in micro]
+    counted = [count(each, targets_of(each, settings), settings) for each in micro]
     counts = Counts(*map(sum, zip(*counted, strict=True)))
     shares = [found_losses(network, each, settings, counts) for each in micro]
     for name in NAMES:
@@ -168,7 +168,7 @@ def test_an_opposite_direction_is_as_good_where_the_range_reads_the_same_from_bo
     answers = Answers(answers.queries, answers.mask_logits, said, answers.closest_points)
     for settings, wrong in ((LossSettings(), 6), (LossSettings(sign_free=True), 2)):
         targets = targets_of(batch, settings)
-        counts = Counts(*count(batch, targets))
+        counts = Counts(*count(batch, targets, settings))
         found = losses(answers, [], batch, targets, counts, settings)
         # Opposite unit vectors along a coordinate differ by 2 in one coordinate of three.
         assert found["revolute_direction"].item() == pytest.approx(wrong / 6 * 2 / 3)
@@ -204,7 +204,7 @@ def test_a_network_that_says_axes_by_moments_is_taught_those_of_the_annotated_ax
     batch = boxes(6)
     settings = LossSettings()
     targets = targets_of(batch, settings)
-    counts = Counts(*count(batch, targets))
+    counts = Counts(*count(batch, targets, settings))
     assert counts.closest_points > 0
     answers, early = forward(network, batch, settings)
     assert answers.closest_points is None

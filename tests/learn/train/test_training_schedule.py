@@ -43,7 +43,7 @@ def test_the_running_mean_forgets_the_start_and_then_is_slow():
 def test_a_quiet_start_leaves_slow_sinusoids_and_coordinates_alone():
     network = PartArticulationTransformer(NetworkShape(hidden=8, blocks=1, heads=1, features=0))
     before = network.pos_embed.mlp[0].weight.clone()
-    quieten(network)
+    quieten(network, 30.0)
     ratio = (network.pos_embed.mlp[0].weight / before)[0]
     turning = [1000.0 * 10000.0 ** (-k / 32) for k in range(32)]
     expected = [min(1.0, 30.0 / angle) for angle in turning] * 6 + [1.0] * 3
