@@ -16,7 +16,7 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.intake.naming import safe_name
 from asset_factory.factory.runtime.code import code_digest
 from asset_factory.factory.runtime.store import stage_key, write_json
-from asset_factory.sim_checks.processes.isolation import Limits, WarmChild, preload, processors
+from asset_factory.sim_checks.processes.isolation import WarmChild, preload, processors
 
 from ..children import ask_children
 from .catalog import source
@@ -28,8 +28,6 @@ from .split import read_split
 
 #: A child is replaced when it holds more than this [bytes].
 LARGE_CHILD = 1536 * 1024 * 1024
-#: Most address space of a child [bytes].
-MEMORY_BYTES = 8 * 1024**3
 COMMON_MODULES = ("scipy.spatial", "scipy.sparse.csgraph", "asset_factory.learn.datasets.making")
 
 
@@ -57,9 +55,7 @@ def prepare(
     found = find_all(kind, path)
     items = found if split is None else _named(found, split)
     can = [importlib.util.find_spec(module) is not None for module in source(kind).modules]
-    # How long an object may take decides nothing about its points.
-    decisive = (kind, settings.points, settings.front, settings.skin)
-    digest = stage_key("sampled", code_digest(__name__), decisive, can)[-16:]
+    digest = stage_key("sampled", code_digest(__name__), kind, settings.decisive, can)[-16:]
     folder = cache / f"{kind}-{digest}"
     folder.mkdir(parents=True, exist_ok=True)
     there_before = set(folder.glob("*.npz"))
@@ -122,8 +118,7 @@ def _found_or_made(
     kept = read_refusal(refused)
     if kept is not None:
         return kept
-    limits = Limits(wall_s=settings.wall_s, memory_bytes=MEMORY_BYTES)
-    made = child.call(make_sampled, kind, item, settings, key, path, limits=limits)
+    made = child.call(make_sampled, kind, item, settings, key, path, limits=settings.limits)
     if made.failure is not None:
         return ItemRefusal(made.failure, f"{item.name}: {made.detail}")
     if made.value is not None:

@@ -20,6 +20,7 @@ from .description import (
 from .item import SourceItem
 from .predictions import find_predictions, read_prediction_item
 from .published import find_published, read_published
+from .settings import SourceSettings
 
 
 @dataclass(frozen=True)
@@ -30,12 +31,12 @@ class SourceKind:
         find: the objects in a folder, cheaply: nothing is read yet.
         read: one of them; raises InputRejected with a reason code.
         wants: what an object of this kind is, for people.
-        front: where its objects look, see :class:`~.settings.SourceSettings`.
+        front: where its objects look, see :class:`SourceSettings`.
         modules: libraries without which some objects are refused, until the libraries come.
     """
 
     find: Callable[[Path], tuple[SourceItem, ...]]
-    read: Callable[[SourceItem], Articulation | SampledObject]
+    read: Callable[[SourceItem, SourceSettings], Articulation | SampledObject]
     wants: str
     front: str = "-y"
     modules: tuple[str, ...] = ()

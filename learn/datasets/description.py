@@ -9,7 +9,7 @@ from pathlib import Path
 
 from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.articulation import Articulation
-from asset_factory.factory.config import BuildConfig, IntakeConfig
+from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.factory.intake.discover import MAIN_LAYERS, is_description
 from asset_factory.factory.intake.load import load
@@ -19,14 +19,15 @@ from asset_factory.sim_checks import Status
 from asset_factory.sim_checks.read.usd.layers import is_usd
 
 from .item import SourceItem, files_below, find_items
+from .settings import SourceSettings
 
 #: Of PartNet-Mobility's folders, whose objects look along -X.
 PARTNET_MAIN = "mobility.urdf"
 
 
-def read_description(item: SourceItem) -> Articulation:
+def read_description(item: SourceItem, settings: SourceSettings) -> Articulation:
     """Return one object, fixed parts joined to parents, lower = closed. Raises InputRejected."""
-    return articulate(load(item.main, IntakeConfig()), BuildConfig(articulator="annotated"))
+    return articulate(load(item.main, settings.intake), BuildConfig(articulator="annotated"))
 
 
 def find_descriptions(root: Path) -> tuple[SourceItem, ...]:

@@ -48,7 +48,7 @@ def make_sampled(
 def sampled_item(kind: str, item: SourceItem, settings: SourceSettings, seed: int) -> SampledObject:
     """Return one object's sample, front along -Y. Raises InputRejected and readers' errors."""
     known = source(kind)
-    read = known.read(item)
+    read = known.read(item, settings)
     if not isinstance(read, SampledObject):
         if settings.skin:
             from ..surfaces import skin_like

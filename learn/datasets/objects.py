@@ -12,6 +12,7 @@ from asset_factory.factory.runtime.terminal import say
 from ..objects.catalog import CATEGORIES, make_object
 from ..objects.mixture import in_character
 from .description import find_descriptions, read_description
+from .settings import SourceSettings
 
 
 def generated(
@@ -41,6 +42,6 @@ def described(
         raise ConfigError(f"{folder}: holds no URDF and no MJCF that is asked for, {wanted}")
     for item in items:
         try:
-            yield item.name, read_description(item)
+            yield item.name, read_description(item, SourceSettings())
         except InputRejected as error:
             say(f"{item.name} left out: {error}")

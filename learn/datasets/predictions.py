@@ -12,12 +12,13 @@ from pathlib import Path
 
 from asset_factory.factory.articulate.stage import articulate
 from asset_factory.factory.articulation import Articulation
-from asset_factory.factory.config import BuildConfig, IntakeConfig
+from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.formats.catalog import is_mesh
 from asset_factory.factory.intake.load import load
 
 from .item import SourceItem, find_items
+from .settings import SourceSettings
 
 LONE = "pred.npz"
 
@@ -28,9 +29,9 @@ def find_predictions(root: Path) -> tuple[SourceItem, ...]:
     return tuple(_alone(item) if item.folder == root else item for item in found)
 
 
-def read_prediction_item(item: SourceItem) -> Articulation:
+def read_prediction_item(item: SourceItem, settings: SourceSettings) -> Articulation:
     """Return a mesh with its labels, turned and scaled as in intake. Raises InputRejected."""
-    intake = load(item.main, IntakeConfig())
+    intake = load(item.main, settings.intake)
     if intake.annotation_path is None:
         labels = labels_beside(item.main, item.files)
         if labels is None:

@@ -19,7 +19,6 @@ import numpy.typing as npt
 
 from asset_factory.factory.articulate.annotated import AnnotatedArticulator
 from asset_factory.factory.articulation import Articulation
-from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.geometry.rows import distinct_rows
 from asset_factory.factory.intake.annotation import Annotation
@@ -36,6 +35,7 @@ from asset_factory.factory.models.particulate.sampling import Cloud
 
 from ..samples.sampled_object import SampledObject, sampled_at
 from .item import SourceItem, find_items
+from .settings import SourceSettings
 
 Array = npt.NDArray[Any]
 MESH = "original.obj"
@@ -58,13 +58,13 @@ def find_published(root: Path) -> tuple[SourceItem, ...]:
     return find_items(root, _mains)
 
 
-def read_published(item: SourceItem) -> Articulation | SampledObject:
+def read_published(item: SourceItem, settings: SourceSettings) -> Articulation | SampledObject:
     """Return one object; the given points where there is no mesh. Raises InputRejected."""
     if item.main.name != META:
-        return _sampled_from_points(item)
+        return _sampled_from_points(item, settings)
     folder = item.folder
-    visual = load_visual(folder / MESH, folder, IntakeConfig())
-    bones, axes, ranges = (_numbers_in(folder / name) for name in (META, AXES, RANGES))
+    visual = load_visual(folder / MESH, folder, settings.intake)
+    bones, axes, ranges = (_numbers_in(folder / name, settings) for name in (META, AXES, RANGES))
     structure = bones["bone_structure"]
     labels = _face_labels(folder / MESH, bones["vert_to_bone"], visual.source_face_count)
     count = int(max(labels.max(), structure.max(initial=0))) + 1
@@ -77,13 +77,13 @@ def read_published(item: SourceItem) -> Articulation | SampledObject:
     return articulator.articulate(visual.mesh.submesh(kept))
 
 
-def _sampled_from_points(item: SourceItem) -> SampledObject:
+def _sampled_from_points(item: SourceItem, settings: SourceSettings) -> SampledObject:
     """Return the sample of a point cache: a tiny triangle stands for each point, all one component.
 
     Raises:
         InputRejected: ``bad_annotation``, ``not_a_tree``, ``no_movable_joint``, ``too_many_parts``.
     """
-    stored: dict[str, Any] = dict(_numbers_in(item.main))
+    stored: dict[str, Any] = dict(_numbers_in(item.main, settings))
     points = stored["points"]
     if stored["point_to_bone"].shape != (len(points),):
         raise _bad_annotation(f"{item.main.name}: point_to_bone does not fit its points")
@@ -164,9 +164,9 @@ def _of_bones(stored: Fields, count: int, width: int) -> Array:
     return found
 
 
-def _numbers_in(path: Path) -> Fields:
+def _numbers_in(path: Path, settings: SourceSettings) -> Fields:
     """Return the arrays of an ``.npz``. Raises InputRejected ``bad_annotation``: no numbers."""
-    fields = load_fields(path, IntakeConfig().max_bytes)
+    fields = load_fields(path, settings.max_bytes)
     for name, values in fields.items():
         if values.dtype.kind not in "biuf" or not np.isfinite(values).all():
             raise _bad_annotation(f"{path.name}: {name} holds what is no finite number")

@@ -11,6 +11,7 @@ from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import Material, Mesh
 from asset_factory.learn.datasets.description import find_descriptions, find_partnet
 from asset_factory.learn.datasets.predictions import find_predictions, read_prediction_item
+from asset_factory.learn.datasets.settings import SourceSettings
 from asset_factory.learn.datasets.split import is_held_out
 from asset_factory.learn.evaluate.files import write_obj
 from asset_factory.learn.objects.export import write_annotation, write_sidecar
@@ -91,12 +92,12 @@ def test_labels_beside_a_mesh(tmp_path, named):
         write_sidecar(folder / "chest.toml", {"scale": 1.0, "annotation": labels})
     (item,) = find_predictions(tmp_path)
     assert item.name == "chest_1"
-    read = read_prediction_item(item)
+    read = read_prediction_item(item, SourceSettings())
     assert [len(part.faces) for part in read.parts] == [12, 12]
     np.testing.assert_allclose(np.abs(read.joints[0].axis), [1, 0, 0], atol=1e-9)
     (folder / labels).write_bytes(b"torn")
     with pytest.raises(InputRejected):
-        read_prediction_item(item)
+        read_prediction_item(item, SourceSettings())
 
 
 def test_generated_meshes_in_one_folder_do_not_share_files(tmp_path):

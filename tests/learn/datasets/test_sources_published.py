@@ -21,12 +21,12 @@ def original(fixtures, name):
     folder = fixtures / "data_formats" / name / "in"
     if name in STAGES:
         pytest.importorskip("pxr")
-        return read_description(find_usd(folder)[0])
-    return read_description(find_descriptions(folder)[0])
+        return read_description(find_usd(folder)[0], SETTINGS)
+    return read_description(find_descriptions(folder)[0], SETTINGS)
 
 
 def published(fixtures, name):
-    read = read_published(find_published(fixtures / "data_formats" / name / "out")[0])
+    read = read_published(find_published(fixtures / "data_formats" / name / "out")[0], SETTINGS)
     assert isinstance(read, Articulation)
     return read
 
@@ -120,4 +120,4 @@ def test_a_point_cache_that_contradicts_itself_is_refused(fixtures, tmp_path, fi
     file = tmp_path / "broken.npz"
     np.savez(file, **stored | {field: broken(stored[field])})
     item = SourceItem("broken", file, (file,))
-    assert refusal(read_published, item).code == "bad_annotation"
+    assert refusal(read_published, item, SETTINGS).code == "bad_annotation"
