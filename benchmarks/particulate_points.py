@@ -17,6 +17,8 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from asset_factory.factory.config import ParticulateConfig
+from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.mesh import FloatArray, IntArray, Mesh
 from asset_factory.factory.models.particulate.inference import infer
 from asset_factory.factory.models.particulate.model import Model, Particulate, load_model
@@ -59,12 +61,8 @@ def main(checkpoint: str) -> None:
     for category in CATEGORIES:
         articulation = make_object(category, SEED)
         mesh = articulation.mesh
-        truth = np.zeros(len(articulation.mesh.faces), dtype=np.int64)
-        for index, part in enumerate(articulation.parts):
-            truth[part.faces] = index
-        corners = mesh.vertices[mesh.faces]
-        crossed = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        areas = 0.5 * np.linalg.norm(crossed, axis=1)
+        truth = face_parts(articulation)
+        areas = face_areas(mesh)
         reference, seconds = labels(mesh, model, RELEASED, seed=0)
         # The same number again is another sample: what mere chance changes.
         again = [labels(mesh, model, points, seed=1) for points in FEWER]

@@ -34,7 +34,6 @@ SETTINGS = DrawSettings(components=True, facing_share=0.5, mirrored_share=0.5, s
 
 def ours(category: str, seed: int, reuse: int) -> tuple[float, float, float]:
     """Processor seconds to make an object, to pool it, and to draw it ``reuse`` times."""
-    rng = np.random.default_rng(seed)
     started = time.process_time()
     rng = np.random.default_rng(seed)
     _, articulation = sample_object(rng, MixtureSettings(categories=(category,)))
@@ -51,7 +50,6 @@ def anew(category: str, seed: int) -> float:
 
     Its points and component features are computed.
     """
-    rng = np.random.default_rng(seed)
     started = time.process_time()
     rng = np.random.default_rng(seed)
     _, articulation = sample_object(rng, MixtureSettings(categories=(category,)))

@@ -293,13 +293,13 @@ def require_page(port: int) -> None:
     require_libraries()
 
 
-def check_effort(command: Any, counts: Sequence[str]) -> None:
+def check_effort(command: Any, counts: Sequence[str], seed: str = "seed") -> None:
     """Raise ConfigError unless flags in ``counts`` are at least 1, and seed and timeout valid."""
-    for name in counts:
-        count = getattr(command, name)
-        if count < 1:
-            raise ConfigError(f"--{name.replace('_', '-')} must be at least 1, not {count}")
-    if command.seed < 0:
-        raise ConfigError(f"--seed must be 0 or more, not {command.seed}")
+    least = dict.fromkeys(counts, 1) | {seed: 0}
+    for name, lowest in least.items():
+        number = getattr(command, name)
+        if number is not None and number < lowest:
+            flag = name.replace("_", "-")
+            raise ConfigError(f"--{flag} must be at least {lowest}, not {number}")
     if not command.timeout > 0.0:
         raise ConfigError(f"--timeout must be more than 0, not {command.timeout:g} s")

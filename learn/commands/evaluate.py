@@ -118,14 +118,9 @@ def run(command: Evaluate) -> int:
 
 
 def _require_sound(command: Evaluate) -> None:
-    least = {"points": 1, "seeds": 1, "repeats": 1, "workers": 1, "first_seed": 0, "limit": 1}
-    for name, lowest in least.items():
-        number = getattr(command, name)
-        if number is not None and number < lowest:
-            flag = name.replace("_", "-")
-            raise ConfigError(f"--{flag} must be at least {lowest}, not {number}")
-    if not command.timeout > 0.0:
-        raise ConfigError(f"--timeout must be more than 0, not {command.timeout:g} s")
+    from asset_factory.factory.cli.flags import check_effort
+
+    check_effort(command, ("points", "seeds", "repeats", "workers", "limit"), seed="first_seed")
     if command.kind != "procedural" and command.data is None:
         raise ConfigError(f"--data: not given; --set {command.kind} wants the folder of objects")
     for flag in ("method", "pose", "yaw"):
@@ -169,13 +164,12 @@ def _objects(command: Evaluate) -> tuple[Request, ...]:
 
 def _methods(command: Evaluate) -> tuple[Method, ...]:
     from asset_factory.factory.articulate.settings import require_usable
-    from asset_factory.factory.cli.flags import on_device
+    from asset_factory.factory.cli.flags import given, on_device
     from asset_factory.factory.config import ParticulateConfig
 
     from ..evaluate.methods import Method
 
-    given = {name: getattr(command, name) for name in ("checkpoint", "features", "device")}
-    config = on_device(ParticulateConfig(**given))
+    config = on_device(ParticulateConfig(**given(command, "checkpoint", "features", "device")))
     if command.network_points is not None:
         config = replace(config, points=command.network_points)
     require_usable(config, needed="particulate" in command.method)
@@ -213,12 +207,9 @@ def _weights(checkpoint: str) -> dict[str, str]:
 
 
 def _write_meshes(folder: Path, requests: Sequence[Request], cache: Path | None) -> None:
-    from asset_factory.factory.runtime.store import Store
-
     from ..evaluate.cases import make_case
     from ..evaluate.files import write_obj
 
     folder.mkdir(parents=True, exist_ok=True)
     for request in requests:
-        case = make_case(request, None if cache is None else Store(cache))
-        write_obj(folder / f"{request.name}.obj", case.mesh)
+        write_obj(folder / f"{request.name}.obj", make_case(request, cache).mesh)

@@ -61,20 +61,21 @@ def train(command: Train) -> bool:
     Raises:
         ConfigError: the recipe, the data or the folder cannot be used, or the run cannot go on.
     """
+    from asset_factory.factory.cli.flags import given
+
     from ..train.recipes import load_train_config, recipe_text
 
     config = load_train_config(command.recipe)
     recipe = recipe_text(command.recipe)
-    given = {name: getattr(command, name) for name in ("device", "threads", "workers")}
+    run = given(command, "device", "threads", "workers")
     for name in ("threads", "workers"):
-        if given[name] is not None and given[name] < 0:
-            raise ConfigError(f"--{name} must be at least 0, not {given[name]}")
+        if run.get(name, 0) < 0:
+            raise ConfigError(f"--{name} must be at least 0, not {run[name]}")
     if command.output is None:
         raise ConfigError("--output: missing; name a folder for the weights and checkpoints")
     if command.resume and command.start is not None:
         said = "a run that goes on has its own weights"
         raise ConfigError(f"--from and --resume: {said}; give one of them")
-    run = {name: value for name, value in given.items() if value is not None}
     config = replace(config, run=replace(config.run, **run))
     try:
         from ..train.loop import run_training

@@ -37,9 +37,9 @@ def prepare(
     cache: Path,
     *,
     split: Path | None = None,
-    settings: SourceSettings | None = None,
+    settings: SourceSettings,
     workers: int | None = None,
-    on_progress: Callable[[int, int], None] | None = None,
+    on_progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> SourceReport:
     """Bring a dataset into the cache; samples in it are not made again.
 
@@ -52,24 +52,22 @@ def prepare(
     Raises:
         ConfigError: no such kind, folder or split, a library is missing, or nothing found there.
     """
-    chosen = settings or SourceSettings()
     found = find_all(kind, path)
     items = found if split is None else _named(found, split)
     can = [importlib.util.find_spec(module) is not None for module in source(kind).modules]
-    digest = stage_key("sampled", code_digest(__name__), kind, chosen.decisive, can)[-16:]
+    digest = stage_key("sampled", code_digest(__name__), kind, settings.decisive, can)[-16:]
     folder = cache / f"{kind}-{digest}"
     folder.mkdir(parents=True, exist_ok=True)
     there_before = set(folder.glob("*.npz"))
     outcomes: dict[SourceItem, Path | ItemRefusal] = {}
 
     def ask(child: WarmChild, item: SourceItem) -> tuple[SourceItem, Path | ItemRefusal]:
-        return item, _found_or_made(child, kind, item, chosen, folder)
+        return item, _found_or_made(child, kind, item, settings, folder)
 
     preload(COMMON_MODULES)
     for item, outcome in ask_children(ask, items, workers or processors(), LARGE_CHILD):
         outcomes[item] = outcome
-        if on_progress is not None:
-            on_progress(len(outcomes), len(items))
+        on_progress(len(outcomes), len(items))
     read: dict[str, Path] = {}
     skipped: dict[str, dict[str, str]] = {}
     for item in items:

@@ -13,7 +13,7 @@ from asset_factory.factory.models.detector.decode import Found, found_parts, ove
 from asset_factory.factory.models.detector.detect import first_of
 from asset_factory.factory.models.detector.network import cues_of
 
-from .sides import Instances
+from .sides import BOX, IGNORED, SORT, VIEW, WAY, knows_nothing_of
 from .stream import Pool
 
 #: Score from which on parts count.
@@ -33,7 +33,7 @@ def evaluate(network: Any, pool: Pool) -> dict[str, Any]:
         table = batch.table[0].cpu().numpy()
         told = found_parts(first_of(answers), FLOOR)
         found = [part for part in told if SORTS.index(part.sort) < OPENING]
-        counts += compared(found, table[table[:, 0] >= 0])
+        counts += compared(found, table[table[:, VIEW] >= 0])
         fronts += int(answers.front.argmax() == front) * opens
         kinds += int(answers.kind.argmax() == kind)
         opening += opens
@@ -56,25 +56,24 @@ def compared(found: list[Found], table: FloatArray) -> Any:
     counts = np.zeros((OPENING, 4), np.int64)
     free = [True] * len(found)
     for row in table:
-        if row[9] > 0 or row[6] >= OPENING:
+        if row[IGNORED] > 0 or row[SORT] >= OPENING:
             continue
-        sort = int(row[6])
+        sort = int(row[SORT])
         counts[sort, 0] += 1
         fits = [
             number
             for number, part in enumerate(found)
             if free[number]
-            and SIDES.index(part.side) == int(row[0])
+            and SIDES.index(part.side) == int(row[VIEW])
             and SORTS.index(part.sort) == sort
-            and float(overlaps(part.box, row[None, 1:5])[0]) >= 0.5
+            and float(overlaps(part.box, row[None, BOX])[0]) >= 0.5
         ]
         if fits:
             free[fits[0]] = False
             counts[sort, 1] += 1
             way = found[fits[0]].ways.argmax()
-            counts[sort, 2] += int(row[7] < 0 or way == int(row[7]))
-    known = Instances.of(table)
+            counts[sort, 2] += int(row[WAY] < 0 or way == int(row[WAY]))
     for number, part in enumerate(found):
-        if free[number] and not known.knows_nothing_of(SIDES.index(part.side), part.box):
+        if free[number] and not knows_nothing_of(table, SIDES.index(part.side), part.box):
             counts[SORTS.index(part.sort), 3] += 1
     return counts

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from typing import Annotated
 
 import msgspec
 
 from asset_factory.factory.models.detector.canvas import WAYS, PanelWay, Sort
 from asset_factory.factory.views.raster import Side
 
+from ..bounds import Share
 from .sides import way_toward
 
 LABELS = Path(__file__).with_name("labels")
 #: The way of a part that may be hinged at either edge.
 EITHER = -1
-Share = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 
 
 class LabelledPart(msgspec.Struct, forbid_unknown_fields=True):

@@ -11,6 +11,8 @@ from torch.nn import functional  # noqa: TID253
 from asset_factory.factory.models.detector.canvas import CANVAS, LONGEST, SIDES
 from asset_factory.factory.models.detector.network import closed, heights_of, stacked_cues
 
+from .sides import BOX, VIEW, WAY
+
 Tensor = Any
 #: Gaps up to so many pixels are closed, as a mesh of one piece closes them.
 GAP = 5
@@ -31,7 +33,7 @@ class ObjectBatch:
         color: uint8, [n, 5, rows, columns, 3].
         depth: int16, [n, 5, rows, columns].
         part: uint8, [n, 5, rows, columns]; 0 all over for real objects.
-        table: of moving parts, [n, most, 10]; view -1 where there is nothing.
+        table: of moving parts, [n, most, ``COLUMNS``]; view -1 where there is nothing.
         whole: truths about them as wholes, columns as :class:`WholeTruth` has fields, [n, 4].
     """
 
@@ -158,8 +160,8 @@ def _placed(batch: ObjectBatch, real: Tensor, draw: Drawing) -> tuple[Tensor, ..
     pick = torch.arange(count, device=draw.device)[:, None]
     color, depth, part = color[pick, order], depth[pick, order], part[pick, order]
     target = torch.argsort(order, 1)
-    view = table[..., 0].long()
-    table[..., 0] = torch.where(view >= 0, target.gather(1, view.clamp(min=0)), -1).float()
+    view = table[..., VIEW].long()
+    table[..., VIEW] = torch.where(view >= 0, target.gather(1, view.clamp(min=0)), -1).float()
     front = target.gather(1, batch.whole[:, 2:3])[:, 0]
     return *_top_turned(color, depth, part, table, turn), front
 
@@ -174,16 +176,16 @@ def _extents(seen: Tensor) -> Tensor:
 def _moved(table: Tensor, across: Tensor, up: Tensor, mirrored: Tensor) -> Tensor:
     """Return tables of stretched and mirrored objects; sides are exchanged by the caller."""
     table = table.clone()
-    view = table[..., 0].long().clamp(min=0)
+    view = table[..., VIEW].long().clamp(min=0)
     middle = CANVAS / 2
     factors = torch.stack([across.gather(1, view), up.gather(1, view)] * 2, -1)
-    left, low, right, high = ((table[..., 1:5] - middle) * factors).unbind(-1)
+    left, low, right, high = ((table[..., BOX] - middle) * factors).unbind(-1)
     flip = mirrored[:, None]
     ends = torch.where(flip, -right, left), low, torch.where(flip, -left, right), high
-    table[..., 1:5] = torch.stack(ends, -1) + middle
-    way = table[..., 7]
+    table[..., BOX] = torch.stack(ends, -1) + middle
+    way = table[..., WAY]
     swapped = torch.where(way == 0, 1.0, torch.where(way == 1, 0.0, way))
-    table[..., 7] = torch.where(flip, swapped, way)
+    table[..., WAY] = torch.where(flip, swapped, way)
     return table
 
 
@@ -203,15 +205,15 @@ def _top_turned(
             # Row 0 is the lowest, so that this turns the way in which the hands of a clock go.
             picture[chosen, 4] = torch.rot90(picture[chosen, 4], quarters, (1, 2))
         rows = table[chosen]
-        above = rows[..., 0] == 4
+        above = rows[..., VIEW] == 4
         for _ in range(quarters):
-            box = rows[..., 1:5]
+            box = rows[..., BOX]
             left, low, right, high = box.unbind(-1)
             turned = torch.stack([low, CANVAS - right, high, CANVAS - left], -1)
-            rows[..., 1:5] = torch.where(above[..., None], turned, box)
-            way = rows[..., 7]
+            rows[..., BOX] = torch.where(above[..., None], turned, box)
+            way = rows[..., WAY]
             following = torch.tensor([3.0, 2.0, 0.0, 1.0, 4.0, 5.0, -1.0], device=way.device)
-            rows[..., 7] = torch.where(above, following[way.long()], way)
+            rows[..., WAY] = torch.where(above, following[way.long()], way)
         table[chosen] = rows
     return color, depth, part, table
 

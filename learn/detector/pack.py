@@ -30,7 +30,7 @@ from ..datasets.objects import described as described_objects
 from ..surfaces import coloured_skin
 from .kinds import kind_number
 from .real import RealObject, is_held_out, real_objects
-from .sides import LabelledSides, WholeTruth, labelled_sides
+from .sides import COLUMNS, IGNORED, VIEW, LabelledSides, WholeTruth, labelled_sides
 
 #: Pixels along a texture.
 TEXTURE = 128
@@ -87,7 +87,7 @@ def write_pack(
                 _add(pack, name, note | {"one_piece": True}, sides)
         for number, (name, articulation) in enumerate(descriptions):
             sides = labelled_sides(closed(articulation))
-            known = sides.instances.view[~sides.instances.ignored]
+            known = sides.table[sides.table[:, IGNORED] == 0.0, VIEW].astype(np.int64)
             front = int(np.bincount(known, minlength=len(SIDES))[:4].argmax())
             truth = WholeTruth(kind_number(name.rpartition("_")[0]), True, front, real=False)
             note = asdict(truth) | {"held_out": False}
@@ -148,7 +148,7 @@ def read_pack(path: Path) -> Iterator[Packed]:
             depths = np.where(depth < 0, NOTHING, depth * COARSE).astype(np.int16)
             flags = note.pop("held_out"), note.pop("one_piece", False)
             pictures = color.reshape(*shape, 3), depths, part.reshape(shape)
-            sides = LabelledSides(*pictures, table.reshape(-1, 10))
+            sides = LabelledSides(*pictures, table.reshape(-1, COLUMNS))
             yield Packed(WholeTruth(**note), *flags, sides)
 
 

@@ -23,7 +23,7 @@ from asset_factory.factory.models.detector.canvas import (
 )
 
 from .labelled import LabelledObject, LabelledPart, labelled_objects
-from .sides import LabelledSides
+from .sides import COLUMNS, LabelledSides
 
 #: Of the meshes of a folder every so many is kept for measuring.
 HELD_OUT = 5
@@ -44,17 +44,17 @@ def is_held_out(name: str) -> bool:
     return zlib.crc32(name.encode()) % HELD_OUT == 0
 
 
-def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObject]:
+def real_objects(folder: Path, held_out: bool = False) -> Iterator[RealObject]:
     """Yield the meshes of a folder with ``INVENTORY.csv`` of which the package has labels.
 
-    Left out are, by ``held_out``, those that are kept for measuring, or those that are not.
+    With ``held_out`` only those that are kept for measuring.
     """
     with (folder / "INVENTORY.csv").open(newline="") as rows:
         files = {Path(row["file"]).stem: row["file"] for row in csv.DictReader(rows)}
     labels = labelled_objects()
     for name, file in files.items():
         label = labels.get(name)
-        if label is None or (held_out is not None and is_held_out(name) is not held_out):
+        if label is None or (held_out and not is_held_out(name)):
             continue
         mesh = load(folder / file, IntakeConfig()).mesh
         part = np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8)
@@ -66,7 +66,7 @@ def real_objects(folder: Path, held_out: bool | None = None) -> Iterator[RealObj
 def _on_canvas(parts: Sequence[LabelledPart], mesh: Mesh) -> FloatArray:
     """Return the table of what a person saw."""
     sizes = mesh.extents / mesh.extents.max() * LONGEST
-    table = np.zeros((len(parts), 10))
+    table = np.zeros((len(parts), COLUMNS))
     for number, part in enumerate(parts):
         box = on_canvas(np.array(part.box), np.abs(part.side.frame[:2] @ sizes))
         sort = SORTS.index(part.sort)

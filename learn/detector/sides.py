@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.posing import face_parts, posed
-from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
+from asset_factory.factory.mesh import BoolArray, FloatArray
 from asset_factory.factory.models.detector.canvas import (
     CANVAS,
     LONGEST,
@@ -42,42 +42,18 @@ CONTROLS = frozenset(
 )  # fmt: skip
 #: A part that stands open by less than this share of its range counts as closed.
 AJAR = 0.1
-
-
-@dataclass(frozen=True, eq=False)
-class Instances:
-    """Everything that moves, on every side where it is seen.
-
-    Attributes:
-        view: number of the side, shape [n].
-        box: left, lower, right, upper edge [pixels of the canvas], shape [n, 4].
-        part: label on that side's canvas of parts, 0 where the box alone says where, shape [n].
-        sort, way: by number, shape [n].
-        opened: how far it stands open as a share of its range, shape [n].
-        ignored: nothing is learned there, shape [n].
-    """
-
-    view: IntArray
-    box: FloatArray
-    part: IntArray
-    sort: IntArray
-    way: IntArray
-    opened: FloatArray
-    ignored: BoolArray
-
-    @classmethod
-    def of(cls, table: FloatArray) -> Instances:
-        """Return them by a table, whose columns are as above, shape [n, 10]."""
-        whole = np.rint(table).astype(np.int64)
-        return cls(
-            whole[:, 0], table[:, 1:5], whole[:, 5], whole[:, 6], whole[:, 7], table[:, 8],
-            table[:, 9] > 0.0,
-        )  # fmt: skip
-
-    def knows_nothing_of(self, view: int, box: FloatArray) -> bool:
-        """Tell whether half of a box on a side, shape [4], is where nothing is learned."""
-        shared = shared_areas(box, self.box[self.ignored & (self.view == view)])
-        return bool((shared >= 0.5 * float(np.prod(box[2:] - box[:2]))).any())
+#: Columns of a table of moving parts, which has a row for each side that shows one: the number of
+#: the side; left, lower, right, upper edge [pixels of the canvas]; the label on that side's canvas
+#: of parts, 0 where the box alone says where; sort and way by number; how far it stands open as a
+#: share of its range; whether nothing is learned there, 1 or 0.
+VIEW = 0
+BOX = slice(1, 5)
+PART = 5
+SORT = 6
+WAY = 7
+OPENED = 8
+IGNORED = 9
+COLUMNS = 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +63,7 @@ class LabelledSides:
     Attributes:
         color, depth: as on :class:`Canvases`.
         part: number of each pixel's part plus one, 0 where nothing is seen, uint8, [5, 256, 256].
-        table: a row for each side that shows a moving part, as :class:`Instances`, shape [n, 10].
+        table: of the moving parts, shape [n, ``COLUMNS``].
     """
 
     color: npt.NDArray[np.uint8]
@@ -95,10 +71,12 @@ class LabelledSides:
     part: npt.NDArray[np.uint8]
     table: FloatArray
 
-    @property
-    def instances(self) -> Instances:
-        """Return the moving parts by columns."""
-        return Instances.of(self.table)
+
+def knows_nothing_of(table: FloatArray, view: int, box: FloatArray) -> bool:
+    """Tell whether half of a box on a side, shape [4], is where nothing is learned."""
+    ignored = (table[:, IGNORED] > 0.0) & (table[:, VIEW] == view)
+    shared = shared_areas(box, table[ignored, BOX])
+    return bool((shared >= 0.5 * float(np.prod(box[2:] - box[:2]))).any())
 
 
 @dataclass(frozen=True)
@@ -142,27 +120,26 @@ def labelled_sides(
         canvases, part = _pictures(articulation)
     rows = []
     for joint in articulation.movable_joints:
-        meaning = meanings.get(joint.child)
+        meaning = meanings.get(joint.child, _Meaning(Sort.OTHER, {}))
         share = shares.get(joint.name, 0.0)
         for view in range(len(SIDES)):
             rows += _row(part[view] == joint.child + 1, view, joint.child, meaning, share)
-    table = np.array(rows, dtype=np.float64).reshape(-1, 10)
+    table = np.array(rows, dtype=np.float64).reshape(-1, COLUMNS)
     return LabelledSides(canvases.color, canvases.depth, part, table)
 
 
 def _row(
-    mask: BoolArray, view: int, part: int, meaning: _Meaning | None, share: float
+    mask: BoolArray, view: int, part: int, meaning: _Meaning, share: float
 ) -> list[tuple[float, ...]]:
     """Return the row of one part on one side, if it is seen there."""
     if mask.sum() < LEAST_CONTROL:
         return []
     box = _box(mask)
     wide, high = box[2:] - box[:2]
-    known = meaning is not None and view in meaning.ways
-    sort = meaning.sort if meaning is not None else Sort.OTHER
-    way = meaning.ways[view] if meaning is not None and known else PanelWay.OTHER
-    panel = sort not in (Sort.CONTROL, Sort.OTHER)
-    if panel:
+    known = view in meaning.ways
+    sort = meaning.sort
+    way = meaning.ways.get(view, PanelWay.OTHER)
+    if sort not in (Sort.CONTROL, Sort.OTHER):
         filled = float(mask.sum()) / max(wide * high, 1.0)
         large = float(mask.sum()) >= LEAST_PANEL * CANVAS**2
         if not large or (filled < FILLED and sort is not Sort.LID) or min(wide, high) < 4:

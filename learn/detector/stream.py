@@ -12,7 +12,7 @@ import torch  # noqa: TID253 - this module is only imported to train
 from asset_factory.factory.models.detector.canvas import CANVAS, OPENING, SIDES
 
 from .looks import ObjectBatch
-from .sides import LabelledSides, WholeTruth
+from .sides import COLUMNS, IGNORED, SORT, LabelledSides, WholeTruth
 
 #: Rows of a table; objects with more are left out.
 MOST = 48
@@ -20,7 +20,7 @@ _SHAPE = (len(SIDES), CANVAS, CANVAS)
 #: Shape and type of all that is kept of an object: colours, depths, parts, table, whole truth.
 _KEPT = (
     ((*_SHAPE, 3), torch.uint8), (_SHAPE, torch.int16), (_SHAPE, torch.uint8),
-    ((MOST, 10), torch.float32), ((4,), torch.long),
+    ((MOST, COLUMNS), torch.float32), ((4,), torch.long),
 )  # fmt: skip
 #: Objects that wait between the workers and the pool.
 SLOTS = 96
@@ -39,7 +39,7 @@ class Pool:
         """Put an object in the place of the oldest; one with too many rows is left out."""
         if len(sides.table) > MOST:
             return
-        rows = np.full((MOST, 10), -1.0, np.float32)
+        rows = np.full((MOST, COLUMNS), -1.0, np.float32)
         rows[: len(sides.table)] = sides.table
         shown = (sides.color, sides.depth, sides.part, rows, astuple(truth))
         for kept, given in zip(self.kept, shown, strict=True):
@@ -116,5 +116,5 @@ def make_into(slots: Any, free: Any, ready: Any, seed: int, number: int, one_pie
         for pictures, given in zip(slots, shown, strict=True):
             pictures.numpy()[slot] = given
         table = sides.table
-        moving = table[(table[:, 9] == 0.0) & (table[:, 6] < OPENING)]
+        moving = table[(table[:, IGNORED] == 0.0) & (table[:, SORT] < OPENING)]
         ready.put((slot, table, WholeTruth(kind_number(kind), bool(len(moving)), 0, False)))

@@ -12,6 +12,7 @@ from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS, S
 from asset_factory.factory.models.detector.decode import Dense
 
 from .looks import Shown
+from .sides import BOX, IGNORED, OPENED, PART, SORT, VIEW, WAY
 
 Tensor = Any
 CELLS = CANVAS // STRIDE
@@ -55,18 +56,17 @@ def targets_of(shown: Shown) -> CellTargets:
     view_numbers = torch.arange(views, device=table.device)
     for number in range(most):
         row = table[:, number]
-        low = row[:, 1:3]
-        high = row[:, 3:5]
+        low, high = row[:, BOX].split(2, 1)
         grown = ((LEAST - (high - low)) / 2.0).clamp(min=0.0)
         low, high = low - grown, high + grown
         across = (center >= low[:, :1]) & (center <= high[:, :1])
         up = (center >= low[:, 1:]) & (center <= high[:, 1:])
         inside = (up[:, :, None] & across[:, None, :])[:, None]
-        inside = inside & (view_numbers == row[:, :1])[:, :, None, None]
+        inside = inside & (view_numbers == row[:, VIEW, None])[:, :, None, None]
         small = (high - low).amin(1) < 3 * STRIDE
-        own = (part == row[:, 5, None, None, None]) | (row[:, 5] == 0)[:, None, None, None]
+        own = (part == row[:, PART, None, None, None]) | (row[:, PART] == 0)[:, None, None, None]
         inside = inside & (own | small[:, None, None, None])
-        drop = (row[:, 9] > 0)[:, None, None, None]
+        drop = (row[:, IGNORED] > 0)[:, None, None, None]
         ignored = ignored | (inside & drop)
         area = ((high - low).prod(1))[:, None, None, None].expand_as(best)
         better = inside & ~drop & (area < best)
@@ -80,15 +80,16 @@ def targets_of(shown: Shown) -> CellTargets:
 
     x = center[None, None, None, :]
     y = center[None, None, :, None]
-    edges = torch.stack([x - column(1), y - column(2), column(3) - x, column(4) - y], 2)
+    left, low, right, high = map(column, range(BOX.start, BOX.stop))
+    edges = torch.stack([x - left, y - low, right - x, high - y], 2)
     cells = functional.one_hot(torch.where(there, owner, most).flatten(1), most + 1).sum(1)
     size = cells.gather(1, index).view(owner.shape).clamp(min=1).float()
     return CellTargets(
-        torch.where(there, column(6).long(), -1),
+        torch.where(there, column(SORT).long(), -1),
         ignored & ~there,
         edges,
-        torch.where(there, column(7).long(), -1),
-        column(8),
+        torch.where(there, column(WAY).long(), -1),
+        column(OPENED),
         torch.where(there, size.rsqrt(), 0.0),
     )
 

@@ -29,7 +29,7 @@ from .evaluate import evaluate
 from .kinds import kind_number
 from .looks import show
 from .pack import Packed, read_pack, read_textures
-from .sides import LabelledSides
+from .sides import IGNORED, VIEW, LabelledSides
 from .stream import Makers, Pool, joined
 from .targets import loss_of, targets_of
 
@@ -198,10 +198,10 @@ def _seen_through(packed: Packed) -> LabelledSides:
     table = packed.sides.table
     if packed.truth.kind != kind_number("door"):
         return packed.sides
-    behind = table[table[:, 0] < 4].copy()
-    behind[:, 0] = (behind[:, 0] + 2) % 4
+    behind = table[table[:, VIEW] < 4].copy()
+    behind[:, VIEW] = (behind[:, VIEW] + 2) % 4
     behind[:, [1, 3]] = CANVAS - behind[:, [3, 1]]
-    behind[:, 9] = 1.0
+    behind[:, IGNORED] = 1.0
     return replace(packed.sides, table=np.concatenate([table, behind]))
 
 

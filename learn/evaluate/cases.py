@@ -18,7 +18,7 @@ from asset_factory.factory.intake.categories import guess_category
 from asset_factory.factory.intake.discover import find_inputs, is_description
 from asset_factory.factory.intake.files import InputFiles
 from asset_factory.factory.intake.sidecar import read_sidecar
-from asset_factory.factory.runtime.store import Store, digest_file
+from asset_factory.factory.runtime.store import digest_file
 
 from .stored import imported
 from .transfer import merged
@@ -108,16 +108,16 @@ def folder_requests(folder: Path, *, skins: bool = False) -> tuple[Request, ...]
     )
 
 
-def make_case(request: Request, store: Store | None = None) -> Articulation:
+def make_case(request: Request, kept: Path | None = None) -> Articulation:
     """Return the truth about an object, posed, turned and melted into one mesh.
 
-    ``store`` keeps objects; ``None`` reads them every time.
+    ``kept`` is a folder that keeps objects; ``None`` reads them every time.
 
     Raises:
         InputRejected: it cannot be read, or nothing that moves is seen of the fused object.
         ConfigError: it is not the file that the list speaks of.
     """
-    whole = closed(_original(request, store))
+    whole = closed(_original(request, kept))
     if request.pose == "open":
         rng = _rng(request, "pose")
         values = {j.name: j.lower + j.range * float(rng.uniform()) for j in whole.movable_joints}
@@ -131,18 +131,15 @@ def make_case(request: Request, store: Store | None = None) -> Articulation:
     return merged(whole, _rng(request, "order"))
 
 
-def _original(request: Request, store: Store | None) -> Articulation:
+def _original(request: Request, kept: Path | None) -> Articulation:
     if request.file is None:
         from ..objects import make_object
 
         return make_object(request.category, request.seed)
-    if not request.digest:
-        return imported(request.file, "", None)
-    digest = digest_file(request.file)
-    if digest != request.digest:
+    if request.digest and (digest := digest_file(request.file)) != request.digest:
         said = f"has the SHA-256 {digest[:12]}..., the list says {request.digest[:12]}..."
         raise ConfigError(f"{request.file}: {said}; want the file that was listed")
-    return imported(request.file, digest, store)
+    return imported(request.file, request.digest, kept)
 
 
 def _fused(whole: Articulation, seed: int) -> Articulation:

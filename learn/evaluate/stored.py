@@ -15,21 +15,22 @@ from asset_factory.factory.runtime.packing import pack, unpack
 from asset_factory.factory.runtime.store import Store, stage_key
 
 
-def imported(path: Path, digest: str, store: Store | None) -> Articulation:
+def imported(path: Path, digest: str, kept: Path | None) -> Articulation:
     """Return the articulation described by a URDF, an MJCF or an annotated mesh, without its looks.
 
-    It is kept in ``store`` under the file's ``digest``; ``None`` reads the files every time.
+    It is kept in the folder ``kept`` under the file's ``digest``; without one of them the files
+    are read every time.
 
     Raises:
         InputRejected: it cannot be read, is no tree, or comes without joints.
     """
     key = stage_key("evaluation-case", code_digest(__name__), path.parent.name, digest)
-    kept = None if store is None else store.load(key)
-    if kept is not None:
-        return unpack(Articulation, kept)
+    store = Store(kept) if kept and digest else None
+    if store and (found := store.load(key)):
+        return unpack(Articulation, found)
     intake = load(path, IntakeConfig())
-    found = choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh)
-    plain = replace(found, mesh=Mesh.from_triangles(found.mesh.vertices, found.mesh.faces))
-    if store is not None:
+    whole = choose(intake, BuildConfig(articulator="annotated")).articulate(intake.mesh)
+    plain = replace(whole, mesh=Mesh.from_triangles(whole.mesh.vertices, whole.mesh.faces))
+    if store:
         store.save(key, pack(plain))
     return plain

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from asset_factory.factory.errors import ConfigError, InputRejected
-from asset_factory.factory.runtime.store import Store
 from asset_factory.sim_checks.processes.isolation import (
     Failure,
     Limits,
@@ -67,7 +66,7 @@ def score_trial(trial: Trial) -> Score:
         InputRejected: the method has no answer.
         ConfigError: the case's file is another one, or the method's checkpoint cannot be used.
     """
-    truth = make_case(trial.request, None if trial.kept is None else Store(trial.kept))
+    truth = make_case(trial.request, trial.kept)
     answer = trial.method.seeded(trial.repeat).answer(truth.mesh, trial.request.name)
     truth = on_mesh(truth, answer.mesh)
     if trial.convention == "physical":

@@ -27,11 +27,11 @@ from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
 
 from ..detector.real import real_objects
-from ..detector.sides import Instances, labelled_sides
+from ..detector.sides import BOX, IGNORED, SORT, VIEW, knows_nothing_of, labelled_sides
 from ..evaluate.cases import in_settings, make_case
 from ..evaluate.listing import real_requests
 from ..surfaces import coloured_skin
-from .perceptron import Examples, FitSettings, Weighing, fit_examples
+from .perceptron import FitSettings, Weighing, cross_entropy, fit_scaled
 from .writing import networks_stored
 
 #: A part is right if a true one has a box of this intersection over union on some side.
@@ -56,13 +56,13 @@ class LabelledMesh:
 
     Attributes:
         mesh: z up.
-        truth: what opens.
+        truth: the table of what opens.
         own: rate what only the detector sees, too. On the list's objects as they are others propose
             it, and with their lids the detector opened a plain box.
     """
 
     mesh: Mesh
-    truth: Instances
+    truth: FloatArray
     own: bool = True
 
 
@@ -77,8 +77,8 @@ def labelled_meshes(folders: Sequence[Path], root: Path) -> Iterator[LabelledMes
     """
     real = chain.from_iterable(real_objects(folder, held_out=True) for folder in folders)
     for seed, each in enumerate(real):
-        yield LabelledMesh(each.mesh, each.sides.instances)
-        yield LabelledMesh(coloured_skin(each.mesh, seed), each.sides.instances)
+        yield LabelledMesh(each.mesh, each.sides.table)
+        yield LabelledMesh(coloured_skin(each.mesh, seed), each.sides.table)
     requests = real_requests(root, "develop")
     fused = [replace(request, fused=True) for request in requests]
     for request in in_settings([*requests, *fused], ("closed",), ("front",)):
@@ -86,7 +86,7 @@ def labelled_meshes(folders: Sequence[Path], root: Path) -> Iterator[LabelledMes
             made = make_case(request)
         except InputRejected:
             continue
-        yield LabelledMesh(made.mesh, labelled_sides(made).instances, own=request.fused)
+        yield LabelledMesh(made.mesh, labelled_sides(made).table, own=request.fused)
 
 
 def rate_parts(guess: Articulator, objects: Iterable[LabelledMesh]) -> Rated:
@@ -166,9 +166,9 @@ def _reliability(network: Perceptron, rows: Sequence[tuple[float, ...]]) -> Iter
 
 def _fitted(rows: Sequence[tuple[float, ...]]) -> Perceptron:
     table = np.array(rows)
-    examples = Examples(table[:, :-1], table[:, -1:], np.ones(len(table)))
     weights = {name: Weighing(0.0, 1e-3) for name in ("base", "direct")}
-    return fit_examples(examples, FitSettings(0, 1, weights, STEPS))
+    settings = FitSettings(0, 1, weights, STEPS)
+    return fit_scaled(table[:, :-1], cross_entropy(table[:, -1:]), settings)
 
 
 def _boxes(cells: CellParts, part: int) -> Iterator[tuple[int, FloatArray]]:
@@ -181,15 +181,14 @@ def _boxes(cells: CellParts, part: int) -> Iterator[tuple[int, FloatArray]]:
 
 
 def _right(
-    boxes: Iterable[tuple[int, FloatArray]], truth: Instances, sorts: Sequence[Sort]
+    boxes: Iterable[tuple[int, FloatArray]], truth: FloatArray, sorts: Sequence[Sort]
 ) -> bool | None:
     """Tell whether a part in these boxes of sides is a true one; ``None``: nothing is known."""
-    wanted = np.isin(truth.sort, [SORTS.index(sort) for sort in sorts])
+    wanted = np.isin(truth[:, SORT], [SORTS.index(sort) for sort in sorts])
     for view, box in boxes:
-        here = truth.view == view
-        known = here & wanted & ~truth.ignored
-        if known.any() and float(overlaps(box, truth.box[known]).max()) >= SAME_PART:
+        known = wanted & (truth[:, VIEW] == view) & (truth[:, IGNORED] == 0.0)
+        if known.any() and float(overlaps(box, truth[known, BOX]).max()) >= SAME_PART:
             return True
-        if truth.knows_nothing_of(view, box):
+        if knows_nothing_of(truth, view, box):
             return None
     return False

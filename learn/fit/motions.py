@@ -23,7 +23,7 @@ from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
 
 from ..motions.motion_sample import MotionSample, motion_samples
-from .perceptron import Examples, FitSettings, Tensor, Weighing, fit_perceptron
+from .perceptron import FitSettings, Tensor, Weighing, cross_entropy, fit_perceptron
 from .writing import networks_stored
 
 INPUTS = {"guided": NAMES, "blind": NAMES, "turn_range": TURN_SETTING, "slide_range": SLIDE_SETTING}
@@ -124,9 +124,9 @@ def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int) -> Usua
     values = np.array([np.median(x) if len(x) else grid[k] for k, x in enumerate(here)])
     values = values if slides else np.append(values, np.inf)
     weights = _weights_of([motion_sample for motion_sample, _ in known])
-    examples = Examples(numbers, np.eye(len(values))[step], weights)
+    loss = cross_entropy(np.eye(len(values))[step], weights)
     settings = FitSettings(RANGE_HIDDEN, len(values), RANGED, steps)
-    return Usual(values, fit_perceptron(numbers, examples.cross_entropy, settings))
+    return Usual(values, fit_perceptron(numbers, loss, settings))
 
 
 def _weights(samples: Sequence[MotionSample], steps: int) -> Perceptron:

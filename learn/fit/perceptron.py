@@ -44,14 +44,12 @@ class FitSettings:
         answers: how many scores it gives.
         weights: of a :class:`Perceptron`, those that are fitted, in its order; others are 0.
         steps: of the optimisation at most.
-        seed: of the first weights.
     """
 
     width: int
     answers: int
     weights: Mapping[str, Weighing]
     steps: int
-    seed: int = 0
 
     def shapes(self, inputs: int) -> dict[str, tuple[int, int]]:
         """Return the fitted weights' shapes, for so many inputs."""
@@ -87,7 +85,7 @@ def fit_perceptron(numbers: Numbers, loss: Loss, settings: FitSettings) -> Perce
         value.backward()
         return value.item(), point.grad.numpy()
 
-    start = spread * np.random.default_rng(settings.seed).normal(size=sum(sizes))
+    start = spread * np.random.default_rng(0).normal(size=sum(sizes))
     best = minimize(
         objective, start, jac=True, method="L-BFGS-B", options={"maxiter": settings.steps}
     )
@@ -112,32 +110,30 @@ def _scores(given: Tensor, weights: Mapping[str, Tensor]) -> Tensor:
     return scores + given @ weights["direct"] if "direct" in weights else scores
 
 
-@dataclass(frozen=True)
-class Examples:
-    """Rows with answers that are known.
+def cross_entropy(wanted: FloatArray, weights: FloatArray | None = None) -> Loss:
+    """Return the loss that is the mean cross entropy of scores, shape [n, answer_count].
 
-    Attributes:
-        rows: numbers, shape [n, input_count].
-        wanted: probability of each answer, shape [n, answer_count]; one column: of yes.
-        weights: of each row, shape [n].
+    ``wanted`` is the probability of each answer, shape [n, answer_count]; one column: of yes.
+    ``weights`` are of each row, shape [n]; ``None``: all count alike.
     """
+    shares = np.ones(len(wanted)) if weights is None else weights
+    shares = shares / shares.sum()
+    kind = (
+        functional.binary_cross_entropy_with_logits
+        if wanted.shape[1] == 1
+        else functional.cross_entropy
+    )
 
-    rows: FloatArray
-    wanted: FloatArray
-    weights: FloatArray
+    def loss(scores: Tensor) -> Tensor:
+        entropy = kind(scores, torch.from_numpy(wanted), reduction="none").view(len(scores))
+        return torch.from_numpy(shares) @ entropy
 
-    def cross_entropy(self, scores: Tensor) -> Tensor:
-        """Return the mean weighted cross entropy of scores, shape [n, answer_count]."""
-        single = self.wanted.shape[1] == 1
-        kind = functional.binary_cross_entropy_with_logits if single else functional.cross_entropy
-        entropy = kind(scores, torch.from_numpy(self.wanted), reduction="none").view(len(scores))
-        return torch.from_numpy(self.weights / self.weights.sum()) @ entropy
+    return loss
 
 
-def fit_examples(examples: Examples, settings: FitSettings) -> Perceptron:
-    """Return the network of the least cross entropy; its inputs are scaled as they vary."""
-    mean = examples.rows.mean(axis=0)
-    scale = np.maximum(examples.rows.std(axis=0), LEAST_SCALE)
-    rows = np.clip((examples.rows - mean) / scale, -FARTHEST, FARTHEST)
-    found = fit_perceptron(rows, examples.cross_entropy, settings)
-    return replace(found, mean=mean, scale=scale)
+def fit_scaled(numbers: FloatArray, loss: Loss, settings: FitSettings) -> Perceptron:
+    """Return what :func:`fit_perceptron` does, of inputs that are scaled as they vary."""
+    mean = numbers.mean(axis=0)
+    scale = np.maximum(numbers.std(axis=0), LEAST_SCALE)
+    rows = np.clip((numbers - mean) / scale, -FARTHEST, FARTHEST)
+    return replace(fit_perceptron(rows, loss, settings), mean=mean, scale=scale)

@@ -19,7 +19,7 @@ from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
 
 from ..evaluate.physical import physical
-from .perceptron import Examples, FitSettings, Weighing, fit_perceptron
+from .perceptron import FitSettings, Weighing, cross_entropy, fit_perceptron
 from .writing import networks_stored
 
 #: A proposal is right if it is for a true moving part by this much of the area that both cover, of
@@ -92,9 +92,9 @@ def fit_signs(trials: Sequence[TrustTrial]) -> Perceptron:
     """Return the logistic model of the signs, fitted with a quadratic penalty."""
     signs = np.array([signs_of(each.signs) for trial in trials for each in trial.proposals])
     right = np.concatenate([trial.right for trial in trials])
-    examples = Examples(signs, right[:, None], np.ones(len(right)))
     decay = {"direct": Weighing(0.0, PENALTY / len(right))}
-    return fit_perceptron(signs, examples.cross_entropy, FitSettings(0, 1, decay, STEPS))
+    settings = FitSettings(0, 1, decay, STEPS)
+    return fit_perceptron(signs, cross_entropy(right[:, None]), settings)
 
 
 def best_threshold(

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from asset_factory.factory.articulate.evidence.body import body_of
+from asset_factory.factory.articulate.evidence.body import Partition, body_of
 from asset_factory.factory.articulate.evidence.candidates import (
     Candidates,
     LineSource,
@@ -16,10 +16,11 @@ from asset_factory.factory.articulate.evidence.candidates import (
 from asset_factory.factory.articulate.evidence.numbers import GUESS, measure
 from asset_factory.factory.articulate.evidence.setting import Setting, setting_of
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
+from asset_factory.factory.geometry.posing import closed, turned
 from asset_factory.factory.mesh import BoolArray, FloatArray
 
-from .spoiling import spoilt
-from .truth import made_up_guess, truth_of
+from ..bodies import bodies_of
+from .spoiling import made_up_guess, spoilt
 
 #: Parts of one object that teach; the rest say the same again.
 MOST_PARTS = 5
@@ -72,19 +73,20 @@ def motion_samples(
     name: str, articulation: Articulation, rng: np.random.Generator
 ) -> Iterator[MotionSample]:
     """Yield an object's samples, closed, turned at random, some of its labels spoilt."""
-    truth = truth_of(articulation, float(rng.uniform(0.0, 2.0 * np.pi)))
-    partition = spoilt(truth.partition, rng)
-    parts = rng.permutation(sorted(truth.joints))[:MOST_PARTS]
+    whole, joints = known_motions(articulation, float(rng.uniform(0.0, 2.0 * np.pi)))
+    size = float(whole.mesh.extents.max())
+    partition = spoilt(whole, rng)
+    parts = rng.permutation(sorted(joints))[:MOST_PARTS]
     for part in sorted(int(p) for p in parts):
         body = body_of(partition, part)
-        joint = truth.joints[part]
+        joint = joints[part]
         if body is None:
             continue
         middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
-        guess = made_up_guess(joint, middle, truth.size, rng)
+        guess = made_up_guess(joint, middle, size, rng)
         candidates = find_candidates(body, guess)
         numbers = measure(body, candidates, guess)
-        worth, right = _judged(candidates, joint, middle, truth.size)
+        worth, right = _judged(candidates, joint, middle, size)
         best = int(np.argmax(worth))
         reach = np.inf if joint.kind is JointKind.CONTINUOUS else joint.range
         setting = None
@@ -96,10 +98,21 @@ def motion_samples(
             guessed=candidates.source == LineSource.GUESSED,
             worth=worth,
             right=right,
-            alike=_alike(candidates, truth.size),
+            alike=_alike(candidates, size),
             setting=setting,
             range=0.0 if setting is None else reach / setting.unit,
         )
+
+
+def known_motions(articulation: Articulation, yaw: float) -> tuple[Partition, dict[int, Joint]]:
+    """Return the parts that have faces, and the joints of those with just one, by part.
+
+    The object is closed, and turned about the vertical by ``yaw`` [rad].
+    """
+    bodies = bodies_of(turned(closed(articulation), yaw))
+    mesh = bodies.articulation.mesh
+    single = {body: own[0] for body, own in enumerate(bodies.joints) if len(own) == 1}
+    return Partition(mesh, bodies.labels, np.array(bodies.parents)), single
 
 
 def _judged(

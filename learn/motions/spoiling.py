@@ -1,10 +1,11 @@
-"""Labels as a network gives them: a lost handle, a drawer without its box, some neighbour."""
+"""Labels as a network gives them, a lost handle or a drawer without its box, and rough guesses."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from asset_factory.factory.articulate.evidence import Partition
+from asset_factory.factory.articulate.evidence import Guess, Partition
+from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.geometry.triangles import areas_of
 from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray
 
@@ -15,6 +16,12 @@ LOST = 0.3
 COMPANION = 0.4
 #: Radius of a bite as a share of the part's diagonal.
 BITE = 0.2
+#: How wrong made-up guesses are: of the axis [rad], of its place as a share of the longest side.
+ANGLE_SPREAD = np.radians(15.0)
+PLACE_SPREAD = 0.1
+#: How often their sense is wrong, and their probability of the true kind (mean and spread).
+WRONG_WAY = 0.3
+KIND = (0.8, 0.25)
 
 
 def spoilt(partition: Partition, rng: np.random.Generator) -> Partition:
@@ -30,6 +37,27 @@ def spoilt(partition: Partition, rng: np.random.Generator) -> Partition:
             if len(np.unique(tried)) == len(np.unique(labels)):
                 labels = tried
     return Partition(partition.mesh, labels, partition.parents)
+
+
+def made_up_guess(joint: Joint, middle: FloatArray, size: float, rng: np.random.Generator) -> Guess:
+    """Return what somebody might believe who has a rough idea of the truth.
+
+    ``middle`` is the part's [m], shape [3], ``size`` the object's longest side [m].
+    """
+    aside = rng.normal(size=3)
+    aside -= float(aside @ joint.axis) * joint.axis
+    aside /= np.linalg.norm(aside)
+    angle = abs(rng.normal(0.0, ANGLE_SPREAD))
+    direction = np.cos(angle) * joint.axis + np.sin(angle) * aside
+    if rng.random() < WRONG_WAY:
+        direction = -direction
+    nearest = joint.origin + joint.axis * float(joint.axis @ (middle - joint.origin))
+    right = float(np.clip(rng.normal(*KIND), 0.03, 0.97))
+    return Guess(
+        turns=1.0 - right if joint.kind is JointKind.PRISMATIC else right,
+        direction=direction,
+        point=nearest + rng.normal(0.0, PLACE_SPREAD * size, 3),
+    )
 
 
 def _pieces(partition: Partition, rows: IntArray) -> tuple[IntArray, FloatArray]:

@@ -54,8 +54,7 @@ class Batch(Sample):
         return self._map(moved)
 
     def _map(self, change: Any) -> Batch:
-        values = (getattr(self, each.name) for each in fields(self))
-        return Batch(*(None if value is None else change(value) for value in values))
+        return Batch(*(change(getattr(self, each.name)) for each in fields(self)))
 
 
 def collate(samples: Sequence[Sample], parts: int) -> Batch:
@@ -64,7 +63,7 @@ def collate(samples: Sequence[Sample], parts: int) -> Batch:
     for each in fields(Sample):
         values = [getattr(sample, each.name) for sample in samples]
         if each.name not in _OF_PARTS:
-            found[each.name] = None if values[0] is None else np.stack(values)
+            found[each.name] = np.stack(values)
             continue
         empty = NO_PARENT if each.name == "parents" else 0
         shape = (len(samples), parts, *values[0].shape[1:])
@@ -77,4 +76,4 @@ def collate(samples: Sequence[Sample], parts: int) -> Batch:
 def join(batches: Sequence[Batch], order: IntArray) -> Batch:
     """Return the batches of arrays, one after the other, their rows put in an order."""
     columns = ([getattr(batch, each.name) for batch in batches] for each in fields(Batch))
-    return Batch(*(None if each[0] is None else np.concatenate(each)[order] for each in columns))
+    return Batch(*(np.concatenate(each)[order] for each in columns))

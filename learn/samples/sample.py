@@ -67,7 +67,7 @@ class Sample:
 
     Attributes:
         points, normals: shape [point_count, 3], float32; numbers of parts are int64.
-        features: shape [point_count, channels]; ``None`` without.
+        features: shape [point_count, channels]; without any, no channel.
         part_ids: shape [point_count]; 0 is the root.
         parents: shape [part_count]; -1 for the root.
         motion: :class:`MotionClass` per part, shape [part_count].
@@ -78,7 +78,7 @@ class Sample:
 
     points: Array
     normals: Array
-    features: Array | None
+    features: Array
     part_ids: Array
     parents: Array
     motion: Array
@@ -119,7 +119,7 @@ def draw(sampled: SampledObject, rng: np.random.Generator, settings: DrawSetting
     off = points - body.origin[part_ids]
     closest = body.origin[part_ids] + along * np.einsum("ij,ij->i", off, along)[:, None]
     turning = (sampled.motion == MotionClass.REVOLUTE) | (sampled.motion == MotionClass.BOTH)
-    features = None
+    features = np.zeros((len(rows), 0), dtype=np.float32)
     if settings.components:
         components = _components(sampled, rng, settings)[seen]
         features = component_features(body.points, body.normals, components)[: len(rows)]

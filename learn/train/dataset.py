@@ -33,23 +33,22 @@ _TRIES = 20
 
 @dataclass(frozen=True)
 class Files:
-    """Sampled objects in files, sorted, and how often they are drawn relative to the other pools.
+    """The sampled objects of a source in files, sorted.
 
     ``report`` says what became of the dataset that they were made of; ``None``: of none.
     """
 
+    source: DataSource
     paths: tuple[Path, ...]
-    weight: float
     report: SourceReport | None = None
 
 
 @dataclass(frozen=True)
 class Generator:
-    """Sampled objects that are made when they are wanted; ``weight`` as of files."""
+    """The sampled objects of a source that are made when they are wanted."""
 
     source: DataSource
     style: MixtureSettings
-    weight: float
 
 
 Pool = Files | Generator
@@ -67,7 +66,7 @@ def find_pools(sources: Iterable[DataSource], cache: Path) -> tuple[Pool, ...]:
 def _pool(source: DataSource, cache: Path) -> Pool:
     if source.kind == "procedural":
         style = overlay(MixtureSettings(), source.style, "procedural: style")
-        return Generator(source, style, source.weight)
+        return Generator(source, style)
     return _sampled_files(source) if source.kind == "sampled" else _converted(source, cache)
 
 
@@ -79,16 +78,14 @@ def source_lines(pools: Iterable[Pool]) -> list[str]:
 
 def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
     """Return what each source gives: its kind, sample count, and skipped objects by reason."""
-    counts: list[dict[str, Any]] = []
-    for pool in pools:
-        if isinstance(pool, Generator):
-            counts.append({"kind": "procedural", "sampled": None, "skipped": {}})
-            continue
-        kind, skipped = (
-            ("sampled", {}) if pool.report is None else (pool.report.kind, pool.report.counts)
-        )
-        counts.append({"kind": kind, "sampled": len(pool.paths), "skipped": skipped})
-    return counts
+
+    def count(pool: Pool) -> dict[str, Any]:
+        files = pool if isinstance(pool, Files) else None
+        skipped = files.report.counts if files and files.report else {}
+        sampled = len(files.paths) if files else None
+        return {"kind": pool.source.kind, "sampled": sampled, "skipped": skipped}
+
+    return [count(pool) for pool in pools]
 
 
 def _converted(source: DataSource, cache: Path) -> Files:
@@ -98,7 +95,7 @@ def _converted(source: DataSource, cache: Path) -> Files:
     if not report.read:
         said = "\n".join(report.lines())
         raise ConfigError(f"{source.path}: no object in it can be used; want at least one\n{said}")
-    return Files(tuple(sorted(report.read.values())), source.weight, report)
+    return Files(source, tuple(sorted(report.read.values())), report)
 
 
 def _sampled_files(source: DataSource) -> Files:
@@ -115,7 +112,7 @@ def _sampled_files(source: DataSource) -> Files:
         paths = [path for path in paths if path.stem in names or path.name in names]
         if not paths:
             raise ConfigError(f"split {source.split}: names none of the objects, {called}")
-    return Files(tuple(paths), source.weight)
+    return Files(source, tuple(paths))
 
 
 def digest(pools: Iterable[Pool]) -> str:
@@ -125,7 +122,7 @@ def digest(pools: Iterable[Pool]) -> str:
         named = [path.name for path in pool.paths] if isinstance(pool, Files) else []
         if isinstance(pool, Generator):
             named = [repr((pool.source, pool.style))]
-        hashed.update("\n".join([f"{pool.weight:g}", *named, ""]).encode())
+        hashed.update("\n".join([f"{pool.source.weight:g}", *named, ""]).encode())
     return hashed.hexdigest()
 
 
@@ -135,7 +132,7 @@ class Dataset:
     def __init__(self, config: TrainConfig, pools: tuple[Pool, ...]) -> None:
         self._config = config
         self._pools = pools
-        weights = np.array([pool.weight for pool in pools])
+        weights = np.array([pool.source.weight for pool in pools])
         self._shares = np.cumsum(weights / weights.sum())
         self._kept = _Kept(config.run.cache_mb * 1_000_000)
 
@@ -184,7 +181,7 @@ class Dataset:
         from each, in an order in which objects of a window of steps are mixed.
         """
         config = self._config
-        share = source.weight / sum(each.weight for each in self._pools)
+        share = source.weight / sum(each.source.weight for each in self._pools)
         reuse = max(1, round(source.reuse / share))
         block, place = divmod(step, reuse * _WINDOW)
         rng = np.random.default_rng([config.seed, _ORDER, which, number, block])

@@ -11,7 +11,10 @@ from asset_factory.factory.models.network.shape import AxisForm
 from asset_factory.factory.presets import overlay, toml_text
 
 from ..bounds import require_possible
-from .settings import FEATURES, KINDS, PRECISIONS, DataSource, TrainConfig
+from ..datasets.catalog import SOURCES
+from .settings import FEATURES, PRECISIONS, DataSource, TrainConfig
+
+KINDS = ("procedural", "sampled", *SOURCES)
 
 
 def load_train_config(recipe: str) -> TrainConfig:

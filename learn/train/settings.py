@@ -14,10 +14,6 @@ from asset_factory.factory.models.particulate.components import COMPONENT_FEATUR
 from ..bounds import Amount, Count, Share, Whole
 from ..samples.sample import DrawSettings
 
-KINDS = (
-    "procedural", "sampled", "description", "partnet", "particulate", "predictions", "registry",
-    "usd",
-)  # fmt: skip
 FEATURES = ("none", "components")
 PRECISIONS = ("float32", "bfloat16")
 #: Of a running mean, and of units in training: below 1, or nothing new would ever be learnt.
@@ -30,7 +26,8 @@ class DataSource:
     """Where examples come from.
 
     Attributes:
-        kind: one of ``KINDS``; ``sampled``: a folder of npz files; ``procedural``: made on the fly.
+        kind: ``procedural``: made on the fly; ``sampled``: a folder of npz files; or a kind of
+            dataset.
         path: the folder, for every kind but ``procedural``; a relative one is taken from the
             working folder.
         split: file with the names to take, one per line; empty: all of them.

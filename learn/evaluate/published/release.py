@@ -13,7 +13,7 @@ import numpy as np
 from asset_factory.factory.mesh import FloatArray
 
 from ..score import Score
-from .boxes import box_of, enclosing, generalised, giou, volume
+from .boxes import box_of, giou, volume
 from .cloud import ScoredCloud
 from .matched import Matching, matched
 from .state import PENALTIES, compared
@@ -83,8 +83,7 @@ def _overlap(
         return giou(a, b)
     inside_b = _share_inside(a, b, np.linalg.inv(pose_b) @ pose_a, rng)
     inside_a = _share_inside(b, a, np.linalg.inv(pose_a) @ pose_b, rng)
-    shared = (inside_b * volume(a) + inside_a * volume(b)) / 2.0
-    return generalised(shared, volume(a) + volume(b) - shared, enclosing(a, b))
+    return giou(a, b, (inside_b * volume(a) + inside_a * volume(b)) / 2.0)
 
 
 def _share_inside(

@@ -12,8 +12,6 @@ from asset_factory.learn.evaluate import trial as trials
 from asset_factory.learn.evaluate.cases import make_case, procedural_requests
 from asset_factory.learn.evaluate.listing import real_requests
 from asset_factory.learn.evaluate.methods import Method
-from asset_factory.learn.evaluate.score import Score
-from asset_factory.learn.evaluate.summary import summarised
 from asset_factory.learn.objects.export import write_annotation
 from asset_factory.sim_checks.processes.isolation import Limits
 
@@ -134,31 +132,13 @@ def hangs(trial):
     time.sleep(60.0)
 
 
-def one_trial(repeat=0, method="naive"):
-    request = procedural_requests(("cabinet",), (0,))[0]
-    return trials.Trial(request, Method(method, ParticulateConfig()), repeat)
-
-
 def test_a_method_that_hangs_is_cut_off_and_not_scored(monkeypatch):
     monkeypatch.setattr(trials, "score_trial", hangs)
-    row = next(trials.run_trials([one_trial()], 1, Limits(wall_s=2.0)))
+    (request,) = procedural_requests(("cabinet",), (0,))
+    trial = trials.Trial(request, Method("naive", ParticulateConfig()))
+    row = next(trials.run_trials([trial], 1, Limits(wall_s=2.0)))
     assert row.failure == "timeout: no answer within 2 s"
     assert row.score is None
-
-
-def test_repetitions_are_told_apart_and_their_spread_is_told():
-    scores = [Score({"a": value}, {"b": (value,)}) for value in (1.0, 3.0)]
-    rows = [trials.Row(one_trial(repeat), score) for repeat, score in enumerate(scores)]
-    overall = summarised(rows)[0]
-    assert overall["objects"] == 1
-    assert overall["values"]["a"] == 2.0
-    assert overall["spread"] == pytest.approx({"a": np.sqrt(2.0), "b": np.sqrt(2.0)}, abs=1e-6)
-
-
-def test_one_object_of_many_parts_does_not_outvote_the_others():
-    scores = [Score({}, {"b": (0.0,) * 9}), Score({}, {"b": (1.0,)})]
-    rows = [trials.Row(one_trial(0), score) for score in scores]
-    assert summarised(rows)[0]["parts"]["b"] == {"count": 10, "mean": 0.1, "of_objects": 0.5}
 
 
 def test_folders_are_evaluated_without_a_list(cabinets, tmp_path):

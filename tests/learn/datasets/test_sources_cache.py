@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import time
 from dataclasses import replace
 from pathlib import Path
 from unittest.mock import Mock
@@ -14,7 +15,7 @@ from usda import CABINET, stage, write
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.registry import Entry, Registry
-from asset_factory.learn.datasets import SourceSettings, making, prepare
+from asset_factory.learn.datasets import SourceSettings, cache, making, prepare
 from asset_factory.learn.datasets.__main__ import _parser, main
 from asset_factory.learn.datasets.description import find_descriptions
 from asset_factory.learn.datasets.fronts import front_advice
@@ -101,8 +102,14 @@ def test_same_object_same_bytes_anywhere(dataset, tmp_path):
     assert [path.read_bytes() for path in one] == [path.read_bytes() for path in other]
 
 
-def test_object_that_takes_too_long_is_passed_over_and_tried_again(dataset):
-    slow = bring(dataset, settings=replace(SETTINGS, wall_s=0.001))
+def sleeps(*_):
+    time.sleep(60.0)
+
+
+def test_object_that_takes_too_long_is_passed_over_and_tried_again(dataset, monkeypatch):
+    with monkeypatch.context() as patch:
+        patch.setattr(cache, "make_sampled", sleeps)
+        slow = bring(dataset, settings=replace(SETTINGS, wall_s=0.1))
     assert slow.counts == {"timeout": 4}
     assert list(bring(dataset).read) == ["cabinet_1", "cabinet_2"]
 

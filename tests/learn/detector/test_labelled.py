@@ -41,14 +41,12 @@ def test_every_label_of_the_package_can_be_learned_from():
         (Side.TOP, Sort.LID, "back", PanelWay.TOP),
         (Side.RIGHT, Sort.LID, "back", PanelWay.RIGHT),
         (Side.TOP, Sort.LID, "left", PanelWay.LEFT),
+        (Side.FRONT, Sort.DOOR, None, None),
     ],
 )
-def test_a_hinge_is_where_its_side_shows_it(side, sort, hinge, way):
-    assert LabelledPart(side, sort, SQUARE, hinge).way == WAYS.index(way)
-
-
-def test_a_hinge_that_nobody_can_tell_may_be_at_either_edge():
-    assert LabelledPart(Side.FRONT, Sort.DOOR, SQUARE).way == EITHER
+def test_a_hinge_is_where_its_side_shows_it_or_at_either_edge(side, sort, hinge, way):
+    wanted = EITHER if way is None else WAYS.index(way)
+    assert LabelledPart(side, sort, SQUARE, hinge).way == wanted
 
 
 @pytest.fixture

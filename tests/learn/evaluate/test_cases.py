@@ -11,7 +11,6 @@ from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.geometry.components import connected_components
 from asset_factory.factory.geometry.posing import face_parts
 from asset_factory.factory.geometry.triangles import face_areas
-from asset_factory.factory.runtime.store import Store
 from asset_factory.learn.bodies import bodies_of, face_centres
 from asset_factory.learn.evaluate.cases import (
     folder_requests,
@@ -47,9 +46,9 @@ def limits_of(articulation):
     return [(j.name, j.lower, j.upper, *j.axis, *j.origin) for j in articulation.joints]
 
 
-def cases(root, poses=("closed",), yaws=("front",), store=None):
+def cases(root, poses=("closed",), yaws=("front",), kept=None):
     objects = real_requests(root, None, root / "list.csv")
-    return [make_case(request, store) for request in in_settings(objects, poses, yaws)]
+    return [make_case(request, kept) for request in in_settings(objects, poses, yaws)]
 
 
 @pytest.fixture(scope="module")
@@ -144,9 +143,9 @@ def test_open_cases_are_in_range_and_the_truth_still_fits_them(tmp_path):
 
 def test_a_case_is_the_same_again_with_and_without_what_was_kept(tmp_path):
     write_cabinets(tmp_path)
-    store = Store(tmp_path / "kept")
+    folder = tmp_path / "kept"
     drawn = (("closed", "open"), ("front", "random"))
-    read, kept, anew = (cases(tmp_path, *drawn, each) for each in (store, store, None))
+    read, kept, anew = (cases(tmp_path, *drawn, each) for each in (folder, folder, None))
     assert len(read) == 8
     assert all(same(a, b) and same(a, c) for a, b, c in zip(read, kept, anew, strict=True))
     yaws = {tuple(a.joints[1].axis.round(6)) for a in read}

@@ -1,19 +1,24 @@
-"""Two methods are compared where both have something to compare."""
+"""Many scores become means; two methods are compared where both have something to compare."""
 
+import numpy as np
 import pytest
 
 from asset_factory.factory.config import ParticulateConfig
 from asset_factory.learn.evaluate.cases import Request
 from asset_factory.learn.evaluate.methods import Method
 from asset_factory.learn.evaluate.score import Score
-from asset_factory.learn.evaluate.summary import compared
+from asset_factory.learn.evaluate.summary import compared, summarised
 from asset_factory.learn.evaluate.trial import Row, Trial
 
 
+def scored(score, method="naive", case="a", repeat=0):
+    trial = Trial(Request(case, "made", "box"), Method(method, ParticulateConfig()), repeat)
+    return Row(trial, score)
+
+
 def row(method, case, *right, failed=False):
-    request = Request(case, "made", "box", "closed", "front")
     score = None if failed else Score({}, {"type_accuracy": right, "axis_angle_deg": ()})
-    return Row(Trial(request, Method(method, ParticulateConfig())), score)
+    return scored(score, method, case)
 
 
 def test_objects_count_alike_and_only_those_where_both_found_something():
@@ -30,3 +35,16 @@ def test_objects_count_alike_and_only_those_where_both_found_something():
 def test_nothing_to_compare():
     for rows in ([], [row("auto", "a", 1.0)], [row("auto", "a"), row("naive", "a")]):
         assert compared(rows) == []
+
+
+def test_repetitions_are_told_apart_and_their_spread_is_told():
+    scores = (Score({"a": value}, {"b": (value,)}) for value in (1.0, 3.0))
+    overall = summarised(scored(score, repeat=number) for number, score in enumerate(scores))[0]
+    assert overall["objects"] == 1
+    assert overall["values"]["a"] == 2.0
+    assert overall["spread"] == pytest.approx({"a": np.sqrt(2.0), "b": np.sqrt(2.0)}, abs=1e-6)
+
+
+def test_one_object_of_many_parts_does_not_outvote_the_others():
+    rows = [scored(Score({}, {"b": values})) for values in ((0.0,) * 9, (1.0,))]
+    assert summarised(rows)[0]["parts"]["b"] == {"count": 10, "mean": 0.1, "of_objects": 0.5}

@@ -12,7 +12,7 @@ from asset_factory.factory.articulate.detected.agreement import SIGNS, agreement
 from asset_factory.factory.articulate.rigid import RigidArticulator
 from asset_factory.factory.models.detector.canvas import CANVAS
 from asset_factory.factory.part import PartKind
-from asset_factory.learn.detector.sides import Instances, labelled_sides
+from asset_factory.learn.detector.sides import BOX, COLUMNS, IGNORED, VIEW, labelled_sides
 from asset_factory.learn.fit import agreement
 from asset_factory.learn.fit.agreement import LabelledMesh, fit_agreement, rate_parts
 from asset_factory.learn.objects import make_object
@@ -29,29 +29,28 @@ def detected():
         yield
 
 
-def rated_as(instances, guess):
-    return rate_parts(guess, [LabelledMesh(FRIDGE.mesh, instances)])
+def rated_as(table, guess):
+    return rate_parts(guess, [LabelledMesh(FRIDGE.mesh, table)])
 
 
 def test_what_is_a_true_door_or_panel_is_right_and_where_nothing_opens_nothing_is():
     sure = tuple(replace(part, kind=PartKind.DOOR) for part in FRIDGE.parts)
     proposed = Says(replace(FRIDGE, parts=sure))
-    rated = rated_as(labelled_sides(FRIDGE).instances, proposed)
+    rated = rated_as(labelled_sides(FRIDGE).table, proposed)
     assert all(len(row) == len(SIGNS[name]) + 1 for name, rows in rated.items() for row in rows)
     assert {row[-1] for row in rated["proposed"]} == {1.0}
     assert max(row[0] for row in rated["panel"] if row[-1] == 1.0) > 0.5
-    shut = rated_as(Instances.of(np.zeros((0, 10))), proposed)
+    shut = rated_as(np.zeros((0, COLUMNS)), proposed)
     assert {row[-1] for row in (*shut["proposed"], *shut["panel"])} == {0.0}
 
 
 def test_where_nobody_knows_what_opens_nothing_counts():
-    unknown = np.zeros((5, 10))
-    unknown[:, 0] = range(5)
+    unknown = np.zeros((5, COLUMNS))
+    unknown[:, VIEW] = range(5)
     # Boxes that the detector believes may reach beyond the picture.
-    unknown[:, 1:3] = -CANVAS
-    unknown[:, 3:5] = 2 * CANVAS
-    unknown[:, 9] = 1.0
-    rated = rated_as(Instances.of(unknown), RigidArticulator())
+    unknown[:, BOX] = (-CANVAS, -CANVAS, 2 * CANVAS, 2 * CANVAS)
+    unknown[:, IGNORED] = 1.0
+    rated = rated_as(unknown, RigidArticulator())
     assert rated == {name: [] for name in SIGNS}
 
 

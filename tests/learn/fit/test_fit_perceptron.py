@@ -5,30 +5,20 @@ import pytest
 import torch  # noqa: TID253
 
 from asset_factory.learn.fit.perceptron import (
-    Examples,
     FitSettings,
     Weighing,
-    fit_examples,
+    cross_entropy,
     fit_perceptron,
+    fit_scaled,
 )
 
 
-def _examples():
-    rng = np.random.default_rng(0)
-    rows = rng.normal(size=(400, 3))
-    wanted = (rows[:, :1] * rows[:, 1:2] > 0.0).astype(np.float64)
-    return Examples(rows, wanted, np.ones(len(rows)))
-
-
-def _settings(width, decay, seed):
-    weights = dict.fromkeys(("inner", "offset", "outer", "base"), Weighing(0.5, decay))
-    return FitSettings(width, 1, weights, 400, seed)
-
-
 def test_a_network_learns_what_no_line_divides():
-    examples = _examples()
-    network = fit_examples(examples, _settings(6, 2e-5, 0))
-    right = (network.scores(examples.rows) > 0.0) == (examples.wanted > 0.5)
+    rows = np.random.default_rng(0).normal(size=(400, 3))
+    wanted = (rows[:, :1] * rows[:, 1:2] > 0.0).astype(np.float64)
+    weights = dict.fromkeys(("inner", "offset", "outer", "base"), Weighing(0.5, 2e-5))
+    network = fit_scaled(rows, cross_entropy(wanted), FitSettings(6, 1, weights, 400))
+    right = (network.scores(rows) > 0.0) == (wanted > 0.5)
     assert right.mean() > 0.9
 
 

@@ -5,24 +5,23 @@ import pytest
 
 from asset_factory.factory.articulate.evidence.numbers import GUESS, NAMES
 from asset_factory.learn.datasets.objects import generated
-from asset_factory.learn.motions.motion_sample import motion_samples
-from asset_factory.learn.motions.spoiling import spoilt
-from asset_factory.learn.motions.truth import made_up_guess, truth_of
+from asset_factory.learn.motions.motion_sample import known_motions, motion_samples
+from asset_factory.learn.motions.spoiling import made_up_guess, spoilt
 from asset_factory.learn.objects.catalog import make_object
 
 
 @pytest.mark.parametrize("category", ["cabinet", "oven", "office_chair"])
 def test_truth_has_one_joint_per_part_and_no_empty_parts(category):
-    truth = truth_of(make_object(category, 3), 0.4)
-    counts = np.bincount(truth.partition.face_part, minlength=len(truth.partition.parents))
+    partition, joints = known_motions(make_object(category, 3), 0.4)
+    counts = np.bincount(partition.face_part, minlength=len(partition.parents))
     assert (counts[1:] > 0).all()
-    assert truth.joints
-    assert all(joint.lower == 0.0 or joint.kind == "continuous" for joint in truth.joints.values())
+    assert joints
+    assert all(joint.lower == 0.0 or joint.kind == "continuous" for joint in joints.values())
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_spoilt_labels_keep_every_part(seed):
-    whole = truth_of(make_object("cabinet", 1), 0.0).partition
+    whole, _ = known_motions(make_object("cabinet", 1), 0.0)
     other = spoilt(whole, np.random.default_rng(seed))
     assert set(np.unique(other.face_part)) == set(np.unique(whole.face_part))
     assert (other.face_part != whole.face_part).mean() < 0.5

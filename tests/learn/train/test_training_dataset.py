@@ -109,7 +109,7 @@ def test_workers_that_only_die_end_the_run(config, pools, monkeypatch):
 
 def test_a_made_object_that_goes_wrong_costs_only_itself(config, monkeypatch):
     mixture = supplying.MixtureSettings(categories=("laptop",))
-    pool = Generator(DataSource("procedural", points=256), mixture, 1.0)
+    pool = Generator(DataSource("procedural", points=256), mixture)
     make = supplying.sample_object
     calls = []
 
@@ -168,7 +168,7 @@ def test_a_generator_makes_each_object_once_and_uses_it_as_often_as_asked(config
 
     monkeypatch.setattr(supplying._Kept, "get", note)
     monkeypatch.setattr(supplying, "_TRIES", 1)
-    pool = Generator(DataSource("procedural", reuse=3), supplying.MixtureSettings(), 1.0)
+    pool = Generator(DataSource("procedural", reuse=3), supplying.MixtureSettings())
     dataset = Dataset(config, (pool,))
     # Each of 6 places draws from a whole window of 8 objects.
     for step in range(24):
