@@ -13,7 +13,7 @@ from ..mesh import FloatArray
 from ..part import PartKind
 from .evidence.body import Body, Partition, body_of
 from .evidence.candidates import Candidates, LineSource
-from .evidence.setting import free_way
+from .evidence.extent import free_way
 from .geometric.scene import level_frame
 from .ranges import OPEN_DIFFERENCE, box_volumes
 

@@ -49,9 +49,8 @@ def _motions(asked: Asked) -> Fit:
     samples = list(measured(objects))
     stored = fit_motions(samples, asked.steps)
     what = (
-        "Four small networks: which motion of a part the evidence speaks for, where somebody "
-        "guessed one and where nobody did, and how far what turns or slides goes. "
-        "`factory/articulate/evidence` asks them."
+        "A small network: which motion of a part geometry and somebody's guess speak for. "
+        "`factory/articulate/evidence` asks it."
     )
     data = f"{len(samples)} parts of {len({each.name for each in samples})} objects"
     return Fit(stored, what, data, report(stored, samples))
@@ -110,7 +109,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = parser.add_subparsers(required=True)
-    motions = commands.add_parser("motions", help="how evidence for motions weighs, usual ranges")
+    motions = commands.add_parser("motions", help="how evidence for motions weighs")
     trust = commands.add_parser("trust", help="in each source of auto")
     agreement = commands.add_parser("agreement", help="between the detector and others")
     agreement.add_argument("--real", type=Path, nargs="+", required=True, help="labelled meshes")

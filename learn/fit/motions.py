@@ -1,4 +1,4 @@
-"""Fits how the evidence for motions weighs, and how far parts go, to samples of known motions."""
+"""Fits how the evidence for motions weighs to samples of known motions."""
 
 from __future__ import annotations
 
@@ -13,38 +13,23 @@ from scipy.special import softmax
 from torch.nn.utils.rnn import pad_sequence  # noqa: TID253
 
 from asset_factory.factory.articulate.evidence.numbers import NAMES
-from asset_factory.factory.articulate.evidence.rating import Rating, rating_of
-from asset_factory.factory.articulate.evidence.setting import SLIDE_SETTING, TURN_SETTING
-from asset_factory.factory.articulate.evidence.usual import Usual
+from asset_factory.factory.articulate.evidence.rating import NAME, Rating, rating_of
 from asset_factory.factory.articulation import Articulation
-from asset_factory.factory.errors import ConfigError
 from asset_factory.factory.mesh import FloatArray, IntArray
 from asset_factory.factory.models.perceptron import Perceptron
 from asset_factory.factory.models.shipped import Arrays
 
 from ..motions.motion_sample import MotionSample, motion_samples
-from .perceptron import FitSettings, Tensor, Weighing, cross_entropy, fit_perceptron
+from .perceptron import FitSettings, Tensor, Weighing, fit_perceptron
 from .writing import networks_stored
 
-INPUTS = {"guided": NAMES, "blind": NAMES, "turn_range": TURN_SETTING, "slide_range": SLIDE_SETTING}
 HIDDEN = 12
-RANGE_HIDDEN = 8
-#: Of ratings, and of ranges.
-RATED = {
+WEIGHING = {
     "inner": Weighing(0.15, 3e-3),
     "offset": Weighing(0.0, 0.0),
     "outer": Weighing(0.2, 3e-3),
     "direct": Weighing(0.0, 6e-3),
 }
-RANGED = {
-    "inner": Weighing(0.15, 0.1),
-    "offset": Weighing(0.0, 0.0),
-    "outer": Weighing(0.2, 0.1),
-    "base": Weighing(0.0, 0.01),
-}
-#: Steps of range, a quarter of an octave apart: 5.6 degrees to a turn, 0.1 to 2 of the unit.
-TURN_STEPS = np.pi / 2.0 * 2.0 ** (np.arange(-16, 9) / 4.0)
-SLIDE_STEPS = 2.0 ** (np.arange(-14, 6) / 4.0)
 #: Of each part's candidates so many teach at most: half of them the best, the rest at random.
 MOST_CANDIDATES = 56
 #: What no candidate is worth less than, so that a part without a right one teaches little.
@@ -52,19 +37,10 @@ LEAST_WORTH = 1e-4
 
 
 def fit_motions(samples: Sequence[MotionSample], steps: int) -> Arrays:
-    """Fit everything to the same motion samples, in so many steps of each optimisation at most.
-
-    Raises:
-        ConfigError: nothing turns, or nothing slides, among the motion samples.
-    """
-    blind = [each.unguided() for each in samples]
-    ratings = {"guided": fit_rating(samples, steps), "blind": fit_rating(blind, steps)}
-    ranges = {"turn_range": False, "slide_range": True}
-    usual = {name: fit_usual(samples, slides, steps) for name, slides in ranges.items()}
-    others = {f"{name}.sure": np.array(each.sure) for name, each in ratings.items()}
-    others |= {f"{name}.values": each.values for name, each in usual.items()}
-    networks = {name: each.network for name, each in (ratings | usual).items()}
-    return networks_stored(networks, INPUTS, others)
+    """Fit the rating to motion samples, in so many steps of each optimisation at most."""
+    rating = fit_rating(samples, steps)
+    others = {"sure": np.array(rating.sure)}
+    return networks_stored({NAME: rating.network}, {NAME: NAMES}, others)
 
 
 def measured(objects: Iterable[tuple[str, Articulation]]) -> Iterator[MotionSample]:
@@ -76,12 +52,9 @@ def measured(objects: Iterable[tuple[str, Articulation]]) -> Iterator[MotionSamp
 
 def report(stored: Arrays, samples: Sequence[MotionSample]) -> str:
     """Return how many of the parts' motions are found, those that were learned from."""
-    shares = []
-    for name, given in (("guided", samples), ("blind", [each.unguided() for each in samples])):
-        rating = rating_of(stored, name)
-        right = [each.right[int(np.argmax(rating.scores(each.numbers)))] for each in given]
-        shares.append(f"{name} {np.mean(right):.3f}")
-    return f"motions right of those learned from: {', '.join(shares)}"
+    rating = rating_of(stored)
+    right = [each.right[int(np.argmax(rating.scores(each.numbers)))] for each in samples]
+    return f"motions right of those learned from: {np.mean(right):.3f}"
 
 
 def fit_rating(samples: Sequence[MotionSample], steps: int) -> Rating:
@@ -103,32 +76,6 @@ def fit_rating(samples: Sequence[MotionSample], steps: int) -> Rating:
     return Rating(_weights(samples, steps), _calibrated(said, right))
 
 
-def fit_usual(samples: Sequence[MotionSample], slides: bool, steps: int) -> Usual:
-    """Return the shares of belief over steps of range, by logistic regression.
-
-    Raises:
-        ConfigError: no motion sample is of that kind.
-    """
-    told = ((x, x.setting) for x in samples if x.setting is not None and x.range > 0.0)
-    known = [(x, setting) for x, setting in told if setting.slides == slides]
-    if not known:
-        what = "slides" if slides else "turns"
-        raise ConfigError(f"motions: nothing {what} among what is to be learned from")
-    numbers = np.array([setting.numbers for _, setting in known])
-    ranges = np.array([motion_sample.range for motion_sample, _ in known])
-    grid = SLIDE_STEPS if slides else TURN_STEPS
-    finite = np.where(np.isinf(ranges), 1.0, ranges)
-    step = np.abs(np.log(finite[:, None] / grid[None])).argmin(axis=1)
-    step = np.where(np.isinf(ranges), len(grid), step)
-    here = [ranges[step == k] for k in range(len(grid))]
-    values = np.array([np.median(x) if len(x) else grid[k] for k, x in enumerate(here)])
-    values = values if slides else np.append(values, np.inf)
-    weights = _weights_of([motion_sample for motion_sample, _ in known])
-    loss = cross_entropy(np.eye(len(values))[step], weights)
-    settings = FitSettings(RANGE_HIDDEN, len(values), RANGED, steps)
-    return Usual(values, fit_perceptron(numbers, loss, settings))
-
-
 def _weights(samples: Sequence[MotionSample], steps: int) -> Perceptron:
     """Return the network that scores the candidates of every part, by a listwise loss."""
     teaching = [_telling(motion_sample) for motion_sample in samples]
@@ -144,7 +91,7 @@ def _weights(samples: Sequence[MotionSample], steps: int) -> Perceptron:
         listed = pad_sequence(parts, batch_first=True, padding_value=-torch.inf)
         return (weights * (listed.logsumexp(1) - (listed + worth).logsumexp(1))).mean()
 
-    return fit_perceptron(numbers, loss, FitSettings(HIDDEN, 1, RATED, steps))
+    return fit_perceptron(numbers, loss, FitSettings(HIDDEN, 1, WEIGHING, steps))
 
 
 def _telling(motion_sample: MotionSample) -> IntArray:

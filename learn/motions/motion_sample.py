@@ -1,20 +1,16 @@
-"""One part's sample: evidence and worth of every candidate, and the part's true range."""
+"""One part's sample: evidence and worth of every candidate."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
+from asset_factory.factory.articulate.evidence import NOTHING
 from asset_factory.factory.articulate.evidence.body import Partition, body_of
-from asset_factory.factory.articulate.evidence.candidates import (
-    Candidates,
-    LineSource,
-    find_candidates,
-)
-from asset_factory.factory.articulate.evidence.numbers import GUESS, measure
-from asset_factory.factory.articulate.evidence.setting import Setting, setting_of
+from asset_factory.factory.articulate.evidence.candidates import Candidates, find_candidates
+from asset_factory.factory.articulate.evidence.numbers import measure
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.posing import closed, turned
 from asset_factory.factory.mesh import BoolArray, FloatArray
@@ -24,6 +20,8 @@ from .spoiling import made_up_guess, spoilt
 
 #: Parts of one object that teach; the rest say the same again.
 MOST_PARTS = 5
+#: Of so many parts nobody guesses anything.
+UNGUESSED = 0.2
 #: What turns so far has no way that is the wrong one [rad].
 ROUND = 6.0
 #: Errors of axis [deg] and of place that count for none, and that divide a worth by e.
@@ -43,30 +41,16 @@ class MotionSample:
     Attributes:
         name: of the object.
         numbers: evidence of every candidate, a guess included, shape [n, len(NAMES)].
-        guessed: candidates there would not be without the guess, shape [n].
         worth: how good each candidate is, 0 to 1, shape [n].
         right: whether each is right but for the sense, shape [n].
         alike: for each candidate, which others are the same motion but for the sense, shape [n, n].
-        setting: of the best candidate; ``None`` if none is right.
-        range: true range in the setting's unit, infinite if it has no end.
     """
 
     name: str
     numbers: FloatArray
-    guessed: BoolArray
     worth: FloatArray
     right: BoolArray
     alike: BoolArray
-    setting: Setting | None
-    range: float
-
-    def unguided(self) -> MotionSample:
-        """Return the same part if nobody had guessed."""
-        keep = ~self.guessed
-        numbers = self.numbers[keep].copy()
-        numbers[:, -len(GUESS) :] = 0.0
-        kept = {name: getattr(self, name)[keep] for name in ("guessed", "worth", "right")}
-        return replace(self, numbers=numbers, alike=self.alike[np.ix_(keep, keep)], **kept)
 
 
 def motion_samples(
@@ -83,24 +67,17 @@ def motion_samples(
         if body is None:
             continue
         middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
-        guess = made_up_guess(joint, middle, size, rng)
+        made_up = made_up_guess(joint, middle, size, rng)
+        guess = NOTHING if rng.random() < UNGUESSED else made_up
         candidates = find_candidates(body, guess)
         numbers = measure(body, candidates, guess)
         worth, right = _judged(candidates, joint, middle, size)
-        best = int(np.argmax(worth))
-        reach = np.inf if joint.kind is JointKind.CONTINUOUS else joint.range
-        setting = None
-        if right[best]:
-            setting = setting_of(body, candidates.at([best]), numbers[best])
         yield MotionSample(
             name=name,
             numbers=numbers.astype(np.float32),
-            guessed=candidates.source == LineSource.GUESSED,
             worth=worth,
             right=right,
             alike=_alike(candidates, size),
-            setting=setting,
-            range=0.0 if setting is None else reach / setting.unit,
         )
 
 

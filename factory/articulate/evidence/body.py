@@ -71,18 +71,6 @@ class Partition:
         return ends_of(self.triangles)
 
     @cached_property
-    def part_diagonals(self) -> FloatArray:
-        """Return the diagonal of every part's level box [m], shape [part_count]."""
-        low = np.full((len(self.parents), 3), np.inf)
-        high = -low
-        np.minimum.at(low, self.face_part, self.ends[0])
-        np.maximum.at(high, self.face_part, self.ends[1])
-        used = np.isfinite(low).all(axis=1)
-        sizes = np.zeros(len(self.parents))
-        sizes[used] = np.linalg.norm(high[used] - low[used], axis=1)
-        return sizes
-
-    @cached_property
     def level(self) -> FloatArray:
         """Return the object's level frame, see :func:`~..geometric.scene.level_frame`."""
         return level_frame(self.triangles)
@@ -181,11 +169,6 @@ class Body:
             return self.grid
         size = self.grid.cell * np.array(self.grid.tenant.shape)
         return grid_around(self.held, self.grid.low, self.grid.low + size)
-
-    @property
-    def own_size(self) -> float:
-        """Return the diagonal of the part alone, without what hangs on it [m]."""
-        return float(self.partition.part_diagonals[self.part])
 
     @property
     def crowded(self) -> bool:

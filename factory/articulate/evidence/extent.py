@@ -1,4 +1,4 @@
-"""How far a part goes: as far as such parts do, and no further than the way is free."""
+"""How far a part goes: as far as it is said to, and no further than the way is free."""
 
 from __future__ import annotations
 
@@ -11,12 +11,31 @@ from ...mesh import FloatArray
 from .body import Body
 from .candidates import Candidates
 from .guess import Guess
-from .rating import load_usual
-from .setting import Setting, is_small, setting_of
+from .travel import displaced
 
+#: Where nobody says how far: a quarter of a turn [rad], and a share of the way of what slides.
+QUARTER = np.pi / 2.0
+USUAL_SLIDE = 0.7
+#: Nothing slides farther than this share of its way, whoever says so.
+FARTHEST_SLIDE = 1.5
+#: A turn that is said to go this far round has no end [rad]; one that is said to end this near
+#: quarters of a turn does so there, as most do that are made.
+ROUND = 0.95 * 2.0 * np.pi
+NEAR_QUARTERS = 0.2
 #: No range is shorter than this share of what was hoped for: what meets something at once was seen
 #: wrongly.
 LEAST = 0.25
+#: What slides and is smaller than this share of the object is a button rather than a drawer.
+SMALL = 0.07
+#: A part shorter than this share of the object, as seen along its way, is a front: it goes as deep
+#: as the object.
+FRONT = 0.15
+#: A way is looked at in so many steps; among the first the part comes free of what it touches at
+#: rest.
+STEPS = 36
+AT_REST = 5
+#: Share of the points that may meet something on the way in all: a wrong label is not yet a wall.
+SLACK = 0.1
 #: A slide that stands out of its holder by more than this share of its range is open. Fronts have
 #: some thickness.
 OPEN = 0.2
@@ -44,36 +63,58 @@ class Extent:
     share: float
 
 
-def extent_of(body: Body, chosen: Candidates, evidence: FloatArray, guess: Guess) -> Extent:
+def extent_of(body: Body, chosen: Candidates, guess: Guess) -> Extent:
     """Return the limits of one candidate.
 
     Args:
         body: the part.
         chosen: exactly one candidate.
-        evidence: its numbers, shape [len(NAMES)].
-        guess: whose ``upper`` is weighed against the usual one, if it speaks of the same kind.
+        guess: whose ``upper`` is believed, if it speaks of the same kind.
     """
-    setting = setting_of(body, chosen, evidence)
-    said = guess.upper if guess.turns is None or (guess.turns < 0.5) == setting.slides else None
-    if said is not None and not said > 0.0:
-        said = None
-    hoped = load_usual(setting.slides).range(setting, None if said is None else said / setting.unit)
-    if np.isinf(hoped):
+    slides = bool(chosen.slides[0])
+    axis = chosen.axis[0]
+    said = guess.upper if guess.turns is None or (guess.turns < 0.5) == slides else None
+    hoped = _slide(body, axis, said) if slides else _turn(said)
+    if not slides and hoped >= ROUND:
         return Extent(JointKind.CONTINUOUS, -np.pi, np.pi, 1.0)
-    out = stands_out_by(body, chosen.axis[0]) if setting.slides and not is_small(evidence) else 0.0
-    if out > OPEN * hoped * setting.unit:
-        return _half_open(body, setting, out)
-    share = min(setting.stop / hoped, 1.0)
-    kind = JointKind.PRISMATIC if setting.slides else JointKind.REVOLUTE
-    return Extent(kind, 0.0, hoped * setting.unit * max(share, LEAST), share)
+    out = stands_out_by(body, axis) if slides and not is_small(body) else 0.0
+    if out > OPEN * hoped:
+        # Who sees it open guesses the rest of its range.
+        left = max(_slide(body, axis, None) - out, 0.0)
+        return Extent(JointKind.PRISMATIC, -out, left * free_way(body, chosen, left), 1.0)
+    share = free_way(body, chosen, hoped)
+    kind = JointKind.PRISMATIC if slides else JointKind.REVOLUTE
+    return Extent(kind, 0.0, hoped * max(share, LEAST), share)
 
 
-def _half_open(body: Body, setting: Setting, out: float) -> Extent:
-    """Return limits of a slide that stands open: a guess sees only the rest of its range."""
-    whole = load_usual(True).range(setting, None) * setting.unit
-    left = max(whole - out, 0.0)
-    free = min(setting.stop * setting.unit, left)
-    return Extent(JointKind.PRISMATIC, -out, free, 1.0)
+def _slide(body: Body, axis: FloatArray, said: float | None) -> float:
+    """Return how far a part should slide [m], by what is said, or usual."""
+    way = _way(body, axis)
+    return min(said, FARTHEST_SLIDE * way) if said else USUAL_SLIDE * way
+
+
+def _turn(said: float | None) -> float:
+    """Return how far a part should turn [rad], by what is said, or usual."""
+    if not said:
+        return QUARTER
+    quarters = QUARTER * max(round(said / QUARTER), 1)
+    return quarters if abs(said - quarters) < NEAR_QUARTERS else said
+
+
+def is_small(body: Body) -> bool:
+    """Tell whether a part is as small as a button."""
+    return body.diagonal < SMALL * body.partition.mesh.diagonal
+
+
+def free_way(body: Body, chosen: Candidates, farthest: float) -> float:
+    """Return the share of the way before more than a few points meet the part's holder."""
+    values = np.arange(1, STEPS + 1) / STEPS * farthest
+    tried = chosen.at(np.zeros(STEPS, dtype=np.int64))
+    hits = body.holder.hits(*displaced(tried, body.probes.points, values))
+    free = int(np.argmin(hits[:AT_REST].mean(axis=1)))
+    met = np.logical_or.accumulate(hits[free:] & ~hits[free], axis=0).mean(axis=1)
+    stopped = free + np.flatnonzero(met > SLACK)
+    return float(stopped[0] / STEPS) if len(stopped) else 1.0
 
 
 def stands_out_by(body: Body, axis: FloatArray) -> float:
@@ -86,6 +127,13 @@ def stands_out_by(body: Body, axis: FloatArray) -> float:
     mouth = float((body.held.points @ axis).max())
     inside = mouth - float((body.corners @ axis).min())
     return max(_front(body, axis) - mouth, 0.0) if inside > INSIDE * body.diagonal else 0.0
+
+
+def _way(body: Body, axis: FloatArray) -> float:
+    """Return the part's length along its way; of drawer fronts without a box, the object's [m]."""
+    length = max(float(np.ptp(body.probes.points @ axis)), 1e-9)
+    whole = max(float(np.ptp(body.partition.few_vertices @ axis)), 1e-9)
+    return whole if length < FRONT * whole and not is_small(body) else length
 
 
 def _front(body: Body, axis: FloatArray) -> float:

@@ -7,15 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import softmax
 
-from ...mesh import BoolArray, FloatArray
+from ...mesh import BoolArray
 from ..proposal import Motion
 from .body import Body, Partition, body_of
 from .candidates import Candidates, find_candidates
-from .extent import LEAST, Extent, extent_of
+from .extent import LEAST, Extent, extent_of, is_small
 from .guess import NOTHING, Guess
 from .numbers import measure
 from .rating import load_rating
-from .setting import is_small
 
 #: Axes that agree to this cosine, and run this close as a share of the object's longest side, are
 #: one motion.
@@ -53,18 +52,16 @@ def best_motion(partition: Partition, part: int, guess: Guess = NOTHING) -> Moti
         return MotionEvidence(None, 0.0)
     candidates = find_candidates(body, guess)
     numbers = measure(body, candidates, guess)
-    rating = load_rating(guess.direction is not None)
+    rating = load_rating()
     belief = softmax(rating.scores(numbers))
     chosen = int(np.argmax(belief))
     like = _alike(body, candidates, chosen)
     confidence = rating.confidence(float(belief[like].sum()))
-    return MotionEvidence(_motion(body, candidates, chosen, numbers, guess), confidence)
+    return MotionEvidence(_motion(body, candidates, chosen, guess), confidence)
 
 
-def _motion(
-    body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
-) -> Motion:
-    chosen, extent = _right_way(body, candidates, chosen, numbers, guess)
+def _motion(body: Body, candidates: Candidates, chosen: int, guess: Guess) -> Motion:
+    chosen, extent = _right_way(body, candidates, chosen, guess)
     middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
     axis = candidates.axis[chosen]
     origin = candidates.origin[chosen]
@@ -73,19 +70,17 @@ def _motion(
     return Motion(extent.kind, axis, origin, extent.lower, extent.upper)
 
 
-def _right_way(
-    body: Body, candidates: Candidates, chosen: int, numbers: FloatArray, guess: Guess
-) -> tuple[int, Extent]:
+def _right_way(body: Body, candidates: Candidates, chosen: int, guess: Guess) -> tuple[int, Extent]:
     """Return the chosen candidate, or its reverse where what holds the part stops it at once.
 
     Not so for buttons: they lie on the part that holds them.
     """
-    extent = extent_of(body, candidates.at([chosen]), numbers[chosen], guess)
-    pressed = bool(candidates.slides[chosen]) and is_small(numbers[chosen])
+    extent = extent_of(body, candidates.at([chosen]), guess)
+    pressed = bool(candidates.slides[chosen]) and is_small(body)
     if extent.share >= LEAST or pressed:
         return chosen, extent
     twin = chosen ^ 1
-    other = extent_of(body, candidates.at([twin]), numbers[twin], guess)
+    other = extent_of(body, candidates.at([twin]), guess)
     return (twin, other) if other.share >= FREE else (chosen, extent)
 
 

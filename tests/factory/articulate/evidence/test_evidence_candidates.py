@@ -14,13 +14,8 @@ from asset_factory.factory.articulate.evidence.candidates import (
     LineSource,
     find_candidates,
 )
-from asset_factory.factory.articulate.evidence.numbers import NAMES, measure
-from asset_factory.factory.articulate.evidence.setting import (
-    SLIDE_SETTING,
-    TURN_SETTING,
-    setting_of,
-)
-from asset_factory.factory.articulate.evidence.travel import displaced
+from asset_factory.factory.articulate.evidence.extent import USUAL_SLIDE, extent_of, free_way
+from asset_factory.factory.articulate.evidence.travel import displaced, travel
 from asset_factory.factory.articulation import Joint, JointKind, rotation_about
 from asset_factory.factory.mesh import concatenate
 
@@ -100,55 +95,39 @@ def with_box(whole, x, y, z):
 
 
 def tried(whole, part, axis):
-    """The slide of a part along an axis: its body, itself, and its evidence."""
+    """A part and its slide along an axis."""
     body = body_of(whole, part)
     found = find_candidates(body, NOTHING)
     best = int(np.argmax(found.slides * (found.axis @ axis)))
-    return body, found.at([best]), measure(body, found, NOTHING)[best]
+    return body, found.at([best])
 
 
 def test_a_closed_door_is_in_the_way_but_does_not_hold():
     whole = with_box(partition(cupboard()), (-0.25, 0.25), (0.01, 0.45), (0.1, 0.3))
-    body, _, evidence = tried(whole, 2, OUT)
-    named = dict(zip(NAMES, evidence, strict=True))
+    body, chosen = tried(whole, 2, OUT)
     assert body.crowded
-    assert named["slide_hit_4"] > 0.2
-    assert named["slide_held_4"] == 0.0
-    assert named["slide_ways"] > 0.05
+    gone = travel(body, chosen)
+    assert gone.hits > 0.04
+    assert gone.held == 0.0
+    assert travel(*tried(whole, 2, -OUT)).held > 0.0
 
 
 def test_what_is_alone_in_its_holder_is_not_crowded():
-    body, _, evidence = tried(partition(chest()), 1, OUT)
+    body, _ = tried(partition(chest()), 1, OUT)
     assert not body.crowded
     assert body.holder is body.grid
-    assert evidence[NAMES.index("slide_hit_4")] == evidence[NAMES.index("slide_held_4")]
 
 
 def test_a_drawer_is_measured_by_its_length_and_a_front_by_the_object():
-    whole = partition(chest())
-    body, chosen, evidence = tried(whole, 1, OUT)
-    long = setting_of(body, chosen, evidence)
-    assert long.slides
-    assert long.unit == pytest.approx(0.47, abs=0.05)
-    assert np.isinf(long.stop)
+    body, chosen = tried(partition(chest()), 1, OUT)
+    long = extent_of(body, chosen, NOTHING)
+    assert long.upper == pytest.approx(USUAL_SLIDE * 0.47, abs=0.04)
+    assert long.share == 1.0
     bare = with_box(partition(cupboard()), (-0.29, 0.29), (-0.06, -0.03), (0.05, 0.35))
-    front = setting_of(*tried(bare, 2, OUT))
-    assert front.unit == pytest.approx(float(np.ptp(bare.mesh.vertices[:, 1])), rel=0.02)
+    front = extent_of(*tried(bare, 2, OUT), NOTHING)
+    depth = float(np.ptp(bare.mesh.vertices[:, 1]))
+    assert front.upper == pytest.approx(USUAL_SLIDE * depth, rel=0.02)
 
 
 def test_the_way_in_is_stopped_by_the_back():
-    whole = partition(chest())
-    setting = setting_of(*tried(whole, 1, -OUT))
-    assert setting.stop * setting.unit < 0.15
-
-
-def test_settings_are_named_finite_numbers():
-    body, chosen, evidence = tried(partition(cupboard()), 1, OUT)
-    assert setting_of(body, chosen, evidence).numbers.shape == (len(SLIDE_SETTING),)
-    found = find_candidates(body, NOTHING)
-    turn = int(np.flatnonzero(~found.slides)[0])
-    setting = setting_of(body, found.at([turn]), measure(body, found, NOTHING)[turn])
-    assert setting.numbers.shape == (len(TURN_SETTING),)
-    assert np.isfinite(setting.numbers).all()
-    with pytest.raises(ValueError, match="read-only"):
-        setting.numbers[0] = 1.0
+    assert free_way(*tried(partition(chest()), 1, -OUT), 0.5) < 0.3
