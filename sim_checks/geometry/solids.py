@@ -152,9 +152,10 @@ class Solids:
             groups.append(SolidGroup(solids, tuple(parts), rates))
         return tuple(groups)
 
-    def moved(self, joint: JointLine) -> tuple[SolidGroup, ...]:
-        """Return those of the groups that move."""
-        return tuple(group for group in self.groups(joint) if group.ways)
+    def moved_parts(self, joint: JointLine) -> frozenset[int]:
+        """Return the parts that a joint moves, itself or by its followers."""
+        moving = (group for group in self.groups(joint) if group.ways)
+        return frozenset(part for group in moving for part in group.parts)
 
     def seen(
         self,
