@@ -9,6 +9,10 @@ import numpy as np
 from fault_corpus.things import renewed, words
 from ros_packages import SLIDE
 
+from asset_factory.sim_checks.checks.lint import check_lint
+from asset_factory.sim_checks.checks.penetration import check_penetration
+from asset_factory.sim_checks.checks.result import CheckResult
+from asset_factory.sim_checks.config import LintConfig, PenetrationConfig
 from asset_factory.sim_checks.description import (
     DescribedShape,
     Description,
@@ -19,6 +23,7 @@ from asset_factory.sim_checks.description import (
 from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 from asset_factory.sim_checks.read.primitives import box
+from asset_factory.sim_checks.report import Finding
 
 #: Centre and size [m].
 Box = tuple[Sequence[float], Sequence[float]]
@@ -182,6 +187,17 @@ def with_joint(description: Description, name: str, **changes: object) -> Descri
 
 def with_link(description: Description, name: str, **changes: object) -> Description:
     return replace(description, links=renewed(description.links, name, **changes))
+
+
+def linted(description: Description, code: str = "") -> list[Finding]:
+    """What the lint finds by a code that begins so."""
+    found = check_lint(description, LintConfig()).findings
+    return [finding for finding in found if finding.code.startswith(code)]
+
+
+def penetrating(description: Description, **limits: Any) -> CheckResult:
+    """What the penetration check says, with other limits than the usual."""
+    return check_penetration(description, PenetrationConfig(**limits))
 
 
 def write_drawer(path: Path, gap: float) -> Path:

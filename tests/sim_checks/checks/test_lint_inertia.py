@@ -4,10 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from box_world import body, box_shape, described, joint
+from box_world import body, box_shape, described, joint, linted
 
-from asset_factory.sim_checks.checks.lint import check_lint
-from asset_factory.sim_checks.config import LintConfig
 from asset_factory.sim_checks.description import Link, LinkInertia
 
 #: Of a block of 0.144 m3, its diagonal 1.3 m.
@@ -31,10 +29,6 @@ def thing(moved, *more, kind="prismatic"):
         for link in more
     ]
     return described(links, joints)
-
-
-def told(description, code):
-    return [item for item in check_lint(description, LintConfig()).findings if item.code == code]
 
 
 def beside(outside):
@@ -70,7 +64,7 @@ LEG = box_shape((0.5, 0.0, 0.0), (0.8, 0.1, 0.1))
     ],
 )
 def test_a_centre_of_mass_counts_by_how_far_it_is_outside(moved, severity):
-    assert [str(item.severity) for item in told(thing(moved), "center_outside")] == severity
+    assert [str(item.severity) for item in linted(thing(moved), "center_outside")] == severity
 
 
 #: An eighth of the block, as hulls that are cut back leave it.
@@ -98,7 +92,9 @@ STEEL = LinkInertia(7.8, np.zeros(3), np.diag([0.65, 0.65, 1.29]))
     ],
 )
 def test_a_density_rejects_beyond_the_densest_material(moved, severity, density):
-    found = [(str(item.severity), item.value) for item in told(thing(moved), "density_implausible")]
+    found = [
+        (str(item.severity), item.value) for item in linted(thing(moved), "density_implausible")
+    ]
     assert found == ([(severity, pytest.approx(density, rel=1e-3))] if severity else [])
 
 
@@ -121,5 +117,5 @@ HANDLE = replace(body("handle", [((0.0, 0.3, 0.0), (0.1,) * 3)]), inertia=None)
          "a bare frame that moves by itself", "without a tree nobody knows what moves"],
 )  # fmt: skip
 def test_what_moves_must_state_its_inertia(built, severity, parts):
-    found = [(str(item.severity), item.parts) for item in told(built, "missing_inertia")]
+    found = [(str(item.severity), item.parts) for item in linted(built, "missing_inertia")]
     assert found == ([(severity, parts)] if severity else [])

@@ -5,17 +5,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from box_world import box_hull, built, cabinet, sliding, turning, with_joint
+from box_world import box_hull, built, cabinet, penetrating, sliding, turning, with_joint
 
-from asset_factory.sim_checks.checks.penetration import check_penetration
-from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.depth import overlap
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 
 
 def check(description, combinations=0, **limits):
-    return check_penetration(description, PenetrationConfig(combinations=combinations, **limits))
+    return penetrating(description, combinations=combinations, **limits)
 
 
 def crossing(reach=0.3, **changes):
