@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,9 +12,7 @@ from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.depth import overlap
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 
-
-def check(description, combinations=0, **limits):
-    return penetrating(description, combinations=combinations, **limits)
+check = partial(penetrating, combinations=0)
 
 
 def crossing(reach=0.3, **changes):
