@@ -115,7 +115,6 @@ class Diagnosis:
 
     def _least_otherwise(self, course: JointCourse) -> float | None:
         """Return the least worst excess among the other motions that can be tried [m]."""
-        course = replace(course, located=False)
         tried = (replace(course, motion=item).run() for item in self._other_motions(course))
         return min((sweep.excess for sweep in tried), default=None)
 

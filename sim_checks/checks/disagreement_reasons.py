@@ -20,7 +20,6 @@ PRIMITIVES = frozenset({"box", "capsule", "cylinder", "ellipsoid", "sphere"})
 SOFT_CONTACT_MM = 0.5
 #: Share of the range beyond which a passed limit is no spring's doing.
 SOFT_LIMIT_SHARE = 0.2
-TOUCHING_QUESTIONS = frozenset({"opens", "returns", "rests", "leaves_others", "keeps_limits"})
 
 
 @dataclass(frozen=True)
@@ -93,7 +92,7 @@ def likely_reason(case: Disagreement, evidence: EngineEvidence) -> str:
     """Return a sentence with the number in it; or that no known trait explains it."""
     if case.question == "loads":
         return _loading(case) or UNKNOWN
-    if case.question not in TOUCHING_QUESTIONS:
+    if case.joint is None:
         return UNKNOWN
     return (
         _soft_limit(case)

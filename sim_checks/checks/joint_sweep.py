@@ -33,7 +33,7 @@ def clear_until(course: JointCourse, failing: PairSweep) -> float:
     """
     name = course.joint.name
     kind = failing.kind
-    course = replace(course, located=False, decides=True)
+    course = replace(course, decides=True)
     clear = course.rest.lower[name]
     fails = failing.at
     for _ in range(CLEAR_HALVINGS):
@@ -56,8 +56,7 @@ class JointCourse:
         only: the pairs of parts to look at; ``None`` for all.
         motion: another motion than the joint's own, from the same start; only for one that has no
             followers.
-        located: say where in space the pairs meet, too.
-        decides: tell only whether pairs penetrate too deeply, not how deep.
+        decides: tell only whether pairs penetrate too deeply, not how deep, nor where in space.
         until: where it ends [rad] or [m]; ``None`` for upper.
     """
 
@@ -66,7 +65,6 @@ class JointCourse:
     values: Mapping[str, float]
     only: frozenset[PartPair] | None = None
     motion: JointAxis | None = None
-    located: bool = True
     decides: bool = False
     until: float | None = None
 
@@ -189,7 +187,9 @@ class _Encounter:
         sweep.place(worst.candidate.moving, worst.at)
         at = course.rest.lower[course.joint.name] + float(worst.at)
         pose = {**course.values, course.joint.name: at}
-        contact = course.rest.contact(first, second, worst.depth, pose, located=course.located)
+        # Where another motion or a shorter way meets anything, nobody asks.
+        located = course.motion is None and not course.decides
+        contact = course.rest.contact(first, second, worst.depth, pose, located=located)
         if kind is PairKind.HINGE and not self._still_knuckle(first, second, worst):
             contact = replace(contact, kind=PairKind.PLAIN)
         if contact.point is not None and self.frame is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,7 +12,7 @@ from scipy import ndimage
 from ..config import LintConfig
 from ..description import BoolArray, DescribedShape, FloatArray, Link
 from ..geometry.hull import CollisionHull, find_hull
-from ..geometry.placing import box_around
+from ..geometry.placing import box_around, spread_directions
 from ..report import Finding
 from .result import Findings, graded
 
@@ -191,18 +190,9 @@ def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull | N
         starts = np.flatnonzero(np.diff(columns[order], prepend=-1))
         ends = np.concatenate([starts[1:], [len(order)]]) - 1
         points = points[order[np.concatenate([starts, ends])]]
-        points = points[np.unique(np.argmax(points @ _directions().T, axis=0))]
+        directions = np.vstack([spread_directions(CORNERS), np.eye(3), -np.eye(3)])
+        points = points[np.unique(np.argmax(points @ directions.T, axis=0))]
     return find_hull(points)
-
-
-def _directions() -> FloatArray:
-    """Return the unit vectors evenly over the sphere, and the axes, shape [direction_count, 3]."""
-    index = np.arange(CORNERS) + 0.5
-    height = 1.0 - 2.0 * index / CORNERS
-    turn = np.pi * (1.0 + math.sqrt(5.0)) * index
-    radius = np.sqrt(1.0 - height**2)
-    even = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
-    return np.vstack([even, np.eye(3), -np.eye(3)])
 
 
 def _reached(room: BoolArray) -> BoolArray:

@@ -211,8 +211,7 @@ def _sampled(
 ) -> FloatArray:
     """Return points spread over the surfaces by area [m], shape [count, 3]; none without area."""
     corners = np.vstack([shape.vertices[shape.faces] for shape in shapes])
-    a, b, c = (corners[:, k] for k in range(3))
-    areas = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    areas = np.concatenate([VisibleSurface(s.vertices, s.faces).areas for s in shapes])
     total = areas.sum()
     if not total > 0.0:
         return np.zeros((0, 3))

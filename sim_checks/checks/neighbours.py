@@ -42,7 +42,7 @@ def open_neighbours(rest: RestingSolids, told: frozenset[PartPair]) -> Neighbour
     unswept = []
     asked = 0
     for first, second in _near(rest):
-        moved = product(_parts(rest.solids, first), _parts(rest.solids, second))
+        moved = product(*map(rest.solids.moved_parts, (first, second)))
         only = frozenset((min(pair), max(pair)) for pair in moved)
         asked += 1
         try:
@@ -140,7 +140,7 @@ def _independent(solids: Solids, joints: list[JointLine]) -> BoolArray:
     """Return which joints carry nothing that another moves, itself or by a follower; symmetric."""
     moves = np.zeros((len(joints), len(solids.tree.parts)), dtype=np.float32)
     for row, joint in enumerate(joints):
-        moves[row, sorted(_parts(solids, joint))] = 1.0
+        moves[row, sorted(solids.moved_parts(joint))] = 1.0
     apart: BoolArray = moves @ moves.T == 0.0
     np.fill_diagonal(apart, val=False)
     return apart
@@ -159,7 +159,3 @@ def _swept(rest: RestingSolids, joints: list[JointLine]) -> Mapping[str, FloatAr
         if found:
             boxes[joint.name] = np.vstack(found)
     return boxes
-
-
-def _parts(solids: Solids, joint: JointLine) -> frozenset[int]:
-    return frozenset(part for group in solids.moved(joint) for part in group.parts)

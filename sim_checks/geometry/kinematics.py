@@ -48,7 +48,8 @@ class Tree:
 
     def followers(self, joint: JointLine) -> tuple[JointLine, ...]:
         """Return the joints that follow ``joint``, directly or through others; file order."""
-        return self._followers.get(joint.name, ())
+        led = {name for name in self.mimics if joint.name in leaders(name, self.mimics)}
+        return tuple(other for other in self.moving if other.name in led)
 
     @cached_property
     def ranges(self) -> Mapping[str, Limits]:
@@ -77,14 +78,6 @@ class Tree:
     def opened(self) -> Mapping[str, float]:
         """Return every joint of :attr:`ranges` at upper [rad] or [m]."""
         return {name: upper for name, (_, upper) in self.ranges.items()}
-
-    @cached_property
-    def _followers(self) -> Mapping[str, tuple[JointLine, ...]]:
-        found: dict[str, tuple[JointLine, ...]] = {}
-        for other in self.moving:
-            for leader in leaders(other.name, self.mimics):
-                found[leader] = (*found.get(leader, ()), other)
-        return found
 
     def value_of(self, name: str, values: Mapping[str, float]) -> float:
         """Return where a joint is [rad] or [m].

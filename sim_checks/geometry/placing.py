@@ -1,4 +1,4 @@
-"""Rigid poses, points that they move, and boxes: lowest and highest corner [m], shape [2, 3]."""
+"""Poses, points that they move, directions, boxes: lowest and highest corner [m], shape [2, 3]."""
 
 from __future__ import annotations
 
@@ -58,6 +58,15 @@ def boxes_near(boxes: FloatArray, others: FloatArray, margin: float = 0.0) -> Bo
         near &= boxes[:, None, 0, axis] - others[None, :, 1, axis] < margin
         near &= others[None, :, 0, axis] - boxes[:, None, 1, axis] < margin
     return near
+
+
+def spread_directions(count: int) -> FloatArray:
+    """Return unit vectors evenly over the sphere, shape [count, 3]."""
+    index = np.arange(count) + 0.5
+    height = 1.0 - 2.0 * index / count
+    turn = np.pi * (1.0 + np.sqrt(5.0)) * index
+    radius = np.sqrt(1.0 - height**2)
+    return np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
 
 
 def diagonal(groups: Iterable[FloatArray]) -> float:

@@ -13,7 +13,7 @@ from .collision import Collider, LookBudget
 from .coupling import leaders
 from .depth import HullOverlap
 from .hull import find_hull
-from .kinematics import Poser, Tree
+from .kinematics import MOVING_KINDS, Poser, Tree
 from .path import Path, joint_axis
 from .placing import boxes_near, diagonal
 
@@ -152,9 +152,10 @@ class Solids:
             groups.append(SolidGroup(solids, tuple(parts), rates))
         return tuple(groups)
 
-    def moved(self, joint: JointLine) -> tuple[SolidGroup, ...]:
-        """Return those of the groups that move."""
-        return tuple(group for group in self.groups(joint) if group.ways)
+    def moved_parts(self, joint: JointLine) -> frozenset[int]:
+        """Return the parts that a joint moves, itself or by its followers."""
+        moving = (group for group in self.groups(joint) if group.ways)
+        return frozenset(part for group in moving for part in group.parts)
 
     def seen(
         self,
@@ -205,6 +206,5 @@ def _path(
 
 def _steps(tree: Tree, part_of: Mapping[str, int]) -> tuple[tuple[int, int, JointLine], ...]:
     """Yield every part but the root's, its parent part and the joint between; parents first."""
-    names = {joint.name for joint in tree.moving}
-    moving = (joint for joint in tree.order if joint.name in names)
+    moving = (joint for joint in tree.order if joint.kind in MOVING_KINDS)
     return tuple((part_of[joint.child], part_of[joint.parent], joint) for joint in moving)

@@ -6,9 +6,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from fault_corpus.things import at as frame_at
 from fault_corpus.things import renewed, words
 from ros_packages import SLIDE
 
+from asset_factory.sim_checks.checks.lint import check_lint
+from asset_factory.sim_checks.checks.penetration import check_penetration
+from asset_factory.sim_checks.checks.result import CheckResult
+from asset_factory.sim_checks.config import LintConfig, PenetrationConfig
 from asset_factory.sim_checks.description import (
     DescribedShape,
     Description,
@@ -18,7 +23,9 @@ from asset_factory.sim_checks.description import (
 )
 from asset_factory.sim_checks.geometry.hull import CollisionHull, convex_hull
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
+from asset_factory.sim_checks.geometry.placing import rigid
 from asset_factory.sim_checks.read.primitives import box
+from asset_factory.sim_checks.report import Finding
 
 #: Centre and size [m].
 Box = tuple[Sequence[float], Sequence[float]]
@@ -58,8 +65,7 @@ def joint(
     **more: Any,
 ) -> JointLine:
     """``at`` is the child's frame in the parent's."""
-    origin = np.eye(4)
-    origin[:3, 3] = at
+    origin = frame_at(*at)
     along = np.asarray(axis, dtype=float)
     lower, upper = limits or (None, None)
     return JointLine(name, kind, parent, child, origin, along, lower, upper, **more)
@@ -170,10 +176,8 @@ def random_pose(seed: int) -> np.ndarray:
     """A rigid motion, shape [4, 4]."""
     generator = np.random.default_rng(seed)
     axis = generator.normal(size=3)
-    pose = np.eye(4)
-    pose[:3, :3] = rotation_about(axis / np.linalg.norm(axis), generator.uniform(0.0, 6.0))
-    pose[:3, 3] = generator.normal(size=3)
-    return pose
+    turn = rotation_about(axis / np.linalg.norm(axis), generator.uniform(0.0, 6.0))
+    return rigid(turn, generator.normal(size=3))
 
 
 def with_joint(description: Description, name: str, **changes: object) -> Description:
@@ -182,6 +186,17 @@ def with_joint(description: Description, name: str, **changes: object) -> Descri
 
 def with_link(description: Description, name: str, **changes: object) -> Description:
     return replace(description, links=renewed(description.links, name, **changes))
+
+
+def linted(description: Description, code: str = "") -> list[Finding]:
+    """What the lint finds by a code that begins so."""
+    found = check_lint(description, LintConfig()).findings
+    return [finding for finding in found if finding.code.startswith(code)]
+
+
+def penetrating(description: Description, **limits: Any) -> CheckResult:
+    """What the penetration check says, with other limits than the usual."""
+    return check_penetration(description, PenetrationConfig(**limits))
 
 
 def write_drawer(path: Path, gap: float) -> Path:

@@ -12,6 +12,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial import ConvexHull
 
+from asset_factory.sim_checks.geometry.placing import spread_directions
+
 from ...asset import Hull
 from ...config import DecomposeConfig
 from ...mesh import BoolArray, FloatArray
@@ -152,15 +154,10 @@ def _ends(corners: BoolArray) -> BoolArray:
 @cache
 def _directions() -> npt.NDArray[np.float32]:
     """Return unit vectors evenly over the sphere, the axes and their diagonals, shape [n, 3]."""
-    index = np.arange(MOST_CORNERS) + 0.5
-    height = 1.0 - 2.0 * index / MOST_CORNERS
-    turn = np.pi * (1.0 + np.sqrt(5.0)) * index
-    radius = np.sqrt(1.0 - height**2)
-    even = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
     signs = np.array(np.meshgrid([-1, 0, 1], [-1, 0, 1], [-1, 0, 1])).reshape(3, -1).T
     signs = signs[np.abs(signs).sum(axis=1) > 0]
     exact = signs / np.linalg.norm(signs, axis=1, keepdims=True)
-    return np.concatenate([exact, even]).astype(np.float32)
+    return np.concatenate([exact, spread_directions(MOST_CORNERS)]).astype(np.float32)
 
 
 def _extreme(points: FloatArray) -> FloatArray:

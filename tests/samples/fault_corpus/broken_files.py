@@ -1,10 +1,12 @@
 """Files that cannot be read, or must not be."""
 
-from .exhibits import Exhibit, edited, mjcf, refiled, restated, urdf
+from .exhibits import edited, filed, listed, mjcf, restated, urdf
 from .good_things import kiosk
 
 URDF = urdf(kiosk())
 MJCF = mjcf(kiosk())
+HULL = "door_hull_0.obj"
+SHAPE = f'<mesh filename="{HULL}"/>'
 DOOR = ".//body[@name='door']/inertial"
 LID = ".//body[@name='lid']"
 LID_ORIGIN = ".//joint[@name='flap']/origin"
@@ -27,6 +29,8 @@ PNG = bytes.fromhex(
 ASSET = '<mujoco><asset><mesh name="inner" file="../secret.obj"/></asset></mujoco>'
 MODEL = '<mujoco><worldbody><body name="inner"><geom size="0.1"/></body></worldbody></mujoco>'
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+#: A pyramid.
+SOLID = TRIANGLE + "v 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
 LOST_CORNER = "v nan 0 1\nf 1 2 3\nf 1 2 4\n"
 INCLUDE = '<include file="../more.xml"/>'
 
@@ -41,65 +45,10 @@ def in_mjcf(old, new):
     return edited(MJCF, (old, new))
 
 
-def broken_files():
-    """One file for every code of the readers."""
-    hull = "door_hull_0.obj"
-    shape = f'<mesh filename="{hull}"/>'
-    for name, code, build in (
-        ("mesh_missing.urdf", "missing_file", refiled(URDF, hull, None)),
-        ("visual_missing.urdf", "missing_file", refiled(URDF, "door_seen_0.obj", None)),
-        ("mesh_missing.mjcf", "unreadable", refiled(MJCF, hull, None)),
-        ("mesh_outside.urdf", "outside_folder", in_urdf(hull, f"../{hull}")),
-        ("mesh_absolute.urdf", "outside_folder", in_urdf(hull, "/etc/hostname")),
-        ("mesh_from_the_net.urdf", "outside_folder", in_urdf(hull, f"http://example.org/{hull}")),
-        ("mesh_outside.mjcf", "outside_folder", in_mjcf(hull, f"../{hull}")),
-        ("include_outside.mjcf", "outside_folder", in_mjcf("<asset>", f"{INCLUDE}<asset>")),
-        ("entity_bomb.urdf", "forbidden_doctype", in_urdf('<robot name="kiosk">', BOMB)),
-        ("cut_off.urdf", "invalid_xml", in_urdf("</robot>", "")),
-        ("cut_off.mjcf", "invalid_xml", in_mjcf("</mujoco>", "")),
-        ("other_format.urdf", "unknown_format", edited(URDF, ("robot", "sdf"), count=-1)),
-        ("empty_robot.urdf", "no_links", lambda folder: _text(folder, '<robot name="nothing"/>')),
-        ("link_without_name.urdf", "missing_name", in_urdf('<link name="door">', "<link>")),
-        ("joint_without_child.urdf", "missing_element", in_urdf('<child link="door"/>', "")),
-        ("no_geometry.urdf", "missing_geometry", in_urdf(shape, "")),
-        ("cone.urdf", "unknown_geometry", in_urdf(shape, '<cone radius="1"/>')),
-        ("no_radius.urdf", "missing_number", in_urdf(shape, '<sphere diameter="1"/>')),
-        ("origin_nan.urdf", "not_finite", in_urdf('xyz="0.0 -0.004', 'xyz="nan -0.004')),
-        ("sphere_nan.urdf", "not_finite", in_urdf(shape, '<sphere radius="nan"/>')),
-        ("rod_without_end.urdf", "not_finite", in_urdf(shape, ENDLESS)),
-        ("origin_1e300.urdf", "not_finite", restated(URDF, LID_ORIGIN, xyz="1e300 0 0")),
-        ("scale_1e200.urdf", "not_finite", in_urdf(f'"{hull}"/>', f'"{hull}" scale="1e200 1 1"/>')),
-        ("lid_at_nan.mjcf", "not_finite", restated(MJCF, LID, pos="nan 0 0")),
-        ("geom_at_infinity.mjcf", "not_finite", restated(MJCF, f"{LID}/geom", pos="inf 0 0")),
-        ("limit_in_words.urdf", "invalid_number", in_urdf('upper="0.3"', 'upper="wide"')),
-        ("step_file.urdf", "unsupported_mesh", _renamed(hull, "door.step")),
-        ("garbage_mesh.urdf", "unreadable_mesh", _renamed(hull, "door.glb")),
-        ("face_out_of_range.urdf", "unreadable_mesh", refiled(URDF, hull, TRIANGLE + "f 1 2 9\n")),
-        ("empty_mesh.urdf", "empty_mesh", refiled(URDF, hull, "# nothing\n")),
-        ("mesh_nan.urdf", "not_finite", refiled(URDF, hull, TRIANGLE + LOST_CORNER)),
-        ("needle_inertia.mjcf", "unreadable", restated(MJCF, DOOR, fullinertia=NEEDLE)),
-        ("negative_mass.mjcf", "unreadable", in_mjcf('mass="2.5"', 'mass="-2.5"')),
-        ("axis_zero.mjcf", "unreadable", in_mjcf('axis="0.0 -1.0 0.0"', 'axis="0 0 0"')),
-        ("limits_swapped.mjcf", "unreadable", in_mjcf('range="0.0 0.3"', 'range="0.3 0.0"')),
-        ("names_twice.mjcf", "unreadable", in_mjcf('<joint name="hinge"', '<joint name="slide"')),
-        ("huge_document.urdf", "too_large", _padded),
-    ):
-        yield Exhibit(name, build, code)
-
-
-def _text(folder, text):
+def _empty(folder):
     path = folder / "text.urdf"
-    path.write_text(text)
+    path.write_text('<robot name="nothing"/>')
     return path
-
-
-def _renamed(hull, name):
-    def write(folder):
-        path = in_urdf(hull, name)(folder)
-        (folder / name).write_bytes(b"neither a mesh nor a text \0\1\2")
-        return path
-
-    return write
 
 
 def _padded(folder):
@@ -109,34 +58,61 @@ def _padded(folder):
     return path
 
 
-def reaching_out():
-    """References that lead to a file just outside the folder, which is there."""
-    include = in_mjcf("<worldbody>", '<include file="inner.xml"/><worldbody>')
-    texture = in_mjcf("<asset>", '<asset><texture name="t" type="2d" file="../secret.png"/>')
-    model = in_mjcf("<asset>", '<asset><model name="m" file="../secret.xml"/>')
-    mesh = in_urdf("door_hull_0.obj", "../secret.obj")
-    copied = {"secret.obj": "door_hull_0.obj"}
-    for name, build in (
-        ("include_reaches_out.mjcf", _beside(include, {"inner.xml": ASSET.encode()}, copied)),
-        ("texture_outside.mjcf", _beside(texture, {}, {"secret.png": PNG})),
-        ("model_outside.mjcf", _beside(model, {}, {"secret.xml": MODEL.encode()})),
-        ("mesh_just_outside.urdf", _beside(mesh, {}, copied)),
-    ):
-        yield Exhibit(name, build, "outside_folder")
+def _garbage(name):
+    return filed(in_urdf(HULL, name), {name: b"neither a mesh nor a text \0\1\2"})
 
 
-def _beside(build, inside, outside):
-    """Write in a subfolder, other files beside it and some outside; text names one to copy."""
+def _beside(build, files):
+    """Writes in a subfolder, so that files may lie outside."""
+    return filed(build, files, home="home")
 
-    def write(folder):
-        home = folder / "home"
-        home.mkdir()
-        path = build(home)
-        for name, content in inside.items():
-            (home / name).write_bytes(content)
-        for name, source in outside.items():
-            content = (home / source).read_bytes() if isinstance(source, str) else source
-            (folder / name).write_bytes(content)
-        return path
 
-    return write
+INNER = in_mjcf("<worldbody>", '<include file="inner.xml"/><worldbody>')
+TEXTURE = in_mjcf("<asset>", '<asset><texture name="t" type="2d" file="../secret.png"/>')
+ATTACHED = in_mjcf("<asset>", '<asset><model name="m" file="../secret.xml"/>')
+SECRET = {"../secret.obj": SOLID}
+#: One file for every code of the readers.
+BROKEN = listed(
+    ("mesh_missing.urdf", "missing_file", filed(URDF, {HULL: None})),
+    ("visual_missing.urdf", "missing_file", filed(URDF, {"door_seen_0.obj": None})),
+    ("mesh_missing.mjcf", "unreadable", filed(MJCF, {HULL: None})),
+    ("mesh_outside.urdf", "outside_folder", in_urdf(HULL, f"../{HULL}")),
+    ("mesh_absolute.urdf", "outside_folder", in_urdf(HULL, "/etc/hostname")),
+    ("mesh_from_the_net.urdf", "outside_folder", in_urdf(HULL, f"http://example.org/{HULL}")),
+    ("mesh_outside.mjcf", "outside_folder", in_mjcf(HULL, f"../{HULL}")),
+    ("include_outside.mjcf", "outside_folder", in_mjcf("<asset>", f"{INCLUDE}<asset>")),
+    ("entity_bomb.urdf", "forbidden_doctype", in_urdf('<robot name="kiosk">', BOMB)),
+    ("cut_off.urdf", "invalid_xml", in_urdf("</robot>", "")),
+    ("cut_off.mjcf", "invalid_xml", in_mjcf("</mujoco>", "")),
+    ("other_format.urdf", "unknown_format", edited(URDF, ("robot", "sdf"), count=-1)),
+    ("empty_robot.urdf", "no_links", _empty),
+    ("link_without_name.urdf", "missing_name", in_urdf('<link name="door">', "<link>")),
+    ("joint_without_child.urdf", "missing_element", in_urdf('<child link="door"/>', "")),
+    ("no_geometry.urdf", "missing_geometry", in_urdf(SHAPE, "")),
+    ("cone.urdf", "unknown_geometry", in_urdf(SHAPE, '<cone radius="1"/>')),
+    ("no_radius.urdf", "missing_number", in_urdf(SHAPE, '<sphere diameter="1"/>')),
+    ("origin_nan.urdf", "not_finite", in_urdf('xyz="0.0 -0.004', 'xyz="nan -0.004')),
+    ("sphere_nan.urdf", "not_finite", in_urdf(SHAPE, '<sphere radius="nan"/>')),
+    ("rod_without_end.urdf", "not_finite", in_urdf(SHAPE, ENDLESS)),
+    ("origin_1e300.urdf", "not_finite", restated(URDF, LID_ORIGIN, xyz="1e300 0 0")),
+    ("scale_1e200.urdf", "not_finite", in_urdf(f'"{HULL}"/>', f'"{HULL}" scale="1e200 1 1"/>')),
+    ("lid_at_nan.mjcf", "not_finite", restated(MJCF, LID, pos="nan 0 0")),
+    ("geom_at_infinity.mjcf", "not_finite", restated(MJCF, f"{LID}/geom", pos="inf 0 0")),
+    ("limit_in_words.urdf", "invalid_number", in_urdf('upper="0.3"', 'upper="wide"')),
+    ("step_file.urdf", "unsupported_mesh", _garbage("door.step")),
+    ("garbage_mesh.urdf", "unreadable_mesh", _garbage("door.glb")),
+    ("face_out_of_range.urdf", "unreadable_mesh", filed(URDF, {HULL: TRIANGLE + "f 1 2 9\n"})),
+    ("empty_mesh.urdf", "empty_mesh", filed(URDF, {HULL: "# nothing\n"})),
+    ("mesh_nan.urdf", "not_finite", filed(URDF, {HULL: TRIANGLE + LOST_CORNER})),
+    ("needle_inertia.mjcf", "unreadable", restated(MJCF, DOOR, fullinertia=NEEDLE)),
+    ("negative_mass.mjcf", "unreadable", in_mjcf('mass="2.5"', 'mass="-2.5"')),
+    ("axis_zero.mjcf", "unreadable", in_mjcf('axis="0.0 -1.0 0.0"', 'axis="0 0 0"')),
+    ("limits_swapped.mjcf", "unreadable", in_mjcf('range="0.0 0.3"', 'range="0.3 0.0"')),
+    ("names_twice.mjcf", "unreadable", in_mjcf('<joint name="hinge"', '<joint name="slide"')),
+    ("huge_document.urdf", "too_large", _padded),
+    # References that lead to a file just outside the folder, which is there.
+    ("include_reaches_out.mjcf", "outside_folder", _beside(INNER, SECRET | {"inner.xml": ASSET})),
+    ("texture_outside.mjcf", "outside_folder", _beside(TEXTURE, {"../secret.png": PNG})),
+    ("model_outside.mjcf", "outside_folder", _beside(ATTACHED, {"../secret.xml": MODEL})),
+    ("mesh_just_outside.urdf", "outside_folder", _beside(in_urdf(HULL, "../secret.obj"), SECRET)),
+)

@@ -1,79 +1,10 @@
 """Parts that penetrate each other, at rest or on their way."""
 
-from collections.abc import Iterator
-from dataclasses import replace
-
 import numpy as np
 
-from .exhibits import ENGINES, Exhibit, both, edited, mjcf
+from .exhibits import ENGINES, Exhibit, both, edited, mjcf, urdf
 from .good_things import BOARD, GAP, cabinet, oven
 from .things import Body, Move, Thing, at, box, shifted, with_body, with_move
-
-
-def overlapping() -> Iterator[Exhibit]:
-    """Parts that overlap with everything closed."""
-    thing = cabinet()
-    tub = thing.bodies[1].pieces
-    shell = thing.bodies[0].pieces
-    door = thing.bodies[2].pieces[0]
-    wide = tuple(piece * [0.574 / 0.556, 1.0, 1.0] for piece in tub[:-1])
-    long = _longer(tub, 0.013 + 2 * GAP)
-    low = door + np.where(door[:, 2:] < 0.4, [[0.0, 0.0, -0.012]], [[0.0, 0.0, 0.0]])
-    too_wide = with_body(thing, "drawer", pieces=(*wide, tub[-1]))
-    yield from both("drawer_too_wide", too_wide, "rest_penetration")
-    too_long = with_body(thing, "drawer", pieces=long)
-    for exhibit in both("drawer_too_long", too_long, "rest_penetration"):
-        yield replace(exhibit, engines={"mujoco": "pushed_at_rest"})
-    yield from both("fronts_overlap", with_body(thing, "door", pieces=(low,)), "rest_penetration")
-    filled = with_body(thing, "carcass", pieces=(np.vstack(shell),), looks=shell)
-    yield from both("cavity_filled", filled, "interior_filled")
-    yield from both("door_10_cm_inside", _shifted(thing, 2, (0.0, 0.1, 0.0)), "rest_penetration")
-
-
-def colliding() -> Iterator[Exhibit]:
-    """Nothing overlaps closed; opening makes parts penetrate."""
-    thing = cabinet()
-    for name, blocked in (
-        ("hinge_opens_inwards", with_move(thing, "hinge", axis=(0.0, 0.0, 1.0))),
-        ("drawer_opens_backwards", with_move(thing, "slide", axis=(0.0, 1.0, 0.0))),
-        ("drawer_moves_sideways", with_move(thing, "slide", axis=(1.0, 0.0, 0.0))),
-        ("hinge_inside_the_door", with_body(thing, "door", frame=at(-0.25, -GAP, 0.5))),
-        ("lid_turns_too_far", with_move(thing, "flap", upper=4.5)),
-        ("door_turns_too_far", with_move(thing, "hinge", upper=5.5)),
-        ("screw_in_the_way", screw_in_the_way()),
-        ("wall_in_front", wall_in_front()),
-    ):
-        yield from both(name, blocked, "sweep_penetration")
-    yield from both("flap_on_an_open_drawer", flap_over_drawer(), "joint_obstructed")
-    for exhibit in both("each_bars_the_other", deadlock(), "sweep_penetration"):
-        heard = ("mujoco",) if exhibit.name.endswith("mjcf") else ENGINES
-        yield replace(exhibit, engines=dict.fromkeys(heard, "jammed"))
-
-
-def astray() -> Iterator[Exhibit]:
-    """Nothing ever meets anything, because it moves where nothing is, or not at all."""
-    thing = cabinet()
-    far = with_body(thing, "door", frame=at(-0.3, -2.0, 0.5))
-    yield from both("hinge_far_away", far, "axis_remote")
-    yield from both("lid_next_door", _shifted(thing, 3, (30.0, 0.0, 0.0)), "part_remote")
-    yield from both("lid_in_the_air", _shifted(thing, 3, (0.0, 0.0, 0.3)), "part_detached")
-    yield from both("drawer_leaves", with_move(thing, "slide", upper=3.0), "range_implausible")
-    short = with_move(thing, "slide", upper=1e-4)
-    yield from both("hardly_a_range", short, "range_tiny", "warning")
-
-
-def meeting() -> Iterator[Exhibit]:
-    """What is reported and does not reject."""
-    yield from both("rack_behind_a_door", oven(), "joint_dependency", "warning")
-    yield from both("both_open", crossing(), "joints_collide", "warning")
-    # Nothing in the file tells the engines that this overlap is a knuckle.
-    for exhibit in both("knuckle", knuckle(0.05), "hinge_overlap", "warning"):
-        yield replace(exhibit, engines={"mujoco": "jammed"})
-    yield from both("knuckle_too_long", knuckle(0.5), "rest_penetration")
-    exclude = '<contact><exclude body1="drawer" body2="carcass"/></contact></mujoco>'
-    tub = tuple(piece * [1.03, 1.0, 1.0] for piece in cabinet().bodies[1].pieces)
-    wide = edited(mjcf(with_body(cabinet(), "drawer", pieces=tub)), ("</mujoco>", exclude))
-    yield Exhibit("excluded_overlap.mjcf", wide, "excluded_penetration", "warning")
 
 
 def screw_in_the_way(at_value: float = 0.2017, width: float = 0.002) -> Thing:
@@ -174,3 +105,51 @@ def _shifted(thing: Thing, index: int, by: tuple[float, float, float]) -> Thing:
     frame[:3, 3] += by
     pieces = tuple(piece + np.array(by) for piece in body.pieces)
     return with_body(thing, body.name, pieces=pieces, frame=frame)
+
+
+CABINET = cabinet()
+SHELL, TUB, (DOOR,), _ = (body.pieces for body in CABINET.bodies)
+WIDE = (*(piece * [0.574 / 0.556, 1.0, 1.0] for piece in TUB[:-1]), TUB[-1])
+LOW = DOOR + np.where(DOOR[:, 2:] < 0.4, [[0.0, 0.0, -0.012]], [[0.0, 0.0, 0.0]])
+LONG = with_body(CABINET, "drawer", pieces=_longer(TUB, 0.013 + 2 * GAP))
+FILLED = with_body(CABINET, "carcass", pieces=(np.vstack(SHELL),), looks=SHELL)
+FAR = with_body(CABINET, "door", frame=at(-0.3, -2.0, 0.5))
+EXCLUDE = '<contact><exclude body1="drawer" body2="carcass"/></contact></mujoco>'
+WIDER = with_body(CABINET, "drawer", pieces=tuple(piece * [1.03, 1.0, 1.0] for piece in TUB))
+EXCLUDED = edited(mjcf(WIDER), ("</mujoco>", EXCLUDE))
+ALL_JAM = dict.fromkeys(ENGINES, "jammed")
+REST = "rest_penetration"
+SWEEP = "sweep_penetration"
+BROKEN = (
+    # Parts that overlap with everything closed.
+    *both("drawer_too_wide", with_body(CABINET, "drawer", pieces=WIDE), REST),
+    *both("drawer_too_long", LONG, REST, mujoco="pushed_at_rest"),
+    *both("fronts_overlap", with_body(CABINET, "door", pieces=(LOW,)), REST),
+    *both("cavity_filled", FILLED, "interior_filled"),
+    *both("door_10_cm_inside", _shifted(CABINET, 2, (0.0, 0.1, 0.0)), REST),
+    # Nothing overlaps closed; opening makes parts penetrate.
+    *both("hinge_opens_inwards", with_move(CABINET, "hinge", axis=(0.0, 0.0, 1.0)), SWEEP),
+    *both("drawer_opens_backwards", with_move(CABINET, "slide", axis=(0.0, 1.0, 0.0)), SWEEP),
+    *both("drawer_moves_sideways", with_move(CABINET, "slide", axis=(1.0, 0.0, 0.0)), SWEEP),
+    *both("hinge_inside_the_door", with_body(CABINET, "door", frame=at(-0.25, -GAP, 0.5)), SWEEP),
+    *both("lid_turns_too_far", with_move(CABINET, "flap", upper=4.5), SWEEP),
+    *both("door_turns_too_far", with_move(CABINET, "hinge", upper=5.5), SWEEP),
+    *both("screw_in_the_way", screw_in_the_way(), SWEEP),
+    *both("wall_in_front", wall_in_front(), SWEEP),
+    *both("flap_on_an_open_drawer", flap_over_drawer(), "joint_obstructed"),
+    Exhibit("each_bars_the_other.urdf", urdf(deadlock()), SWEEP, engines=ALL_JAM),
+    Exhibit("each_bars_the_other.mjcf", mjcf(deadlock()), SWEEP, engines={"mujoco": "jammed"}),
+    # Nothing ever meets anything, because it moves where nothing is, or not at all.
+    *both("hinge_far_away", FAR, "axis_remote"),
+    *both("lid_next_door", _shifted(CABINET, 3, (30.0, 0.0, 0.0)), "part_remote"),
+    *both("lid_in_the_air", _shifted(CABINET, 3, (0.0, 0.0, 0.3)), "part_detached"),
+    *both("drawer_leaves", with_move(CABINET, "slide", upper=3.0), "range_implausible"),
+    *both("hardly_a_range", with_move(CABINET, "slide", upper=1e-4), "range_tiny", "warning"),
+    # What is reported and does not reject.
+    *both("rack_behind_a_door", oven(), "joint_dependency", "warning"),
+    *both("both_open", crossing(), "joints_collide", "warning"),
+    # Nothing in the file tells the engines that this overlap is a knuckle.
+    *both("knuckle", knuckle(0.05), "hinge_overlap", "warning", mujoco="jammed"),
+    *both("knuckle_too_long", knuckle(0.5), REST),
+    Exhibit("excluded_overlap.mjcf", EXCLUDED, "excluded_penetration", "warning"),
+)

@@ -18,26 +18,13 @@ def good(categories: tuple[str, ...] = QUICK) -> tuple[Exhibit, ...]:
         for category in categories
         for suffix in ("urdf", "mjcf")
     ]
-    return (*things, *broken_lint.sound_neighbours(), *broken_engines.holding(), *objects)
+    return (*things, *broken_lint.SOUND, *broken_engines.SOUND, *objects)
 
 
 def broken() -> tuple[Exhibit, ...]:
     """Each broken in one way."""
-    return (
-        *broken_files.broken_files(),
-        *broken_files.reaching_out(),
-        *broken_lint.broken_joints(),
-        *broken_lint.broken_bodies(),
-        *broken_lint.broken_shapes(),
-        *broken_motion.overlapping(),
-        *broken_motion.colliding(),
-        *broken_motion.astray(),
-        *broken_motion.meeting(),
-        *broken_engines.broken_loading(),
-        *broken_engines.broken_dynamics(),
-        *broken_engines.creeping(),
-        *broken_engines.unsteady(),
-    )
+    modules = (broken_files, broken_lint, broken_motion, broken_engines)
+    return tuple(exhibit for module in modules for exhibit in module.BROKEN)
 
 
 def blind_spots() -> tuple[Exhibit, ...]:

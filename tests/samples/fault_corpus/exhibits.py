@@ -1,7 +1,7 @@
 """What the fault corpus shows: a file, and what the judge must say of it."""
 
 import xml.etree.ElementTree as ET
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -13,6 +13,7 @@ ENGINES = ("sapien", "mujoco", "pybullet")
 DETECTORS = ("static", *ENGINES)
 #: Writes a file into an empty folder and returns the description's path.
 Builder = Callable[[Path], Path]
+Severity = Literal["error", "warning", "note"]
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Exhibit:
     name: str
     build: Builder
     code: str | None = None
-    severity: Literal["error", "warning", "note"] = "error"
+    severity: Severity = "error"
     seen_by: tuple[str, ...] = ("static",)
     engines: Mapping[str, str] = field(default_factory=dict)
 
@@ -55,15 +56,26 @@ def mjcf(thing: Thing) -> Builder:
     return lambda folder: write_mjcf(thing, folder)
 
 
+def listed(
+    *rows: tuple[str, str | None, Builder],
+    severity: Severity = "error",
+    engines: Mapping[str, Mapping[str, str]] | None = None,
+) -> tuple[Exhibit, ...]:
+    """Exhibits by name, code and builder; ``engines`` find some, by name, by codes of their own."""
+    own = engines or {}
+    return tuple(
+        Exhibit(name, build, code, severity, ("static",) if code else (), own.get(name, {}))
+        for name, code, build in rows
+    )
+
+
 def both(
-    name: str,
-    thing: Thing,
-    code: str | None,
-    severity: Literal["error", "warning", "note"] = "error",
-) -> Iterable[Exhibit]:
+    name: str, thing: Thing, code: str | None, severity: Severity = "error", **engines: str
+) -> tuple[Exhibit, ...]:
     """The same thing in both formats, which the static checks must see alike."""
-    yield Exhibit(f"{name}.urdf", urdf(thing), code, severity, ("static",) if code else ())
-    yield Exhibit(f"{name}.mjcf", mjcf(thing), code, severity, ("static",) if code else ())
+    files = {f"{name}.urdf": urdf(thing), f"{name}.mjcf": mjcf(thing)}
+    rows = ((file, code, build) for file, build in files.items())
+    return listed(*rows, severity=severity, engines=dict.fromkeys(files, engines))
 
 
 def edited(build: Builder, *edits: tuple[str, str], count: int = 1) -> Builder:
@@ -88,25 +100,25 @@ def edited(build: Builder, *edits: tuple[str, str], count: int = 1) -> Builder:
     return write
 
 
-def refiled(build: Builder, file: str, content: str | bytes | None) -> Builder:
-    """Writes, and then gives one of the written files other content, or removes it."""
+def filed(build: Builder, files: Mapping[str, str | bytes | None], home: str = ".") -> Builder:
+    """Writes, in a folder of the one given, and gives files other content there; none removes."""
 
     def write(folder: Path) -> Path:
-        path = build(folder)
-        target = folder / file
-        if not target.is_file():
-            raise ValueError(f"no file to change: {file}")
-        if content is None:
-            target.unlink()
-        else:
-            target.write_bytes(content.encode() if isinstance(content, str) else content)
+        (folder / home).mkdir(exist_ok=True)
+        path = build(folder / home)
+        for name, content in files.items():
+            target = folder / home / name
+            if content is None:
+                target.unlink()
+            else:
+                target.write_bytes(content.encode() if isinstance(content, str) else content)
         return path
 
     return write
 
 
-def restated(build: Builder, find: str, **attributes: str) -> Builder:
-    """Writes, then sets attributes of an XPath's first element."""
+def reworked(build: Builder, find: str, change: Callable[[ET.Element], object]) -> Builder:
+    """Writes, then changes an XPath's first element."""
 
     def write(folder: Path) -> Path:
         path = build(folder)
@@ -114,9 +126,13 @@ def restated(build: Builder, find: str, **attributes: str) -> Builder:
         element = document.find(find)
         if element is None:
             raise ValueError(f"no element to change: {find}")
-        for key, value in attributes.items():
-            element.set(key, value)
+        change(element)
         document.write(path)
         return path
 
     return write
+
+
+def restated(build: Builder, find: str, **attributes: str) -> Builder:
+    """Writes, then sets attributes of an XPath's first element."""
+    return reworked(build, find, lambda element: element.attrib.update(attributes))

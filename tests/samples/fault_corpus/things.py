@@ -9,13 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from asset_factory.sim_checks.description import Mimic
-
-FloatArray = npt.NDArray[np.float64]
+from asset_factory.sim_checks.description import FloatArray, Mimic
+from asset_factory.sim_checks.geometry.placing import placed, rigid
+from asset_factory.sim_checks.read import primitives
 
 
 @dataclass(frozen=True)
@@ -62,8 +61,8 @@ class Thing:
 
 def box(center: Sequence[float], size: Sequence[float]) -> FloatArray:
     """Corners of a box [m], shape [8, 3]."""
-    signs = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
-    return np.asarray(center, dtype=float) + signs * np.asarray(size, dtype=float)
+    corners, _ = primitives.box(np.asarray(size, dtype=float))
+    return corners + np.asarray(center, dtype=float)
 
 
 def shifted(corners: FloatArray, x: float, y: float, z: float) -> FloatArray:
@@ -73,9 +72,7 @@ def shifted(corners: FloatArray, x: float, y: float, z: float) -> FloatArray:
 
 def at(*origin: float) -> FloatArray:
     """A frame with the world's axes, shape [4, 4]."""
-    frame = np.eye(4)
-    frame[:3, 3] = origin
-    return frame
+    return rigid(np.eye(3), np.array(origin, dtype=float))
 
 
 def renewed(items: Iterable[Any], name: str, /, **changes: object) -> tuple[Any, ...]:
@@ -134,11 +131,8 @@ def write_urdf(thing: Thing, folder: Path) -> Path:
 
 def write_mjcf(thing: Thing, folder: Path) -> Path:
     """The thing as MJCF: root fixed to the world, pieces as mesh geoms, visuals without contact."""
-    children: dict[str, list[str]] = {}
-    for move in thing.moves:
-        children.setdefault(move.parent, []).append(move.child)
     meshes: list[str] = []
-    tree = _mjcf_body(thing, thing.bodies[0], children, folder, meshes)
+    tree = _mjcf_body(thing, thing.bodies[0], folder, meshes)
     path = folder / f"{thing.name}.xml"
     path.write_text(
         f'<mujoco model="{thing.name}"><compiler angle="radian"/>'
@@ -199,9 +193,7 @@ def _mjcf_equality(move: Move) -> str:
     return f'<equality><joint {pair} polycoef="{rate}"/></equality>'
 
 
-def _mjcf_body(
-    thing: Thing, body: Body, children: dict[str, list[str]], folder: Path, meshes: list[str]
-) -> str:
+def _mjcf_body(thing: Thing, body: Body, folder: Path, meshes: list[str]) -> str:
     move = next((item for item in thing.moves if item.child == body.name), None)
     above = np.eye(4) if move is None else _body(thing, move.parent).frame
     origin = np.linalg.inv(above) @ body.frame
@@ -225,10 +217,8 @@ def _mjcf_body(
             mesh = file.removesuffix(".obj")
             meshes.append(f'<mesh name="{mesh}" file="{file}"/>')
             text.append(f'<geom type="mesh" mesh="{mesh}"{extra}/>')
-    below = (
-        _mjcf_body(thing, _body(thing, name), children, folder, meshes)
-        for name in children.get(body.name, [])
-    )
+    held = (_body(thing, item.child) for item in thing.moves if item.parent == body.name)
+    below = (_mjcf_body(thing, each, folder, meshes) for each in held)
     return "".join([*text, *below, "</body>"])
 
 
@@ -256,8 +246,7 @@ def _inertia(body: Body) -> tuple[FloatArray, FloatArray]:
 
 
 def _local(body: Body, corners: FloatArray) -> FloatArray:
-    inverse = np.linalg.inv(body.frame)
-    return corners @ inverse[:3, :3].T + inverse[:3, 3]
+    return placed(corners, np.linalg.inv(body.frame))
 
 
 def _body(thing: Thing, name: str) -> Body:

@@ -5,24 +5,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from box_world import body, box_shape, built, cabinet, sliding, turning, with_link
+from box_world import body, box_shape, built, cabinet, penetrating, sliding, turning, with_link
 from hypothesis import given
 from hypothesis import strategies as st
 from small_cabinet import rows
 
 from asset_factory.sim_checks.checks.cause import Cause, Way, shown_cause
-from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
 
 CONFIG = PenetrationConfig()
 
 
-def check(description):
-    return check_penetration(description, CONFIG)
-
-
 def causes(description):
-    return [(finding.code, finding.cause) for finding in check(description).findings]
+    return [(finding.code, finding.cause) for finding in penetrating(description).findings]
 
 
 def shown_as(description, name, visible):
@@ -104,7 +99,7 @@ def test_a_chip_of_the_carcass_that_is_called_the_doors_has_leaked():
 
 
 def test_finding_and_measurements_say_the_same_and_the_message_says_why():
-    result = check(cabinet("wide"))
+    result = penetrating(cabinet("wide"))
     (finding,) = result.findings
     (measured,) = [item for item in result.measurements["rest"] if item["depth_mm"] > 2.0]
     assert (measured["cause"], finding.cause) == ("parts_overlap", "parts_overlap")
@@ -121,14 +116,14 @@ def test_a_joints_visible_clearance_stands_beside_its_hulls():
         replace(shape, vertices=shape.vertices * [(0.279 / 0.28), 1.0, 1.0])
         for shape in slim.links[1].visuals[:2]
     )
-    result = check(with_link(slim, "drawer", visuals=visuals))
+    result = penetrating(with_link(slim, "drawer", visuals=visuals))
     slide = rows(result)["slide"]
     assert slide["clearance_mm"] == pytest.approx(2.0, abs=0.05)
     assert slide["visual_clearance_mm"] == pytest.approx(3.0, abs=0.05)
 
 
 def test_a_sound_cabinet_needs_no_explanation():
-    measured = check(cabinet()).measurements
+    measured = penetrating(cabinet()).measurements
     contacts = [*measured["rest"], *(pair for item in measured["joints"] for pair in item["pairs"])]
     assert contacts
     assert {item["cause"] for item in contacts} == {None}

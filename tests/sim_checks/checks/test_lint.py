@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from box_world import body, box_shape, cabinet, described, joint, with_joint, with_link
+from box_world import body, box_shape, cabinet, described, joint, linted, with_joint, with_link
 
 from asset_factory.sim_checks.checks.lint import check_lint
 from asset_factory.sim_checks.config import LintConfig
@@ -18,7 +18,7 @@ SOFT = Severity.WARNING
 
 
 def found(description):
-    return {each.code: each.severity for each in check_lint(description, LintConfig()).findings}
+    return {each.code: each.severity for each in linted(description)}
 
 
 def inertia(mass=2.0, moments=(0.01, 0.01, 0.01), at=-0.2):
@@ -68,9 +68,8 @@ def test_numbers_at_the_end_of_their_range_have_a_code_too(changes, code, severi
 
 @pytest.mark.parametrize("factor", [0.09, 11.0])
 def test_of_a_collision_shape_of_another_scale_the_scale_is_told(factor):
-    findings = check_lint(with_link(cabinet(), "drawer", **scaled(factor)), LintConfig()).findings
-    (value,) = (item.value for item in findings if item.code == "collision_scale")
-    assert value == pytest.approx(factor, rel=1e-3)
+    (finding,) = linted(with_link(cabinet(), "drawer", **scaled(factor)), "collision_scale")
+    assert finding.value == pytest.approx(factor, rel=1e-3)
 
 
 def test_an_axis_nearly_of_length_1_is_only_warned_of():
@@ -103,8 +102,8 @@ def test_what_lies_beyond_a_knife_s_edge_is_not_covered(wedges, covered):
 
 
 def test_the_ratio_of_hull_to_mesh_volume_is_told():
-    result = check_lint(with_link(cabinet(), "drawer", collisions=(HOLLOW,)), LintConfig())
-    finding = next(item for item in result.findings if item.code == "nonconvex_collision")
+    hollow = with_link(cabinet(), "drawer", collisions=(HOLLOW,))
+    (finding,) = linted(hollow, "nonconvex_collision")
     assert finding.value == pytest.approx(4.5, abs=1.5)
 
 
@@ -112,8 +111,7 @@ def test_a_file_without_any_collision_is_told_once():
     description = cabinet()
     for name in ("carcass", "drawer", "door"):
         description = with_link(description, name, collisions=())
-    findings = check_lint(description, LintConfig()).findings
-    assert [each.parts for each in findings if each.code == "no_collision"] == [()]
+    assert [each.parts for each in linted(description, "no_collision")] == [()]
 
 
 def test_a_free_root_is_no_fault_but_a_free_limb_is():
@@ -121,5 +119,4 @@ def test_a_free_root_is_no_fault_but_a_free_limb_is():
     free = joint("free", "floating", "world", "body", (0, 0, 0), (1, 0, 0), None)
     assert found(described(cubes[:2], [free]))["unknown_joint_type"] is SOFT
     limb = joint("limb", "floating", "body", "limb", (0, 0, 0), (1, 0, 0), None)
-    findings = check_lint(described(cubes, [free, limb]), LintConfig()).findings
-    assert HARD in [each.severity for each in findings]
+    assert HARD in [each.severity for each in linted(described(cubes, [free, limb]))]

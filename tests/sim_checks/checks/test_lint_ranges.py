@@ -4,10 +4,8 @@ import math
 from dataclasses import replace
 
 import pytest
-from box_world import body, cabinet, described, joint, with_joint
+from box_world import body, cabinet, described, joint, linted, with_joint
 
-from asset_factory.sim_checks.checks.lint import check_lint
-from asset_factory.sim_checks.config import LintConfig
 from asset_factory.sim_checks.report import Report, Severity
 
 ERROR = Severity.ERROR
@@ -17,10 +15,6 @@ TURNS = 4.0 * math.pi
 ACROSS = math.hypot(0.6, 0.42, 0.8)
 #: What a message may say of the cause.
 WORDS = ("millimetres", "degrees", "effort", "velocity")
-
-
-def told(description, code):
-    return [item for item in check_lint(description, LintConfig()).findings if item.code == code]
 
 
 @pytest.mark.parametrize(
@@ -50,7 +44,7 @@ def told(description, code):
     ],
 )
 def test_a_range_or_a_drive_of_no_such_object_is_told(name, changes, code, severity, words):
-    found = told(with_joint(cabinet(), name, **changes), code)
+    found = linted(with_joint(cabinet(), name, **changes), code)
     assert [(item.joint, item.severity) for item in found] == ([(name, severity)] * bool(severity))
     assert [word for item in found for word in WORDS if word in item.message] == words
     assert Report("x", (), tuple(found)).to_json()
@@ -60,7 +54,7 @@ def test_a_range_or_a_drive_of_no_such_object_is_told(name, changes, code, sever
     ("name", "upper", "limit"), [("slide", 300.0, 2.0 * ACROSS), ("hinge", 90.0, TURNS)]
 )
 def test_a_range_is_told_with_the_longest_that_is_fair(name, upper, limit):
-    (found,) = told(with_joint(cabinet(), name, upper=upper), "range_implausible")
+    (found,) = linted(with_joint(cabinet(), name, upper=upper), "range_implausible")
     assert (found.value, found.limit) == (upper, pytest.approx(limit, rel=1e-5))
 
 
@@ -136,10 +130,10 @@ def door(**resistance):
     ],
 )
 def test_an_axis_a_part_or_resistance_out_of_all_proportion_is_told(thing, code, severity, value):
-    found = [(item.severity, item.value) for item in told(thing, code)]
+    found = [(item.severity, item.value) for item in linted(thing, code)]
     assert found == ([(severity, pytest.approx(value, rel=1e-5))] if severity else [])
 
 
 def test_a_part_may_be_as_far_off_as_the_larger_is_across():
-    (found,) = told(lamp(0.51), "part_remote")
+    (found,) = linted(lamp(0.51), "part_remote")
     assert found.limit == pytest.approx(math.hypot(0.4, 0.3, 0.02), abs=1e-6)

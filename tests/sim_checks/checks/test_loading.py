@@ -101,44 +101,32 @@ def description(tmp_path_factory):
         (held("drawer", shapes=0), ["shape_dropped"]),
         (held("drawer", shapes=2), ["shape_added"]),
         (held("drawer", mass=3.001), ["mass_mismatch"]),
+        (held("drawer", mass=float(np.float32(3.0))), []),
         (held("drawer", moments=(1.0, 1.0, 1.0)), ["inertia_mismatch"]),
         (held("drawer", center=(0.0, 0.0, 0.0)), ["center_mismatch"]),
         (held("drawer", name="other"), ["link_missing", "link_added"]),
+        (held("carcass", mass=0.0, moments=None, static=True), []),
         (held("slide", kind="revolute"), ["joint_kind"]),
         (held("slide", upper=0.30001), ["limit_mismatch"]),
         (held("slide", lower=float("-inf")), ["limit_mismatch"]),
         (held("slide", upper=NAN), ["limit_mismatch"]),
+        (held("hinge", upper=float(np.float32(1.57))), []),
         (held("slide", axis=(1.0, 0.0, 0.0)), ["axis_mismatch"]),
         (held("slide", axis=(-1.0, 0.001, 0.0)), ["axis_mismatch"]),
+        (held("slide", axis=(-1.0, 5e-5, 0.0)), []),
         (held("slide", axis=(0.0, 0.0, 0.0)), ["axis_mismatch"]),
+        (held("slide", axis=None), []),
         (held("slide", mimic=Mimic("hinge")), ["mimic_mismatch"]),
         (held("slide", name="other"), ["joint_missing", "joint_added"]),
         (shifted((1.1e-5, 0.0, 0.0), "door"), ["pose_mismatch"]),
+        (shifted((9e-6, 0.0, 0.0), "door"), []),
+        (shifted((1.0, 2.0, 3.0)), []),
+        (on_the_ground, []),
+        (lambda observation: observation, []),
     ],
 )
-def test_each_lie_about_the_file_is_named(description, change, wanted):
+def test_each_lie_about_the_file_is_named_and_rounding_is_none(description, change, wanted):
     assert codes(description, change(faithful(description))) == wanted
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        lambda observation: observation,
-        on_the_ground,
-        held("slide", axis=None),
-        held("slide", axis=(-1.0, 5e-5, 0.0)),
-        held("hinge", upper=float(np.float32(1.57))),
-        held("drawer", mass=float(np.float32(3.0))),
-        held("carcass", mass=0.0, moments=None, static=True),
-        shifted((9e-6, 0.0, 0.0), "door"),
-        shifted((1.0, 2.0, 3.0)),
-    ],
-    ids=["a faithful engine", "the ground as a link", "an axis that is not told",
-         "an axis turned by rounding", "a limit in single precision", "a mass in single precision",
-         "a static link without mass", "a link nearly where it is", "a base put elsewhere"],
-)  # fmt: skip
-def test_what_is_no_lie_is_not_held_against_an_engine(description, change):
-    assert codes(description, change(faithful(description))) == []
 
 
 @pytest.mark.parametrize(

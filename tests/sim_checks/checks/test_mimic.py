@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-from box_world import built, sliding, with_joint
+from box_world import built, linted, sliding, with_joint
 from hypothesis import given
 from hypothesis import strategies as st
 from small_cabinet import write_urdf
 
 from asset_factory.sim_checks.checks.agreement import pose_samples
-from asset_factory.sim_checks.checks.lint import check_lint
-from asset_factory.sim_checks.config import LintConfig
 from asset_factory.sim_checks.description import DescriptionError, Mimic
 from asset_factory.sim_checks.geometry.kinematics import build_tree
 from asset_factory.sim_checks.read.read import read_here
@@ -31,11 +29,6 @@ def three(**mimics):
 def places(description, values):
     poses = build_tree(description).link_poses(values)
     return [float(poses[name][0, 3]) for name in NAMES]
-
-
-def mimic_faults(description):
-    findings = check_lint(description, LintConfig()).findings
-    return [finding for finding in findings if finding.code.startswith("mimic")]
 
 
 @given(value=st.floats(0, 1), multiplier=st.floats(-3, 3), offset=st.floats(-1, 1))
@@ -84,14 +77,14 @@ def test_a_leader_goes_as_far_as_its_followers_can(mimic, expected):
 def test_a_follower_that_turns_far_enough_does_not_stop_its_leader(changes):
     turned = with_joint(three(b=Mimic("a", -1.0)), "b", **{"kind": "revolute", **changes})
     assert build_tree(turned).ranges.get("a") == (0.0, 1.0)
-    assert mimic_faults(turned) == []
+    assert linted(turned, "mimic") == []
 
 
 def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_fast():
     description = three(b=Mimic("a", 1.0, 0.6), c=Mimic("a", 1.0, -0.6))
     tree = build_tree(description)
     assert tree.ranges.get("a") is None
-    found = mimic_faults(description)
+    found = linted(description, "mimic")
     assert [(f.joint, str(f.severity), f.code) for f in found] == [
         (name, "error", "mimic_limits") for name in ("b", "c")
     ]
@@ -114,7 +107,7 @@ def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_
     ],
 )
 def test_each_fault_of_a_follower_has_its_code(mimics, faults):
-    findings = mimic_faults(three(**mimics))
+    findings = linted(three(**mimics), "mimic")
     assert {(f.code, str(f.severity), f.value) for f in findings} == faults
     assert [f.joint for f in findings[:1]] == ["b"] * len(faults)
 

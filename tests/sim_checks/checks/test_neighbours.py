@@ -2,20 +2,17 @@
 
 import re
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
-from box_world import box_hull, built, cabinet, sliding, turning, with_joint
+from box_world import box_hull, built, cabinet, penetrating, sliding, turning, with_joint
 
-from asset_factory.sim_checks.checks.penetration import check_penetration
-from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.depth import overlap
 from asset_factory.sim_checks.geometry.kinematics import rotation_about
 
-
-def check(description, combinations=0, **limits):
-    return check_penetration(description, PenetrationConfig(combinations=combinations, **limits))
+check = partial(penetrating, combinations=0)
 
 
 def crossing(reach=0.3, **changes):

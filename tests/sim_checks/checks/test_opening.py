@@ -1,13 +1,11 @@
 """What stands in a joint's way may make way for it, but only if it opens before it."""
 
 import pytest
-from box_world import body, built, sliding
+from box_world import body, built, penetrating, sliding
 from fault_corpus.broken_motion import deadlock
 from fault_corpus.exhibits import urdf
 from small_cabinet import rows
 
-from asset_factory.sim_checks.checks.penetration import check_penetration
-from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.read.read import read_description
 from asset_factory.sim_checks.report import Severity
 
@@ -18,7 +16,7 @@ def gate(name, at, size, axis):
 
 
 def checked(description):
-    result = check_penetration(description, PenetrationConfig())
+    result = penetrating(description)
     return result, rows(result)
 
 

@@ -5,13 +5,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from box_world import body, box_hull, built, described, joint, sliding, turning
+from box_world import body, box_hull, built, described, joint, penetrating, sliding, turning
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asset_factory.sim_checks.checks.joint_sweep import JointCourse
 from asset_factory.sim_checks.checks.pairs import RestingSolids
-from asset_factory.sim_checks.checks.penetration import check_penetration
 from asset_factory.sim_checks.config import PenetrationConfig
 from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.collision import LookBudget
@@ -42,7 +41,7 @@ def doors(width, *, mimic):
 
 
 def checked(description):
-    result = check_penetration(description, CONFIG)
+    result = penetrating(description)
     return [(f.code, str(f.severity), f.joint) for f in result.findings], result.measurements
 
 

@@ -9,15 +9,8 @@ from asset_factory.sim_checks.geometry.hull import (
     convex_hull,
     farthest_along,
 )
+from asset_factory.sim_checks.geometry.placing import spread_directions as ball
 from asset_factory.sim_checks.read.primitives import box
-
-
-def ball(corners):
-    index = np.arange(corners) + 0.5
-    height = 1.0 - 2.0 * index / corners
-    turn = np.pi * (1.0 + np.sqrt(5.0)) * index
-    radius = np.sqrt(1.0 - height**2)
-    return np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height])
 
 
 def test_a_hull_of_few_corners_is_exact():
