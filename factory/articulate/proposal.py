@@ -1,4 +1,4 @@
-"""What articulators say: parts that may move, how they move, and whole articulations."""
+"""What articulators say: parts that may move, and how they move."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..articulation import Articulation, Joint, JointKind
+from ..articulation import Joint, JointKind
 from ..mesh import BoolArray, FloatArray, read_only
 from ..part import Panel, PartKind, PartSource, Proposer
 
@@ -113,27 +113,3 @@ def proposal_id(
         # Adding zero makes -0 and 0 one number.
         digest.update((np.round(numbers, ID_DECIMALS) + 0.0).astype("<f8").tobytes())
     return f"{proposer}-{digest.hexdigest()[:ID_LENGTH]}"
-
-
-@dataclass(frozen=True)
-class Hypothesis:
-    """A whole articulation that an object may have.
-
-    Attributes:
-        articulation: parts and joints.
-    """
-
-    articulation: Articulation
-
-    @property
-    def probability(self) -> float:
-        """Return the probability that every joint is right, as if they were independent, 0 to 1.
-
-        Joints that nobody rated count as certain.
-        """
-        chances = [
-            joint.confidence
-            for joint in self.articulation.movable_joints
-            if joint.confidence is not None
-        ]
-        return float(np.prod(chances))

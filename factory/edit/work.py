@@ -105,7 +105,7 @@ def guess(mesh: Path, config: BuildConfig) -> dict[str, Any]:
         (likeliest, *_) = hypotheses_of(intake, config)
     except InputRejected:
         return {}
-    made = likeliest.articulation
+    made = likeliest
     kinds = {part.name: part.kind for part in made.parts}
     scene = scene_of_articulation(intake.name, made)
     return _plain(found_parts(intake.mesh, scene, kinds))

@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any
 from urllib.parse import urlsplit
 
+from ...articulation import Articulation
 from ...config import BuildConfig, VlmConfig
 from ...errors import ConfigError, InputRejected
 from ...intake.intake import Intake
@@ -17,7 +18,6 @@ from ...mesh import Mesh
 from ...part import Proposer
 from ..annotated import annotated_articulator, annotation_of
 from ..articulator import Articulator, HypothesisMaker
-from ..proposal import Hypothesis
 from ..stated import StatedArticulator
 from .answers import answer_path, keep_answer, kept_answer
 from .endpoint import Reply, ask, require_endpoint
@@ -43,7 +43,7 @@ class VlmArticulator(HypothesisMaker):
         self._input_name = input_name
         self._config = config
 
-    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+    def hypotheses(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return the articulations that fit the model's answer, the likeliest first.
 
         Raises:
@@ -67,17 +67,14 @@ class VlmArticulator(HypothesisMaker):
         keep_answer(path, reply)
         return self._noted(found, reply)
 
-    def _noted(self, found: tuple[Hypothesis, ...], kept: Reply) -> tuple[Hypothesis, ...]:
+    def _noted(self, found: tuple[Articulation, ...], kept: Reply) -> tuple[Articulation, ...]:
         """Return hypotheses that say who proposed them, and what that cost."""
         host = urlsplit(self._config.url).hostname
         note = (
             f"{self._config.model} at {host} said what opens: "
             f"{kept.read} tokens read, {kept.written} written"
         )
-        trees = (each.articulation for each in found)
-        return tuple(
-            Hypothesis(replace(tree, articulator=NAME, notes=(*tree.notes, note))) for tree in trees
-        )
+        return tuple(replace(each, articulator=NAME, notes=(*each.notes, note)) for each in found)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
@@ -95,7 +92,7 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     return VlmArticulator(intake.provenance.input, config.vlm)
 
 
-def _found(text: str, mesh: Mesh) -> tuple[Hypothesis, ...]:
+def _found(text: str, mesh: Mesh) -> tuple[Articulation, ...]:
     """Return the articulations that an answer states.
 
     Raises:

@@ -20,7 +20,6 @@ from ...views.raster import Side
 from ..articulator import Articulator, HypothesisMaker
 from ..closing import note_open, with_closed_hinges
 from ..origin import MeshOrigin
-from ..proposal import Hypothesis
 from ..pruning import keep_parts
 from ..rigid import rigid_articulation
 from ..stated.articulator import StatedArticulator, seen_from
@@ -84,24 +83,22 @@ class DetectedArticulator(HypothesisMaker):
         """Return how whoever is asked is called."""
         return self.guess.name
 
-    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+    def hypotheses(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return what may open, the likeliest first; all that is seen together comes first."""
         straight = straightening(mesh)
         if straight is None:
-            made = self._articulations(mesh)
-        else:
-            turned = self._articulations(mesh.turned(straight))
-            made = [rotated(each, straight.T) for each in turned]
-        return tuple(Hypothesis(each) for each in made)
+            return self._articulations(mesh)
+        turned = self._articulations(mesh.turned(straight))
+        return tuple(rotated(each, straight.T) for each in turned)
 
-    def _articulations(self, mesh: Mesh) -> list[Articulation]:
+    def _articulations(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return the articulations that a mesh may have whose sides look along the axes."""
         from ...models.detector.detect import detect
 
         detection = detect(mesh)
         sure_kind = detection.kind if detection.kinds.max() >= SURE_KIND else None
         if sure_kind == LAPTOP and (made := _with_screen(mesh, float(detection.kinds.max()))):
-            return [self._noted(each, sure_kind) for each in made]
+            return tuple(self._noted(each, sure_kind) for each in made)
         least = self.agreement.least if self.least is None else self.least
         shell = MeshOrigin.of(mesh).is_shell
         seen = seen_from(mesh, Stated().front)
@@ -140,7 +137,7 @@ class DetectedArticulator(HypothesisMaker):
         if drawn is not None:
             told = [reopened(each, drawn) for each in told]
             notes += drawn.notes
-        return [self._noted(each, sure_kind, notes) for each in told]
+        return tuple(self._noted(each, sure_kind, notes) for each in told)
 
     def _noted(
         self, made: Articulation, kind: str | None, notes: tuple[str, ...] = ()
@@ -218,7 +215,7 @@ class DetectedArticulator(HypothesisMaker):
                 chances[joint.child] = chance
         return keep_parts(guess, kept, chances), alone or bool(chances)
 
-    def _with(self, guess: Articulation, parts: Sequence[DetectedPart]) -> list[Articulation]:
+    def _with(self, guess: Articulation, parts: Sequence[DetectedPart]) -> tuple[Articulation, ...]:
         """Return a guess with parts beside it; the least sure is left out where they do not fit."""
         seen = seen_from(guess.mesh, Stated().front)
         for count in range(len(parts), 0, -1):
@@ -230,10 +227,10 @@ class DetectedArticulator(HypothesisMaker):
                 seen=seen,
             )
             try:
-                return [each.articulation for each in stated.beside(guess)]
+                return stated.beside(guess)
             except InputRejected:
                 continue
-        return []
+        return ()
 
     def _still(self, mesh: Mesh, guess: Articulation, detection: Detection) -> Articulation:
         """Return an articulation that moves nothing, with notes on all that was seen."""
@@ -258,9 +255,9 @@ def _with_screen(mesh: Mesh, chance: float) -> list[Articulation]:
     notes = (note_open("its screen", screen.drawn),)
     made = []
     for each in hypotheses:
-        (joint,) = each.articulation.joints
+        (joint,) = each.joints
         drawn = {joint.name: min(float(np.radians(screen.drawn)), joint.upper)}
-        made.append(replace(posed(each.articulation, drawn), notes=notes))
+        made.append(replace(posed(each, drawn), notes=notes))
     return made
 
 

@@ -20,7 +20,7 @@ from ...mesh import BoolArray, IntArray, Mesh
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, HypothesisMaker, make_hypotheses
 from ..assembly import assembled
-from ..proposal import Hypothesis, Motion, Proposal
+from ..proposal import Motion, Proposal
 from ..rigid import rigid_articulation
 from ..seams.cutting import CutMesh, Region, cut_along, inside
 from .boxed import NOT_FOUND, USUAL, label_of
@@ -64,7 +64,7 @@ class StatedArticulator(HypothesisMaker):
         self._chances = tuple(chances)
         self._seen = seen
 
-    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+    def hypotheses(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return the articulations that fit the statement, the likeliest first.
 
         All share one mesh: the given one, cut along the outlines of all their parts.
@@ -75,16 +75,16 @@ class StatedArticulator(HypothesisMaker):
         _refuse_other_size(mesh, self.stated)
         if not self.stated.opens:
             note = "its sidecar says that nothing opens"
-            return (Hypothesis(rigid_articulation(mesh, self.name, (note,))),)
+            return (rigid_articulation(mesh, self.name, (note,)),)
         wanted = count_expected(self.stated.parts)
         if wanted:
             return self._filled(mesh, wanted)
         placed = self._placed_on(mesh)
         chosen = list(islice(_with_cut(_choices(placed)), MOST_HYPOTHESES))
         cut = cut_along(mesh, chain.from_iterable(_to_cut(ways) for ways in chosen))
-        return tuple(Hypothesis(self._articulation(cut, placed, ways)) for ways in chosen)
+        return tuple(self._articulation(cut, placed, ways) for ways in chosen)
 
-    def beside(self, guess: Articulation) -> tuple[Hypothesis, ...]:
+    def beside(self, guess: Articulation) -> tuple[Articulation, ...]:
         """Return the stated parts beside all that moves in a guess, the likeliest first.
 
         Raises:
@@ -99,16 +99,16 @@ class StatedArticulator(HypothesisMaker):
         seen = self._seen or seen_from(mesh, self.stated.front)
         return place_parts(seen, self.stated.parts)
 
-    def _beside(self, each: Expected) -> tuple[Hypothesis, ...]:
+    def _beside(self, each: Expected) -> tuple[Articulation, ...]:
         """Return the placed parts beside those wanted of a guess, cut from the guess's mesh."""
         made = []
         for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
             cut = cut_along(each.guess.mesh, _to_cut(ways))
             filled = self._articulation(cut, each.placed, ways, each.proposals(cut), each.hosts)
-            made.append(Hypothesis(replace(filled, weights=each.guess.weights)))
+            made.append(replace(filled, weights=each.guess.weights))
         return tuple(made)
 
-    def _filled(self, mesh: Mesh, wanted: Counter[PartKind]) -> tuple[Hypothesis, ...]:
+    def _filled(self, mesh: Mesh, wanted: Counter[PartKind]) -> tuple[Articulation, ...]:
         """Return the placed parts, and those that the guess has of expected ones."""
         if self.guess is None:
             bare = [part.view is None for part in self.stated.parts].index(True)
@@ -117,11 +117,11 @@ class StatedArticulator(HypothesisMaker):
                 f"{label_of(self.stated.parts[bare], bare)}: has no side and box; want them for "
                 "every part, or an articulator that looks for it, as auto does",
             )
-        guesses = [each.articulation for each in make_hypotheses(self.guess, mesh)]
+        guesses = make_hypotheses(self.guess, mesh)
         found = [find_expected(each, wanted, self._placed_on(each.mesh)) for each in guesses]
-        made: list[Hypothesis] = []
+        made: list[Articulation] = []
         for each in require_some(found, wanted):
-            made += (Hypothesis(each.guess),) if each.is_whole else self._beside(each)
+            made += (each.guess,) if each.is_whole else self._beside(each)
         return tuple(made[:MOST_HYPOTHESES])
 
     def _articulation(

@@ -43,7 +43,7 @@ def with_part(articulation, faces, kind=PartKind.PART, confidence=0.5, source=No
 
 
 def test_doors_that_nobody_proposes_are_added_and_say_who_saw_them():
-    made = detected(unmoving("fridge", 4))[0].articulation
+    made = detected(unmoving("fridge", 4))[0]
     doors = [part for part in made.parts if part.kind is PartKind.DOOR]
     assert len(doors) == len(make_object("fridge", 4).movable_joints)
     assert {part.source.proposer for part in doors} == {Proposer.DETECTOR}
@@ -59,7 +59,7 @@ def test_what_it_does_not_see_stays_fixed_and_what_it_sees_moves():
     base = proposed.parts[0]
     middles = truth.mesh.vertices[truth.mesh.faces[base.faces]].mean(axis=1)
     rear = base.faces[middles[:, 1] > np.quantile(middles[:, 1], 0.8)]
-    made = detected(with_part(proposed, rear))[0].articulation
+    made = detected(with_part(proposed, rear))[0]
     assert [part.name for part in made.parts] == [part.name for part in proposed.parts]
     assert len(made.mesh.faces) == len(truth.mesh.faces)
 
@@ -70,7 +70,7 @@ def test_knobs_that_rules_find_move_alone_and_guessed_ones_do_not(proposer, move
     source = PartSource("knob", proposer, 0.5, {})
     said = rigid_articulation(table, "auto", ())
     knob = with_part(said, np.arange(2), PartKind.KNOB, source=source)
-    made = detected(knob)[0].articulation
+    made = detected(knob)[0]
     assert bool(made.movable_joints) is moves
 
 
@@ -83,7 +83,7 @@ def test_a_drawer_that_rules_find_moves_where_something_opens(said, moves):
     source = PartSource("0", Proposer.RULES, 0.5, {})
     said = rigid_articulation(said.mesh, "auto", ())
     drawer = with_part(said, front_of(said.mesh, 0.1), PartKind.DRAWER, source=source)
-    assert bool(detected(drawer)[0].articulation.movable_joints) is moves
+    assert bool(detected(drawer)[0].movable_joints) is moves
 
 
 @pytest.mark.parametrize(
@@ -114,7 +114,7 @@ def front_of(mesh, share):
 def test_a_part_that_a_network_believes_gives_way_to_drawers_that_are_seen_there():
     said = unmoving("dresser", 1)
     believed = with_part(said, front_of(said.mesh, 0.1), confidence=0.9)
-    made = detected(believed)[0].articulation
+    made = detected(believed)[0]
     drawers = len(make_object("dresser", 1).movable_joints)
     assert [part.kind for part in made.parts[1:]] == [PartKind.DRAWER] * drawers
 
@@ -124,7 +124,7 @@ def test_of_one_piece_what_rules_take_for_a_door_gives_way_to_drawers_that_are_s
     source = PartSource("0", Proposer.RULES, 0.9, {})
     said = rigid_articulation(mesh, "auto", ())
     door = with_part(said, front_of(mesh, 0.1), PartKind.DOOR, source=source)
-    made = detected(door)[0].articulation
+    made = detected(door)[0]
     assert [part.kind for part in made.parts[1:]] == [PartKind.DRAWER] * 2
 
 
@@ -136,7 +136,7 @@ def test_a_lid_that_is_proposed_with_its_hinge_elsewhere_is_hung_where_its_sides
     moved = joint.origin + share * np.array([0.0, lid[0, 1] - joint.origin[1], 0.0])
     sure = tuple(replace(part, confidence=0.9, kind=PartKind.PART) for part in truth.parts)
     proposed = replace(truth, parts=sure, joints=(replace(joint, origin=moved),))
-    (made,) = detected(proposed)[0].articulation.movable_joints
+    (made,) = detected(proposed)[0].movable_joints
     assert made.origin[1] == pytest.approx(joint.origin[1], abs=0.15 * np.ptp(lid[:, 1]))
     assert abs(made.axis[0]) > 0.99
 
@@ -146,7 +146,7 @@ def test_a_knob_on_a_door_that_is_seen_is_its_pull():
     said = unmoving("fridge", 4)
     source = PartSource("knob", Proposer.RULES, 0.63, {})
     knob = with_part(said, front_of(said.mesh, 0.02), PartKind.KNOB, source=source)
-    made = detected(knob)[0].articulation
+    made = detected(knob)[0]
     assert [part.kind for part in made.parts[1:]] == [PartKind.DOOR] * len(truth.movable_joints)
 
 
@@ -156,15 +156,15 @@ def test_a_doors_lever_that_is_all_a_network_sees_gives_way_to_the_door():
     # Of the second no side shows enough to ask about it.
     for faces in (lever, lever[:2]):
         said = with_part(rigid_articulation(truth.mesh, "auto", ()), faces)
-        made = detected(said)[0].articulation
+        made = detected(said)[0]
         assert [part.kind for part in made.parts[1:]] == [PartKind.DOOR]
 
 
 def test_a_table_stays_shut_and_says_why():
     table = make_still("still_table", np.random.default_rng(4))
     (only,) = detected(rigid_articulation(table.mesh, "auto", ()))
-    assert not only.articulation.movable_joints
-    (looks,) = only.articulation.notes
+    assert not only.movable_joints
+    (looks,) = only.notes
     kind = r"it looks like a [a-z ]+ with probability \d\.\d\d"
     assert re.fullmatch(kind + r"; it has something to open with probability 0\.\d\d", looks)
 
@@ -206,6 +206,6 @@ def test_what_is_seen_and_left_fixed_is_told():
     says = Says(rigid_articulation(made.mesh, "auto", ()))
     articulator = DetectedArticulator(says, load_agreement(), WEIGHTS, least=0.999)
     (only,) = articulator.hypotheses(made.mesh)
-    assert not only.articulation.movable_joints
-    assert "a door is seen on the front and left fixed" in only.articulation.notes[0]
-    assert "want 1.00" in only.articulation.notes[0]
+    assert not only.movable_joints
+    assert "a door is seen on the front and left fixed" in only.notes[0]
+    assert "want 1.00" in only.notes[0]
