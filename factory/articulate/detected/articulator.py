@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -12,6 +12,7 @@ from msgspec import structs
 from ...articulation import Articulation, Joint, Weights
 from ...errors import InputRejected
 from ...geometry.posing import closed, posed, rotated
+from ...geometry.welding import welded
 from ...intake.stated import Hinge, Stated, StatedAlternative, StatedKind, StatedPart
 from ...mesh import Mesh
 from ...models.detector.canvas import Sort, look_at
@@ -20,7 +21,6 @@ from ...views.raster import Side
 from ..articulator import Articulator, HypothesisMaker
 from ..closing import note_open, with_closed_hinges
 from ..origin import MeshOrigin
-from ..pruning import keep_parts
 from ..rigid import rigid_articulation
 from ..stated.articulator import StatedArticulator, seen_from
 from ..stated.placing import SeenMesh
@@ -123,10 +123,10 @@ class DetectedArticulator(HypothesisMaker):
         gone = _misplaced(cells, sure)
         if shell:
             gone += _several_in_one(cells, sure)
-        guess = _without(guess, gone)
+        guess = welded(guess, gone)
         cells = CellParts.of(guess, faces)
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
-        guess = _without(guess, _pulls(cells, beside))
+        guess = welded(guess, _pulls(cells, beside))
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if not made or 0 < len(guess.movable_joints) < len(sure):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
@@ -193,15 +193,16 @@ class DetectedArticulator(HypothesisMaker):
         of shape find move alone as well, such as a cooktop's knobs. Whether anything moves that
         needs nothing else to is told, too.
         """
-        kept = []
+        fixed = []
         chances = {}
         alone = False
         for joint in guess.joints:
             part = guess.parts[joint.child]
             signs = cells.signs(joint.child, detection) if part.kind in ASKED else None
             if signs is None:
-                if not part.is_by(Proposer.SIDES) or detection.kind in KNOBBED:
-                    kept.append(joint.child)
+                if part.is_by(Proposer.SIDES) and detection.kind not in KNOBBED:
+                    fixed.append(joint.name)
+                else:
                     alone |= by_rules(part)
                 continue
             chance = self.agreement.of_proposed(signs)
@@ -211,9 +212,10 @@ class DetectedArticulator(HypothesisMaker):
             ):
                 chance = max(chance, confidence)
             if chance >= least:
-                kept.append(joint.child)
                 chances[joint.child] = chance
-        return keep_parts(guess, kept, chances), alone or bool(chances)
+            else:
+                fixed.append(joint.name)
+        return welded(_rated_so(guess, chances), fixed), alone or bool(chances)
 
     def _with(self, guess: Articulation, parts: Sequence[DetectedPart]) -> tuple[Articulation, ...]:
         """Return a guess with parts beside it; the least sure is left out where they do not fit."""
@@ -268,13 +270,18 @@ def _hinged(part: DetectedPart) -> StatedPart:
     return structs.replace(part.stated, hinge=Hinge(first), alternatives=(other,))
 
 
-def _without(guess: Articulation, gone: Collection[int]) -> Articulation:
-    """Return a guess in which these parts stay fixed."""
-    return keep_parts(guess, {j.child for j in guess.joints} - set(gone)) if gone else guess
+def _rated_so(guess: Articulation, chances: Mapping[int, float]) -> Articulation:
+    """Return a guess in which some parts, by number, and their joints have other probabilities."""
+    parts = list(guess.parts)
+    joints = list(guess.joints)
+    for number, chance in chances.items():
+        parts[number] = replace(parts[number], confidence=chance)
+        joints[number - 1] = replace(joints[number - 1], confidence=chance)
+    return replace(guess, parts=tuple(parts), joints=tuple(joints))
 
 
-def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
-    """Return the parts hinged elsewhere than all sides of a lid in their place agree on."""
+def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[str]:
+    """Return the joints that are elsewhere than all sides of a lid in their place agree on."""
     guess = cells.articulation
     lids = [
         (part, Side(hinge))
@@ -282,7 +289,7 @@ def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
         if part.stated.kind is StatedKind.LID and part.agreed and (hinge := part.stated.hinge)
     ]
     return [
-        joint.child
+        joint.name
         for joint in guess.joints
         if any(
             cells.hides(joint.child, found) and not _hinged_at(guess, joint, side)
@@ -292,14 +299,14 @@ def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
     ]
 
 
-def _several_in_one(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
-    """Return the parts in whose place several panels are seen.
+def _several_in_one(cells: CellParts, sure: Sequence[DetectedPart]) -> list[str]:
+    """Return the joints of parts in whose place several panels are seen.
 
     That is right of shells only: pieces that somebody modelled are parts as they are.
     """
     panels = [part.found[0] for part in sure if part.stated.kind is not StatedKind.LID]
     return [
-        joint.child
+        joint.name
         for joint in cells.articulation.joints
         if sum(cells.hides(joint.child, found) for found in panels) > 1
     ]
@@ -313,11 +320,11 @@ def _hinged_at(guess: Articulation, joint: Joint, side: Side) -> bool:
     return float(outward @ (joint.origin - (low + high) / 2.0)) > AT_SIDE * half
 
 
-def _pulls(cells: CellParts, beside: Sequence[DetectedPart]) -> list[int]:
-    """Return the knobs on panels that come beside a guess: these are pulled by them."""
+def _pulls(cells: CellParts, beside: Sequence[DetectedPart]) -> list[str]:
+    """Return the joints of knobs on panels that come beside a guess: these are pulled by them."""
     guess = cells.articulation
     return [
-        joint.child
+        joint.name
         for joint in guess.joints
         if guess.parts[joint.child].kind in CARRIED
         and any(cells.lies_in(joint.child, f) for part in beside for f in part.found)

@@ -12,7 +12,6 @@ pytest.importorskip("torch")
 
 from asset_factory.factory.articulate.detected import DetectedArticulator, load_agreement
 from asset_factory.factory.articulate.detected.facing import without_backs
-from asset_factory.factory.articulate.pruning import keep_parts
 from asset_factory.factory.articulate.rigid import rigid_articulation
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, Weights
 from asset_factory.factory.part import PartKind, PartSource, Proposer
@@ -62,6 +61,8 @@ def test_what_it_does_not_see_stays_fixed_and_what_it_sees_moves():
     made = detected(with_part(proposed, rear))[0]
     assert [part.name for part in made.parts] == [part.name for part in proposed.parts]
     assert len(made.mesh.faces) == len(truth.mesh.faces)
+    assert [part.confidence for part in made.parts[1:]] == [j.confidence for j in made.joints]
+    assert all(0.6 < joint.confidence <= 1.0 for joint in made.joints)
 
 
 @pytest.mark.parametrize(("proposer", "moves"), [(Proposer.RULES, True), (Proposer.NETWORK, False)])
@@ -167,25 +168,6 @@ def test_a_table_stays_shut_and_says_why():
     (looks,) = only.notes
     kind = r"it looks like a [a-z ]+ with probability \d\.\d\d"
     assert re.fullmatch(kind + r"; it has something to open with probability 0\.\d\d", looks)
-
-
-def test_parts_that_are_fixed_leave_their_faces_and_children_to_what_holds_them():
-    mesh = make_object("chest", 1).mesh
-    rest = np.arange(4, len(mesh.faces))
-    faces = {"base": rest, "door": [0, 1], "knob": [2], "other": [3]}
-    parts = tuple(Part(name, np.array(own)) for name, own in faces.items())
-    axis = np.array([0.0, 0.0, 1.0])
-    joints = tuple(
-        Joint(f"j{child}", JointKind.REVOLUTE, parent, child, axis, np.zeros(3), 0.0, 1.0)
-        for child, parent in ((1, 0), (2, 1), (3, 0))
-    )
-    whole = Articulation(mesh, parts, joints, "auto")
-    kept = keep_parts(whole, {2, 3}, {3: 0.75})
-    assert [part.name for part in kept.parts] == ["base", "knob", "other"]
-    assert [joint.parent for joint in kept.joints] == [0, 0]
-    assert kept.parts[0].faces.tolist() == sorted([0, 1, *rest.tolist()])
-    assert kept.parts[2].confidence == 0.75
-    assert kept.joints[1].confidence == 0.75
 
 
 def test_agreement_rises_with_what_is_seen():
