@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -29,19 +29,19 @@ LONGEST = 64 * 1024
 _FENCED = re.compile(r"\s*```(?:json)?\s*(.*?)\s*```\s*", re.DOTALL)
 
 
+@dataclass(frozen=True)
 class VlmArticulator(HypothesisMaker):
     """Asks a model once, once more with the fault, and never again about the same pictures.
 
-    Args:
+    Attributes:
         input_name: of the input's file, which is told.
         config: which model, and where.
     """
 
     name = NAME
 
-    def __init__(self, input_name: str, config: VlmConfig) -> None:
-        self._input_name = input_name
-        self._config = config
+    input_name: str
+    config: VlmConfig
 
     def hypotheses(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return the articulations that fit the model's answer, the likeliest first.
@@ -51,17 +51,17 @@ class VlmArticulator(HypothesisMaker):
             Unjudged: ``model_unavailable``.
             ConfigError: the endpoint refuses the key, the model or the question.
         """
-        question = question_of(mesh, self._input_name)
-        path = answer_path(self._config, question)
+        question = question_of(mesh, self.input_name)
+        path = answer_path(self.config, question)
         kept = kept_answer(path)
         if kept is not None:
             return self._noted(_found(kept.text, mesh), kept)
         messages = [_first_message(question)]
-        reply = ask(self._config, messages)
+        reply = ask(self.config, messages)
         try:
             found = _found(reply.text, mesh)
         except InputRejected as fault:
-            again = ask(self._config, [*messages, *_corrections(reply, fault)])
+            again = ask(self.config, [*messages, *_corrections(reply, fault)])
             found = _found(again.text, mesh)
             reply = Reply(again.text, reply.read + again.read, reply.written + again.written)
         keep_answer(path, reply)
@@ -69,9 +69,9 @@ class VlmArticulator(HypothesisMaker):
 
     def _noted(self, found: tuple[Articulation, ...], kept: Reply) -> tuple[Articulation, ...]:
         """Return hypotheses that say who proposed them, and what that cost."""
-        host = urlsplit(self._config.url).hostname
+        host = urlsplit(self.config.url).hostname
         note = (
-            f"{self._config.model} at {host} said what opens: "
+            f"{self.config.model} at {host} said what opens: "
             f"{kept.read} tokens read, {kept.written} written"
         )
         return tuple(replace(each, articulator=NAME, notes=(*each.notes, note)) for each in found)

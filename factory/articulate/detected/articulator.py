@@ -22,8 +22,8 @@ from ..articulator import Articulator, HypothesisMaker
 from ..closing import note_open, with_closed_hinges
 from ..origin import MeshOrigin
 from ..rigid import rigid_articulation
-from ..stated.articulator import StatedArticulator, seen_from
-from ..stated.placing import SeenMesh
+from ..stated import StatedArticulator
+from ..stated.seen import SeenMesh
 from ..straight import straightening
 from .agreement import Agreement
 from .boxes import with_whole_drawers
@@ -101,13 +101,13 @@ class DetectedArticulator(HypothesisMaker):
             return tuple(self._noted(each, sure_kind) for each in made)
         least = self.agreement.least if self.least is None else self.least
         shell = MeshOrigin.of(mesh).is_shell
-        seen = seen_from(mesh, Stated().front)
-        drawn = open_panels(seen.pieces.views, detection, one_piece=shell)
+        seen = SeenMesh.of(mesh)
+        drawn = open_panels(seen.views, detection, one_piece=shell)
         if drawn is not None:
             shut = closed(drawn)
             mesh = shut.mesh
             detection = detect(mesh)
-            seen = seen_from(mesh, Stated().front)
+            seen = SeenMesh.of(mesh)
         rated = self._rated(detection, seen, closed=shell)
         sure = [part for part in rated if part.probability >= least]
         guess = self.guess.articulate(mesh)
@@ -219,7 +219,7 @@ class DetectedArticulator(HypothesisMaker):
 
     def _with(self, guess: Articulation, parts: Sequence[DetectedPart]) -> tuple[Articulation, ...]:
         """Return a guess with parts beside it; the least sure is left out where they do not fit."""
-        seen = seen_from(guess.mesh, Stated().front)
+        seen = SeenMesh.of(guess.mesh)
         for count in range(len(parts), 0, -1):
             chosen = parts[:count]
             stated = StatedArticulator(

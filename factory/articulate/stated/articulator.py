@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import chain, islice, product
 
 import numpy as np
 
-from ...articulation import Articulation, rotation_about
+from ...articulation import Articulation
 from ...config import BuildConfig
 from ...errors import InputRejected
-from ...geometry.posing import UP, posed
+from ...geometry.posing import posed
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
 from ...intake.stated import Stated, StatedPart
@@ -25,7 +25,8 @@ from ..rigid import rigid_articulation
 from ..seams.cutting import CutMesh, Region, cut_along, inside
 from .boxed import NOT_FOUND, USUAL, label_of
 from .expecting import Expected, count_expected, find_expected, require_some
-from .placing import Placed, SeenMesh, place_parts, stated_unit
+from .placing import Placed, place_parts, stated_unit
+from .seen import SeenMesh
 from .wholes import StatedWay
 
 NAME = "stated"
@@ -33,36 +34,27 @@ NAME = "stated"
 MOST_HYPOTHESES = 4
 #: Sides of the mesh that was stated may differ so much from this one's, of the longest.
 SAME_SHAPE = 0.05
-#: Quarter turns about z that bring a stated front to -Y.
-_TURNS: Mapping[str, int] = {"-y": 0, "-x": 1, "y": 2, "x": 3}
 
 
+@dataclass(frozen=True)
 class StatedArticulator(HypothesisMaker):
     """Finds on a mesh the parts that somebody stated.
 
-    Args:
+    Attributes:
         stated: what a sidecar says.
         guess: who is asked for parts that are stated without a place.
         proposer: who stated them.
         chances: probability of each, in their order; none where a person's word counts.
-        seen: the mesh that is going to be asked about, as :func:`seen_from` gives it.
+        seen: the mesh that is going to be asked about, with its sides.
     """
 
     name = NAME
 
-    def __init__(
-        self,
-        stated: Stated,
-        guess: Articulator | None = None,
-        proposer: Proposer = Proposer.SIDECAR,
-        chances: Sequence[float] = (),
-        seen: SeenMesh | None = None,
-    ) -> None:
-        self.stated = stated
-        self.guess = guess
-        self._proposer = proposer
-        self._chances = tuple(chances)
-        self._seen = seen
+    stated: Stated
+    guess: Articulator | None = None
+    proposer: Proposer = Proposer.SIDECAR
+    chances: tuple[float, ...] = ()
+    seen: SeenMesh | None = None
 
     def hypotheses(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return the articulations that fit the statement, the likeliest first.
@@ -96,7 +88,7 @@ class StatedArticulator(HypothesisMaker):
 
     def _placed_on(self, mesh: Mesh) -> list[Placed]:
         """Return the stated parts that have a place, found on a mesh."""
-        seen = self._seen or seen_from(mesh, self.stated.front)
+        seen = self.seen or SeenMesh.of(mesh, self.stated.front)
         return place_parts(seen, self.stated.parts)
 
     def _beside(self, each: Expected) -> tuple[Articulation, ...]:
@@ -136,13 +128,13 @@ class StatedArticulator(HypothesisMaker):
         hosts = _hosts(placed, ways)
         owner = _owners(cut, placed, ways, hosts)
         movers = [way.mover for way in ways]
-        chances = self._chances or (None,) * len(placed)
+        chances = self.chances or (None,) * len(placed)
         proposals = [
             Proposal(
                 mover.kind,
                 owner == number,
                 _from_closed(each.stated, mover.motion),
-                proposer=self._proposer,
+                proposer=self.proposer,
                 panel=mover.panel if each.stated.drawn is None else None,
                 existence=chance,
                 probability=chance,
@@ -201,12 +193,6 @@ def _refuse_other_size(mesh: Mesh, stated: Stated) -> None:
         )
 
 
-def seen_from(mesh: Mesh, front: str) -> SeenMesh:
-    """Return a mesh turned so that a stated front is -Y."""
-    turn = rotation_about(UP, _TURNS[front] * np.pi / 2.0)
-    return SeenMesh(mesh.turned(turn), turn.T)
-
-
 def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedWay, ...]]:
     """Yield each choice, and after one with parts that are whole pieces the same cut out.
 
@@ -214,13 +200,13 @@ def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedW
     """
     for ways in chosen:
         yield ways
-        if any(len(way.pieces) for way in ways):
+        if any(len(way.faces) for way in ways):
             yield tuple(StatedWay(way.cut or way.mover) for way in ways)
 
 
 def _to_cut(ways: Sequence[StatedWay]) -> Iterator[Region]:
     """Yield what those parts fill that are cut out of the mesh."""
-    return (way.mover.region for way in ways if not len(way.pieces))
+    return (way.mover.region for way in ways if not len(way.faces))
 
 
 def _choices(placed: Sequence[Placed]) -> Iterator[tuple[StatedWay, ...]]:
@@ -286,7 +272,7 @@ def _owners(
     mesh = cut.mesh
     owner = np.zeros(len(mesh.faces), dtype=np.int64)
     areas = face_areas(mesh)
-    within_each = [_faces_of(cut, each, way) for each, way in zip(placed, ways, strict=True)]
+    within_each = [_faces_of(cut, way) for way in ways]
     for index in sorted(range(len(ways)), key=lambda index: (hosts[index] == 0, index)):
         within = within_each[index]
         own = within & (owner == 0)
@@ -304,8 +290,8 @@ def _owners(
     return owner
 
 
-def _faces_of(cut: CutMesh, placed: Placed, way: StatedWay) -> BoolArray:
+def _faces_of(cut: CutMesh, way: StatedWay) -> BoolArray:
     """Return which faces are in a part's region, or of its pieces, shape [face_count]."""
-    if len(way.pieces):
-        return np.isin(placed.piece_of[cut.source], way.pieces)
+    if len(way.faces):
+        return np.isin(cut.source, way.faces)
     return inside(cut.mesh, way.mover.region)
