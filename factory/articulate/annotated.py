@@ -48,21 +48,28 @@ def annotation_of(intake: Intake) -> Annotation | None:
     return read_prediction(intake.annotation_path, faces, intake.annotation_data)
 
 
-def annotated_articulator(intake: Intake, annotation: Annotation) -> AnnotatedArticulator:
-    """Return the articulator that believes an annotation of this input."""
+def annotated_articulator(intake: Intake) -> AnnotatedArticulator | None:
+    """Return the articulator that believes what came with an input; ``None`` if nothing did.
+
+    Raises:
+        InputRejected: as :func:`annotation_of` does.
+    """
+    annotation = annotation_of(intake)
+    if annotation is None:
+        return None
     return AnnotatedArticulator(annotation, intake.transform, intake.source_faces, lenient=True)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> AnnotatedArticulator:
     """Return who believes the annotation of an input. Raises InputRejected ``no_annotation``."""
-    annotation = annotation_of(intake)
-    if annotation is None:
+    articulator = annotated_articulator(intake)
+    if articulator is None:
         raise InputRejected(
             "no_annotation",
             f"{intake.provenance.input}: has no parts and joints of its own; want a URDF, an MJCF, "
             "or a sidecar naming a pred.npz, or another articulator",
         )
-    return annotated_articulator(intake, annotation)
+    return articulator
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from ...intake.intake import Intake
 from ...intake.stated import stated_from
 from ...mesh import Mesh
 from ...part import Proposer
-from ..annotated import annotated_articulator, annotation_of
+from ..annotated import annotated_articulator
 from ..articulator import Articulator, HypothesisMaker
 from ..stated import StatedArticulator
 from .answers import answer_path, keep_answer, kept_answer
@@ -85,9 +85,9 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     """
     if intake.stated is not None:
         return StatedArticulator(intake.stated)
-    annotation = annotation_of(intake)
-    if annotation is not None:
-        return annotated_articulator(intake, annotation)
+    annotated = annotated_articulator(intake)
+    if annotated is not None:
+        return annotated
     require_endpoint(config.vlm, needed=True)
     return VlmArticulator(intake.provenance.input, config.vlm)
 

@@ -15,7 +15,7 @@ from ...mesh import Mesh
 from ...models.particulate.inference import Network
 from ...models.weights.sources import SHIPPED
 from ...part import Proposer
-from ..annotated import annotated_articulator, annotation_of
+from ..annotated import annotated_articulator
 from ..articulator import Articulator
 from ..assembly import assembled
 from ..geometric import GeometricArticulator
@@ -149,10 +149,7 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     """
     if intake.stated is not None:
         return StatedArticulator(intake.stated, _guess(config))
-    annotation = annotation_of(intake)
-    if annotation is not None:
-        return annotated_articulator(intake, annotation)
-    return _guess(config)
+    return annotated_articulator(intake) or _guess(config)
 
 
 def _guess(config: BuildConfig) -> Articulator:
