@@ -16,7 +16,7 @@ from ..errors import InputRejected, InvalidArticulation
 from ..intake.annotation import AnnotatedJoint, Annotation
 from ..intake.importers.prediction import read_prediction
 from ..intake.intake import Intake
-from ..mesh import FloatArray, IntArray, Mesh, distinct_names, read_only
+from ..mesh import FloatArray, IntArray, Mesh, distinct_names, freeze
 from ..part import Proposer
 from .coupling import moving_together, resting_values, with_common_motion, with_sound_mimics
 from .draft import Draft, ordered
@@ -92,8 +92,8 @@ class AnnotatedArticulator:
     lenient: bool = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "transform", read_only(self.transform))
-        object.__setattr__(self, "source_faces", read_only(self.source_faces, np.int64))
+        freeze(self, "transform")
+        freeze(self, "source_faces", dtype=np.int64)
         linear = self.transform[:3, :3]
         scale = self.scale
         if not scale > 0.0 or not np.allclose(linear @ linear.T / scale**2, np.eye(3), atol=1e-6):

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..articulation import Joint, JointKind
-from ..mesh import BoolArray, FloatArray, read_only
+from ..mesh import BoolArray, FloatArray, freeze
 from ..part import Panel, PartKind, PartSource, Proposer
 
 #: Digits of a metre or a radian, and of a proposal's digest, that its id depends on.
@@ -36,8 +36,7 @@ class Motion:
     upper: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "axis", read_only(self.axis))
-        object.__setattr__(self, "origin", read_only(self.origin))
+        freeze(self, "axis", "origin")
 
     @classmethod
     def endless(cls, axis: FloatArray, origin: FloatArray) -> Motion:
@@ -81,7 +80,7 @@ class Proposal:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "kind", PartKind(self.kind))
-        object.__setattr__(self, "faces", read_only(self.faces, np.bool_))
+        freeze(self, "faces", dtype=np.bool_)
 
     @property
     def rated(self) -> float:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...mesh import FloatArray, read_only
+from ...mesh import FloatArray, freeze
 from ...models.particulate.surface import BoolArray
 from ..evidence import Guess
 from ..proposal import Motion
@@ -40,7 +40,7 @@ class LearnedPart:
     slide: Motion | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "faces", read_only(self.faces, np.bool_))
+        freeze(self, "faces", dtype=np.bool_)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import FloatArray, read_only
+from ...mesh import FloatArray, freeze
 from .body import Body
 from .candidates import Candidates
 from .numbers import NAMES, SLIDE, TURN
@@ -49,7 +49,7 @@ class Setting:
     numbers: FloatArray
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "numbers", read_only(self.numbers))
+        freeze(self, "numbers")
 
 
 def is_small(evidence: FloatArray) -> bool:
