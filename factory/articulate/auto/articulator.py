@@ -155,12 +155,10 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
 def _guess(config: BuildConfig) -> Articulator:
     """Return who is asked where nothing came with the input."""
     if config.particulate.checkpoint == SHIPPED:
-        from ...models.detector.detect import detector_weights
-        from ..detected import DetectedArticulator, load_agreement
+        from ..detected import DetectedArticulator
 
         guess = load_auto(config.particulate, config.auto)
-        least = config.auto.least_confidence
-        return DetectedArticulator(guess, load_agreement(), (detector_weights(),), least)
+        return DetectedArticulator(guess, config.auto.least_confidence)
     from ..particulate import load_articulator
 
     return load_articulator(config.particulate)

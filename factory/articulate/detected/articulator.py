@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from msgspec import structs
 
-from ...articulation import Articulation, Joint, Weights
+from ...articulation import Articulation, Joint
 from ...errors import InputRejected
 from ...geometry.posing import closed, posed, rotated
 from ...geometry.welding import welded
@@ -25,7 +25,7 @@ from ..rigid import rigid_articulation
 from ..stated import StatedArticulator
 from ..stated.seen import SeenMesh
 from ..straight import straightening
-from .agreement import Agreement
+from .agreement import load_agreement
 from .boxes import with_whole_drawers
 from .facing import without_backs
 from .merging import DetectedPart, likely_hinges, seen_parts
@@ -68,14 +68,10 @@ class DetectedArticulator(HypothesisMaker):
 
     Attributes:
         guess: who is asked.
-        agreement: how sure both must be.
-        weights: of the detector.
         least: probability below which a part stays fixed; ``None``: the agreement's.
     """
 
     guess: Articulator
-    agreement: Agreement
-    weights: tuple[Weights, ...]
     least: float | None = None
 
     @property
@@ -99,7 +95,7 @@ class DetectedArticulator(HypothesisMaker):
         sure_kind = detection.kind if detection.kinds.max() >= SURE_KIND else None
         if sure_kind == LAPTOP and (made := _with_screen(mesh, float(detection.kinds.max()))):
             return tuple(self._noted(each, sure_kind) for each in made)
-        least = self.agreement.least if self.least is None else self.least
+        least = load_agreement().least if self.least is None else self.least
         shell = MeshOrigin.of(mesh).is_shell
         seen = SeenMesh.of(mesh)
         drawn = open_panels(seen.views, detection, one_piece=shell)
@@ -143,11 +139,13 @@ class DetectedArticulator(HypothesisMaker):
         self, made: Articulation, kind: str | None, notes: tuple[str, ...] = ()
     ) -> Articulation:
         """Return an articulation with who made it, what it looks like and notes."""
+        from ...models.detector.detect import detector_weights
+
         return replace(
             made,
             articulator=self.name,
             notes=(*notes, *made.notes),
-            weights=(*made.weights, *self.weights),
+            weights=(*made.weights, detector_weights()),
             looks_like=kind,
         )
 
@@ -162,7 +160,7 @@ class DetectedArticulator(HypothesisMaker):
         dense = detection.dense
         panels = []
         for found, signs in panels_of(dense, seen, closed=closed):
-            chance = self.agreement.of_panel(signs)
+            chance = load_agreement().panel.chance(signs)
             if chance >= LEAST_CHANCE:
                 panels.append(replace(found, score=chance))
         # Where little is asked lids with a lower score are looked at, too.
@@ -174,7 +172,7 @@ class DetectedArticulator(HypothesisMaker):
             probability = part.found[0].score
             if stated.kind is StatedKind.LID:
                 support = max(support_of_box(each, dense) for each in part.found)
-                probability = self.agreement.of_lid(support)
+                probability = load_agreement().lid.chance(np.array([support]))
                 stated = stated if stated.hinge is not None else _hinged(part)
             rated.append(replace(part, stated=stated, probability=probability))
         return sorted(rated, key=lambda part: -part.probability)
@@ -205,7 +203,7 @@ class DetectedArticulator(HypothesisMaker):
                 else:
                     alone |= by_rules(part)
                 continue
-            chance = self.agreement.of_proposed(signs)
+            chance = load_agreement().proposed.chance(signs)
             confidence = part.confidence or 0.0
             if confidence >= BELIEVED and not any(
                 cells.hides(joint.child, f) for each in sure for f in each.found

@@ -10,19 +10,18 @@ from tests.samples.says import Says
 
 pytest.importorskip("torch")
 
-from asset_factory.factory.articulate.detected import DetectedArticulator, load_agreement
+from asset_factory.factory.articulate.detected import DetectedArticulator
+from asset_factory.factory.articulate.detected.agreement import load_agreement
 from asset_factory.factory.articulate.detected.facing import without_backs
 from asset_factory.factory.articulate.rigid import rigid_articulation
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, Weights
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.part import PartKind, PartSource, Proposer
 from asset_factory.learn.detector.still import make_still
 from asset_factory.learn.objects import make_object
 
-WEIGHTS = (Weights("detector.safetensors", "0" * 64, "Apache-2.0"),)
-
 
 def detected(said):
-    return DetectedArticulator(Says(said), load_agreement(), WEIGHTS).hypotheses(said.mesh)
+    return DetectedArticulator(Says(said)).hypotheses(said.mesh)
 
 
 def unmoving(kind, seed):
@@ -48,7 +47,7 @@ def test_doors_that_nobody_proposes_are_added_and_say_who_saw_them():
     assert {part.source.proposer for part in doors} == {Proposer.DETECTOR}
     assert all(0.5 <= part.confidence <= 1.0 for part in doors)
     assert all(abs(joint.axis[2]) > 0.99 for joint in made.joints)
-    assert made.weights == WEIGHTS
+    assert [weights.file for weights in made.weights] == ["detector.safetensors"]
 
 
 def test_what_it_does_not_see_stays_fixed_and_what_it_sees_moves():
@@ -175,18 +174,19 @@ def test_agreement_rises_with_what_is_seen():
     seen = np.array([0.9, np.sqrt(0.9), 0.5, 0.0])
     closed = np.array([0.1, np.sqrt(0.1), 1.0, 1.0])
     unseen = np.array([0.0, 0.0, 1.0, 1.0])
-    assert agreement.of_panel(seen) > agreement.least > agreement.of_panel(unseen)
-    assert agreement.of_panel(closed) > agreement.of_panel(closed * [1.0, 1.0, 0.0, 0.0])
-    assert agreement.of_lid(0.9) > agreement.least > agreement.of_lid(0.0)
+    assert agreement.panel.chance(seen) > agreement.least > agreement.panel.chance(unseen)
+    assert agreement.panel.chance(closed) > agreement.panel.chance(closed * [1.0, 1.0, 0.0, 0.0])
+    assert agreement.lid.chance(np.array([0.9])) > agreement.least
+    assert agreement.lid.chance(np.array([0.0])) < agreement.least
     guessed = np.array([0.6, np.sqrt(0.6), 0.0, 1.0])
-    assert agreement.of_proposed(guessed) > agreement.least
-    assert agreement.of_proposed(guessed * [0.0, 0.0, 1.0, 1.0]) < agreement.least
+    assert agreement.proposed.chance(guessed) > agreement.least
+    assert agreement.proposed.chance(guessed * [0.0, 0.0, 1.0, 1.0]) < agreement.least
 
 
 def test_what_is_seen_and_left_fixed_is_told():
     made = make_object("fridge", 4)
     says = Says(rigid_articulation(made.mesh, "auto", ()))
-    articulator = DetectedArticulator(says, load_agreement(), WEIGHTS, least=0.999)
+    articulator = DetectedArticulator(says, least=0.999)
     (only,) = articulator.hypotheses(made.mesh)
     assert not only.movable_joints
     assert "a door is seen on the front and left fixed" in only.notes[0]
