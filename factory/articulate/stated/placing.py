@@ -145,16 +145,16 @@ def _openings(
     """Return the ways in which a part may open, the likeliest first, in the turned frame."""
     above = part.view.side is Side.TOP
     if part.kind in (PartKind.LID, PartKind.SCREEN) and not above:
-        made = lid_openings(fronts, part)
-    elif not part.is_panel:
-        made = control_openings(part)
-    else:
-        way = part.hinged(_EDGES_ABOVE if above else EDGES)
-        wanted = _likeliest_first(part, boxed) if way is None else (way,)
-        side = part.front.relief.side
-        movers = [panel_mover(fronts, side, part.rectangle, way) for way in wanted[:MOST_WAYS]]
-        made = [tilted(mover, part) for mover in movers]
-    return [replace(each, kind=part.kind) for each in made]
+        return lid_openings(fronts, part)
+    if not part.is_panel:
+        return control_openings(part)
+    way = part.hinged(_EDGES_ABOVE if above else EDGES)
+    wanted = _likeliest_first(part, boxed) if way is None else (way,)
+    side = part.front.relief.side
+    return [
+        tilted(panel_mover(fronts, side, part.rectangle, way, part.kind), part)
+        for way in wanted[:MOST_WAYS]
+    ]
 
 
 def _likeliest_first(part: StatedBox, boxed: Sequence[StatedBox]) -> tuple[OpensBy, ...]:
