@@ -17,7 +17,6 @@ from ...views.view import Views
 from ..geometric.rounds import FROM_ABOVE
 from ..seams.fronts import Front, fronts_of
 from ..seams.pieces import PieceOutlines
-from ..seams.relief import reliefs_of
 
 #: Quarter turns about z that bring a stated front to -Y.
 _TURNS: Mapping[str, int] = {"-y": 0, "-x": 1, "y": 2, "x": 3}
@@ -49,12 +48,12 @@ class SeenMesh:
     @cached_property
     def around(self) -> dict[Side, Front]:
         """Return its upright sides."""
-        return fronts_of(reliefs_of(self.views))
+        return fronts_of(self.views)
 
     @cached_property
     def above(self) -> dict[Side, Front]:
         """Return the sides of the mesh turned so that its top is its front."""
-        return fronts_of(reliefs_of(Views(self.mesh.turned(FROM_ABOVE))))
+        return fronts_of(Views(self.mesh.turned(FROM_ABOVE)))
 
     @cached_property
     def _outlines(self) -> dict[Side, PieceOutlines]:
