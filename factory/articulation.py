@@ -187,15 +187,6 @@ class Articulation:
         """Return the joints with a degree of freedom, in tree order."""
         return tuple(joint for joint in self.joints if joint.movable)
 
-    @property
-    def probability(self) -> float:
-        """Return the probability that every joint is right, as if they were independent, 0 to 1.
-
-        Joints that nobody rated count as certain.
-        """
-        rated = (joint.confidence for joint in self.movable_joints)
-        return float(np.prod([chance for chance in rated if chance is not None]))
-
     def joint(self, name: str) -> Joint:
         """Return the joint of that name. Raises KeyError naming the ones there are."""
         for candidate in self.joints:

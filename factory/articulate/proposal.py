@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..articulation import Joint, JointKind
+from ..articulation import Articulation, Joint, JointKind
 from ..mesh import BoolArray, FloatArray, freeze
 from ..part import Panel, PartKind, PartSource, Proposer
 
@@ -112,3 +112,12 @@ def proposal_id(
         # Adding zero makes -0 and 0 one number.
         digest.update((np.round(numbers, ID_DECIMALS) + 0.0).astype("<f8").tobytes())
     return f"{proposer}-{digest.hexdigest()[:ID_LENGTH]}"
+
+
+def probability_of(articulation: Articulation) -> float:
+    """Return the probability that every joint is right, as if they were independent, 0 to 1.
+
+    Joints that nobody rated count as certain.
+    """
+    rated = (joint.confidence for joint in articulation.movable_joints)
+    return float(np.prod([chance for chance in rated if chance is not None]))

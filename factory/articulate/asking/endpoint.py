@@ -64,8 +64,10 @@ class Reply(Struct, frozen=True):
     written: int
 
 
-def require_endpoint(config: VlmConfig) -> None:
-    """Raise ConfigError where nobody says which model is to be asked, or where."""
+def require_endpoint(config: VlmConfig, *, needed: bool) -> None:
+    """Raise ConfigError where a model is to be asked and nobody says which, or where."""
+    if not needed:
+        return
     parts = urlsplit(config.url)
     if parts.scheme not in ("http", "https") or not parts.hostname:
         raise ConfigError(f"--vlm-url must be http(s)://host/v1, not {config.url!r}")

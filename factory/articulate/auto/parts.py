@@ -6,8 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...mesh import FloatArray, freeze
-from ...models.particulate.surface import BoolArray
+from ...mesh import BoolArray, FloatArray, freeze
 from ..evidence import Guess
 from ..proposal import Motion
 from .views import NetworkView, SeenPart

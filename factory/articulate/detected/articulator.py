@@ -213,7 +213,7 @@ class DetectedArticulator(HypothesisMaker):
                 chances[joint.child] = chance
             else:
                 fixed.append(joint.name)
-        return welded(_rated_so(guess, chances), fixed), alone or bool(chances)
+        return welded(_with_chances(guess, chances), fixed), alone or bool(chances)
 
     def _with(self, guess: Articulation, parts: Sequence[DetectedPart]) -> tuple[Articulation, ...]:
         """Return a guess with parts beside it; the least sure is left out where they do not fit."""
@@ -268,7 +268,7 @@ def _hinged(part: DetectedPart) -> StatedPart:
     return structs.replace(part.stated, hinge=Hinge(first), alternatives=(other,))
 
 
-def _rated_so(guess: Articulation, chances: Mapping[int, float]) -> Articulation:
+def _with_chances(guess: Articulation, chances: Mapping[int, float]) -> Articulation:
     """Return a guess in which some parts, by number, and their joints have other probabilities."""
     parts = list(guess.parts)
     joints = list(guess.joints)

@@ -243,8 +243,8 @@ def with_closed(guess: Articulation, closed: Articulation) -> Articulation:
     if guess.mesh is not closed.mesh:
         return closed
     taken = face_parts(closed) > 0
-    beside = [each.name for each in guess.joints if taken[guess.parts[each.child].faces].any()]
-    guess = welded(guess, beside)
+    covered = [each.name for each in guess.joints if taken[guess.parts[each.child].faces].any()]
+    guess = welded(guess, covered)
     parts = [replace(part, faces=part.faces[~taken[part.faces]]) for part in guess.parts]
     joints = list(guess.joints)
     for joint in closed.joints:

@@ -27,7 +27,7 @@ from asset_factory.learn.surfaces import coloured_skin
 def seen(kind, opens=0.99):
     """Return a detection of a kind of object; nothing else is asked of it."""
     kinds = np.eye(len(KINDS))[KINDS.index(kind)]
-    return Detection(None, np.zeros((5, 64, 64), np.int64), kinds, opens, np.full(4, 0.25))
+    return Detection(None, np.zeros((5, 64, 64), np.int64), kinds, opens)
 
 
 def found_open(mesh, detection, one_piece=True):
