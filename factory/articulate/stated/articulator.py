@@ -24,7 +24,7 @@ from ..proposal import Motion, Proposal
 from ..rigid import rigid_articulation
 from ..seams.cutting import CutMesh, Region, cut_along, inside
 from .boxed import NOT_FOUND, USUAL, label_of
-from .expecting import Expected, count_expected, find_expected, require_some
+from .expecting import count_expected, keep_expected, proposals_on, require_some
 from .placing import Placed, place_parts, stated_unit
 from .seen import SeenMesh
 from .wholes import StatedWay
@@ -84,20 +84,21 @@ class StatedArticulator(HypothesisMaker):
         """
         if not guess.movable_joints:
             return self.hypotheses(guess.mesh)
-        return self._beside(Expected(guess, self._placed_on(guess.mesh), guess.joints))
+        return self._beside(guess, self._placed_on(guess.mesh))
 
     def _placed_on(self, mesh: Mesh) -> list[Placed]:
         """Return the stated parts that have a place, found on a mesh."""
         seen = self.seen or SeenMesh.of(mesh, self.stated.front)
         return place_parts(seen, self.stated.parts)
 
-    def _beside(self, each: Expected) -> tuple[Articulation, ...]:
-        """Return the placed parts beside those wanted of a guess, cut from the guess's mesh."""
+    def _beside(self, guess: Articulation, placed: Sequence[Placed]) -> tuple[Articulation, ...]:
+        """Return the placed parts beside those of a guess, cut from the guess's mesh."""
         made = []
-        for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
-            cut = cut_along(each.guess.mesh, _to_cut(ways))
-            filled = self._articulation(cut, each.placed, ways, each.proposals(cut), each.hosts)
-            made.append(replace(filled, weights=each.guess.weights))
+        hosts = [joint.parent for joint in guess.joints]
+        for ways in islice(_with_cut(_choices(placed)), MOST_HYPOTHESES):
+            cut = cut_along(guess.mesh, _to_cut(ways))
+            filled = self._articulation(cut, placed, ways, proposals_on(cut, guess), hosts)
+            made.append(replace(filled, weights=guess.weights))
         return tuple(made)
 
     def _filled(self, mesh: Mesh, wanted: Counter[PartKind]) -> tuple[Articulation, ...]:
@@ -110,10 +111,12 @@ class StatedArticulator(HypothesisMaker):
                 "every part, or an articulator that looks for it, as auto does",
             )
         guesses = make_hypotheses(self.guess, mesh)
-        found = [find_expected(each, wanted, self._placed_on(each.mesh)) for each in guesses]
+        placed = [self._placed_on(each.mesh) for each in guesses]
+        kept = [keep_expected(*each, wanted) for each in zip(guesses, placed, strict=True)]
         made: list[Articulation] = []
-        for each in require_some(found, wanted):
-            made += (each.guess,) if each.is_whole else self._beside(each)
+        for place in require_some(kept, wanted):
+            whole = not placed[place] and len(kept[place].parts) == len(guesses[place].parts)
+            made += (guesses[place],) if whole else self._beside(kept[place], placed[place])
         return tuple(made[:MOST_HYPOTHESES])
 
     def _articulation(
