@@ -86,7 +86,7 @@ def _outcomes(path: Path) -> Iterator[tuple[str, str]]:
         intake, (likeliest, *_) = standing_hypotheses(origin.load(), origin, stages)
     except InputRejected:
         return
-    true = likeliest.articulation
+    true = likeliest
     # What stands free, a knob or a lamp's arm, turns as well about any line.
     hinges = [
         joint

@@ -8,9 +8,9 @@ from pathlib import Path
 from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.judge import Judge
 
-from .articulate.proposal import Hypothesis
 from .articulate.standing import standing_hypotheses
 from .articulate.terms import with_terms
+from .articulation import Articulation
 from .config import BuildConfig
 from .errors import InputRejected, Unjudged
 from .export.bundle import with_manifest_of, write_input, write_model
@@ -77,7 +77,7 @@ def make_asset(
 
 
 def _drafts(
-    likeliest_first: tuple[Hypothesis, ...],
+    likeliest_first: tuple[Articulation, ...],
     intake: Intake,
     staging: Path,
     judge: Judge,
@@ -95,11 +95,11 @@ def _drafts(
         if done > limits.most_work:
             break
         try:
-            rounds = Rounds(hypothesis.articulation, intake, staging / str(number), judge, stages)
+            rounds = Rounds(hypothesis, intake, staging / str(number), judge, stages)
             draft = rounds.drafted()
         except InputRejected as rejection:
             refused_first = refused_first or rejection
-            refused_too.append(refused_hypothesis(hypothesis.articulation, rejection))
+            refused_too.append(refused_hypothesis(hypothesis, rejection))
             continue
         done += draft.work
         yield draft

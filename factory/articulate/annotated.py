@@ -16,7 +16,7 @@ from ..errors import InputRejected, InvalidArticulation
 from ..intake.annotation import AnnotatedJoint, Annotation
 from ..intake.importers.prediction import read_prediction
 from ..intake.intake import Intake
-from ..mesh import FloatArray, IntArray, Mesh, distinct_names, read_only
+from ..mesh import FloatArray, IntArray, Mesh, distinct_names, freeze
 from ..part import Proposer
 from .coupling import moving_together, resting_values, with_common_motion, with_sound_mimics
 from .draft import Draft, ordered
@@ -48,21 +48,28 @@ def annotation_of(intake: Intake) -> Annotation | None:
     return read_prediction(intake.annotation_path, faces, intake.annotation_data)
 
 
-def annotated_articulator(intake: Intake, annotation: Annotation) -> AnnotatedArticulator:
-    """Return the articulator that believes an annotation of this input."""
+def annotated_articulator(intake: Intake) -> AnnotatedArticulator | None:
+    """Return the articulator that believes what came with an input; ``None`` if nothing did.
+
+    Raises:
+        InputRejected: as :func:`annotation_of` does.
+    """
+    annotation = annotation_of(intake)
+    if annotation is None:
+        return None
     return AnnotatedArticulator(annotation, intake.transform, intake.source_faces, lenient=True)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> AnnotatedArticulator:
     """Return who believes the annotation of an input. Raises InputRejected ``no_annotation``."""
-    annotation = annotation_of(intake)
-    if annotation is None:
+    articulator = annotated_articulator(intake)
+    if articulator is None:
         raise InputRejected(
             "no_annotation",
             f"{intake.provenance.input}: has no parts and joints of its own; want a URDF, an MJCF, "
             "or a sidecar naming a pred.npz, or another articulator",
         )
-    return annotated_articulator(intake, annotation)
+    return articulator
 
 
 @dataclass(frozen=True)
@@ -85,8 +92,8 @@ class AnnotatedArticulator:
     lenient: bool = False
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "transform", read_only(self.transform))
-        object.__setattr__(self, "source_faces", read_only(self.source_faces, np.int64))
+        freeze(self, "transform")
+        freeze(self, "source_faces", dtype=np.int64)
         linear = self.transform[:3, :3]
         scale = self.scale
         if not scale > 0.0 or not np.allclose(linear @ linear.T / scale**2, np.eye(3), atol=1e-6):

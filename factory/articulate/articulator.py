@@ -6,7 +6,6 @@ from typing import Protocol, runtime_checkable
 
 from ..articulation import Articulation
 from ..mesh import Mesh
-from .proposal import Hypothesis
 
 
 class Articulator(Protocol):
@@ -34,7 +33,7 @@ class Articulator(Protocol):
 class HypothesisMaker(Protocol):
     """An articulator that knows several ways in which a mesh may be articulated."""
 
-    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+    def hypotheses(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return them, the likeliest first.
 
         Args:
@@ -43,10 +42,10 @@ class HypothesisMaker(Protocol):
 
     def articulate(self, mesh: Mesh) -> Articulation:
         """Return the likeliest hypothesis of ``mesh`` [m], z up."""
-        return self.hypotheses(mesh)[0].articulation
+        return self.hypotheses(mesh)[0]
 
 
-def make_hypotheses(articulator: Articulator, mesh: Mesh) -> tuple[Hypothesis, ...]:
+def make_hypotheses(articulator: Articulator, mesh: Mesh) -> tuple[Articulation, ...]:
     """Return the hypotheses of any articulator, the likeliest first; one, if it knows one way.
 
     Args:
@@ -55,4 +54,4 @@ def make_hypotheses(articulator: Articulator, mesh: Mesh) -> tuple[Hypothesis, .
     """
     if isinstance(articulator, HypothesisMaker):
         return articulator.hypotheses(mesh)
-    return (Hypothesis(articulator.articulate(mesh)),)
+    return (articulator.articulate(mesh),)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..articulation import Joint, JointKind
 from ..errors import InputRejected
-from ..mesh import FloatArray, IntArray, Mesh, read_only
+from ..mesh import FloatArray, IntArray, Mesh, freeze
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Draft:
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "face_part", read_only(self.face_part, np.int64))
+        freeze(self, "face_part", dtype=np.int64)
 
     def noting(self, *notes: str) -> Draft:
         """Return the same draft with more notes."""

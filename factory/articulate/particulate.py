@@ -32,12 +32,6 @@ from .settings import require_torch, require_usable
 DOUBTFUL = 0.6
 #: Axes whose votes scatter by more than this share of the object's longest side are told.
 SCATTERED = 0.03
-KINDS = {
-    MotionClass.FIXED: "fixed",
-    MotionClass.REVOLUTE: "revolute",
-    MotionClass.PRISMATIC: "prismatic",
-    MotionClass.BOTH: "both",
-}
 
 
 @dataclass(frozen=True)
@@ -120,7 +114,7 @@ def _joint(motion: PredictedMotion, parent: int, child: int) -> AnnotatedJoint:
     both = motion.kind is MotionClass.BOTH
     return AnnotatedJoint(
         name=f"joint_{child}",
-        kind=KINDS[motion.kind],
+        kind=motion.kind.name.lower(),
         parent=parent,
         child=child,
         axis=direction,
@@ -154,7 +148,7 @@ def _notes(found: Consensus) -> tuple[str, ...]:
         if index == reading.root:
             if part.motion.kind is not MotionClass.FIXED:
                 notes.append(
-                    f"{name!r} was predicted to move ({KINDS[part.motion.kind]}); "
+                    f"{name!r} was predicted to move ({part.motion.kind.name.lower()}); "
                     "the root stays still"
                 )
             continue

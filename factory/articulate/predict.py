@@ -35,7 +35,7 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
         told_of = ("code", "message", "value", "unit", "limit")
         reason = {name: getattr(rejection.finding, name) for name in told_of}
         return {"input": source.name, "rejected": reason}
-    told = outline(likeliest.articulation)
+    told = outline(likeliest)
     return {"input": source.name, **told, "notes": [*intake.provenance.notes, *told["notes"]]}
 
 

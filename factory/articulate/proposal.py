@@ -1,4 +1,4 @@
-"""What articulators say: parts that may move, how they move, and whole articulations."""
+"""What articulators say: parts that may move, and how they move."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
-from ..mesh import BoolArray, FloatArray, read_only
+from ..mesh import BoolArray, FloatArray, freeze
 from ..part import Panel, PartKind, PartSource, Proposer
 
 #: Digits of a metre or a radian, and of a proposal's digest, that its id depends on.
@@ -36,8 +36,7 @@ class Motion:
     upper: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "axis", read_only(self.axis))
-        object.__setattr__(self, "origin", read_only(self.origin))
+        freeze(self, "axis", "origin")
 
     @classmethod
     def endless(cls, axis: FloatArray, origin: FloatArray) -> Motion:
@@ -81,7 +80,7 @@ class Proposal:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "kind", PartKind(self.kind))
-        object.__setattr__(self, "faces", read_only(self.faces, np.bool_))
+        freeze(self, "faces", dtype=np.bool_)
 
     @property
     def rated(self) -> float:
@@ -115,25 +114,10 @@ def proposal_id(
     return f"{proposer}-{digest.hexdigest()[:ID_LENGTH]}"
 
 
-@dataclass(frozen=True)
-class Hypothesis:
-    """A whole articulation that an object may have.
+def probability_of(articulation: Articulation) -> float:
+    """Return the probability that every joint is right, as if they were independent, 0 to 1.
 
-    Attributes:
-        articulation: parts and joints.
+    Joints that nobody rated count as certain.
     """
-
-    articulation: Articulation
-
-    @property
-    def probability(self) -> float:
-        """Return the probability that every joint is right, as if they were independent, 0 to 1.
-
-        Joints that nobody rated count as certain.
-        """
-        chances = [
-            joint.confidence
-            for joint in self.articulation.movable_joints
-            if joint.confidence is not None
-        ]
-        return float(np.prod(chances))
+    rated = (joint.confidence for joint in articulation.movable_joints)
+    return float(np.prod([chance for chance in rated if chance is not None]))

@@ -20,7 +20,6 @@ from .annotated import annotation_of
 from .articulator import make_hypotheses
 from .catalog import choose, entry_of
 from .locate import located
-from .proposal import Hypothesis
 
 
 @lru_cache(maxsize=4)
@@ -60,10 +59,10 @@ def articulate(intake: Intake, config: BuildConfig) -> Articulation:
 
     Arguments and errors as for :func:`hypotheses_of`.
     """
-    return hypotheses_of(intake, config)[0].articulation
+    return hypotheses_of(intake, config)[0]
 
 
-def hypotheses_of(intake: Intake, config: BuildConfig) -> tuple[Hypothesis, ...]:
+def hypotheses_of(intake: Intake, config: BuildConfig) -> tuple[Articulation, ...]:
     """Return the kinematic trees that a loaded input may have, the likeliest first; asked anew.
 
     Arguments and errors as for :func:`~.catalog.choose`; besides:
@@ -77,13 +76,13 @@ def hypotheses_of(intake: Intake, config: BuildConfig) -> tuple[Hypothesis, ...]
     if guessed and config.articulator != "rigid":
         _refuse_flat(name, intake.mesh)
     found = make_hypotheses(choose(intake, config), intake.mesh)
-    likeliest = found[0].articulation
+    likeliest = found[0]
     if not likeliest.movable_joints and likeliest.articulator != "rigid":
         size = " x ".join(f"{side:.3g}" for side in intake.mesh.extents)
         seen = "; ".join(likeliest.notes) or "nothing in this mesh looks as if it moved"
         says = f", says {likeliest.articulator} (it is {size} m): {seen}"
         raise _nothing_moves(name, f"{says}; {WAY_FORWARD}")
-    return tuple(Hypothesis(located(each.articulation)) for each in found)
+    return tuple(located(each) for each in found)
 
 
 def _refuse_flat(name: str, mesh: Mesh) -> None:
@@ -102,7 +101,7 @@ def _nothing_moves(name: str, why: str) -> InputRejected:
     return InputRejected("no_movable_joint", message, value=0.0, unit="joints", limit=1.0)
 
 
-def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis, ...]:
+def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Articulation, ...]:
     """Return what :func:`hypotheses_of` does, with the settings of ``stages``, and remember it.
 
     Args:
@@ -119,12 +118,11 @@ def hypotheses(intake: Intake, loaded: str, stages: Stages) -> tuple[Hypothesis,
     nameless = (Material("input"),) * len(intake.mesh.materials)
 
     def made() -> tuple[Articulation, ...]:
-        found = hypotheses_of(intake, config)
-        return tuple(_painted(each.articulation, nameless) for each in found)
+        return tuple(_painted(each, nameless) for each in hypotheses_of(intake, config))
 
     key = ARTICULATE.key(config, loaded)
     kept = stages.recall("articulate", tuple[Articulation, ...], key, made)
-    return tuple(Hypothesis(_painted(each, intake.mesh.materials)) for each in kept)
+    return tuple(_painted(each, intake.mesh.materials) for each in kept)
 
 
 def _painted(articulation: Articulation, materials: tuple[Material, ...]) -> Articulation:

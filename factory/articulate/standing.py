@@ -10,7 +10,6 @@ from ..intake.intake import Intake
 from ..intake.source import Source
 from ..part import Proposer
 from ..runtime.stages import Stages
-from .proposal import Hypothesis
 from .stage import hypotheses
 
 #: The axis that files have up instead, by the one assumed and who assumed it.
@@ -23,7 +22,7 @@ SURE = 0.6
 
 def standing_hypotheses(
     intake: Intake, origin: Source, stages: Stages
-) -> tuple[Intake, tuple[Hypothesis, ...]]:
+) -> tuple[Intake, tuple[Articulation, ...]]:
     """Return an input and its hypotheses; stood up, if it opens only so.
 
     Where nothing moves and nobody gave an up axis for this very input, it is read with the one
@@ -51,7 +50,7 @@ def standing_hypotheses(
 
 def _stood_up(
     lying: Intake, origin: Source, stages: Stages
-) -> tuple[Intake, tuple[Hypothesis, ...]] | None:
+) -> tuple[Intake, tuple[Articulation, ...]] | None:
     """Load an input with another axis up, if its sides then show enough that opens."""
     try:
         with stages.clock.stage("load"):
@@ -59,7 +58,7 @@ def _stood_up(
         found = hypotheses(intake, origin.loaded_key, stages)
     except InputRejected:
         return None
-    panels = _panels(found[0].articulation)
+    panels = _panels(found[0])
     if len(panels) < FEWEST or max(panels) < SURE:
         return None
     was = lying.provenance.up

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from ..articulation import Articulation
 from ..intake.intake import Intake
 from ..intake.licenses import combined, require_allowed
-from .proposal import Hypothesis
 
 
-def with_terms(intake: Intake, hypotheses: Sequence[Hypothesis], allowed: Sequence[str]) -> Intake:
+def with_terms(
+    intake: Intake, hypotheses: Sequence[Articulation], allowed: Sequence[str]
+) -> Intake:
     """Return an input under its own license and those of the weights that proposed its parts.
 
     Args:
@@ -21,7 +23,7 @@ def with_terms(intake: Intake, hypotheses: Sequence[Hypothesis], allowed: Sequen
     Raises:
         InputRejected: ``license_disallowed``: the configuration does not allow these weights'.
     """
-    named = (weights.outputs for each in hypotheses for weights in each.articulation.weights)
+    named = (weights.outputs for each in hypotheses for weights in each.weights)
     outputs = {license for license in named if license}
     if not outputs:
         return intake

@@ -16,8 +16,7 @@ from asset_factory.sim_checks import Severity, Status
 
 from ..articulate.stage import hypotheses_of
 from ..articulate.stated import StatedArticulator
-from ..articulate.stated.articulator import seen_from
-from ..articulate.stated.placing import SeenMesh
+from ..articulate.stated.seen import SeenMesh
 from ..config import BuildConfig
 from ..display.glb import glb_of, read_model, scene_from
 from ..display.made import scene_of_articulation, scene_of_mesh
@@ -102,10 +101,9 @@ def guess(mesh: Path, config: BuildConfig) -> dict[str, Any]:
     """Return what opens as the articulators see it, as a statement's JSON data; empty: nothing."""
     intake = _loaded(mesh, config)
     try:
-        (likeliest, *_) = hypotheses_of(intake, config)
+        (made, *_) = hypotheses_of(intake, config)
     except InputRejected:
         return {}
-    made = likeliest.articulation
     kinds = {part.name: part.kind for part in made.parts}
     scene = scene_of_articulation(intake.name, made)
     return _plain(found_parts(intake.mesh, scene, kinds))
@@ -174,4 +172,4 @@ def _loaded(mesh: Path, config: BuildConfig) -> Intake:
 
 @lru_cache(maxsize=1)
 def _seen(mesh: Path, config: BuildConfig, front: str) -> SeenMesh:
-    return seen_from(_loaded(mesh, config).mesh, front)
+    return SeenMesh.of(_loaded(mesh, config).mesh, front)

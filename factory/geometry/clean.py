@@ -5,14 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from ..errors import InputRejected
-from ..mesh import FloatArray, IntArray, Mesh
+from ..mesh import BoolArray, FloatArray, IntArray, Mesh
 from .rows import number_by_appearance, weld_points
 from .soup import Soup
-
-BoolArray = npt.NDArray[np.bool_]
 
 WELD_FRACTION = 1e-8
 """Share of the diagonal within which vertices are one, and up to which a face has no area."""

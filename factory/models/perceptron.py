@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
+from scipy.special import expit
 
 from ..errors import ConfigError
 from ..mesh import FloatArray
@@ -49,6 +50,10 @@ class Perceptron:
         if self.direct is not None:
             found = found + numbers @ self.direct
         return np.asarray(found)
+
+    def chance(self, numbers: FloatArray) -> float:
+        """Return the probability whose log-odds is the first score; numbers [input_count]."""
+        return float(expit(self.scores(numbers)[0]))
 
     @classmethod
     def read(cls, stored: Arrays, name: str, inputs: Sequence[str]) -> Perceptron:

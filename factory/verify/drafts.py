@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from asset_factory.sim_checks import Finding, Severity
 
-from ..articulate.proposal import Hypothesis
+from ..articulate.proposal import probability_of
 from ..articulation import Articulation
 from ..asset import Asset
 from ..errors import InputRejected
@@ -105,6 +105,6 @@ def _told_of(articulation: Articulation, why: str) -> Finding:
         f"{articulation.parts[j.child].name} {'turns' if j.turns else 'slides'}" for j in joints
     ]
     if any(joint.confidence is not None for joint in joints):
-        told.append(f"probability {Hypothesis(articulation).probability:.2f}")
+        told.append(f"probability {probability_of(articulation):.2f}")
     said = f"read otherwise ({', '.join(told)}), it {why}"
     return Finding("other_reading", Severity.WARNING, said)

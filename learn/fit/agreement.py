@@ -16,9 +16,8 @@ from asset_factory.factory.articulate.detected.articulator import ASKED, LEAST_S
 from asset_factory.factory.articulate.detected.panels import panels_of
 from asset_factory.factory.articulate.detected.rating import CellParts, support_of_box
 from asset_factory.factory.articulate.origin import MeshOrigin
-from asset_factory.factory.articulate.stated.articulator import seen_from
+from asset_factory.factory.articulate.stated.seen import SeenMesh
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.intake.stated import Stated
 from asset_factory.factory.mesh import FloatArray, Mesh
 from asset_factory.factory.models.detector.canvas import SIDES, SORTS, STRIDE, Sort, look_at
 from asset_factory.factory.models.detector.decode import overlaps
@@ -105,7 +104,7 @@ def rate_parts(guess: Articulator, objects: Iterable[LabelledMesh]) -> Rated:
 
 def _rate_own(rated: Rated, each: LabelledMesh, detection: Detection) -> None:
     """Add the panels and lids that the detector sees itself."""
-    seen = seen_from(each.mesh, Stated().front)
+    seen = SeenMesh.of(each.mesh)
     closed = MeshOrigin.of(each.mesh).is_shell
     for found, signs in panels_of(detection.dense, seen, closed=closed):
         box = [(SIDES.index(found.side), found.box)]

@@ -16,10 +16,10 @@ import numpy as np
 from asset_factory.factory.articulation import Articulation, Joint
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.intake.limits import require_at_most
-from asset_factory.factory.mesh import FloatArray, IntArray, read_only
+from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray, read_only
 from asset_factory.factory.models.particulate.prediction import MotionClass
 from asset_factory.factory.models.particulate.sampling import Cloud, draw
-from asset_factory.factory.models.particulate.surface import BoolArray, Surface
+from asset_factory.factory.models.particulate.surface import Surface
 from asset_factory.factory.runtime.store import write_whole
 
 from ..bodies import bodies_of

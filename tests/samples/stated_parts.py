@@ -11,8 +11,7 @@ FINE = 0.02
 
 
 def articulated(mesh, *parts, **stated):
-    made = StatedArticulator(stated_from({"parts": list(parts), **stated})).hypotheses(mesh)
-    return tuple(each.articulation for each in made)
+    return StatedArticulator(stated_from({"parts": list(parts), **stated})).hypotheses(mesh)
 
 
 def block(low, high):

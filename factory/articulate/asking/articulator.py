@@ -5,19 +5,19 @@ from __future__ import annotations
 import base64
 import json
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 from urllib.parse import urlsplit
 
+from ...articulation import Articulation
 from ...config import BuildConfig, VlmConfig
 from ...errors import ConfigError, InputRejected
 from ...intake.intake import Intake
 from ...intake.stated import stated_from
 from ...mesh import Mesh
 from ...part import Proposer
-from ..annotated import annotated_articulator, annotation_of
+from ..annotated import annotated_articulator
 from ..articulator import Articulator, HypothesisMaker
-from ..proposal import Hypothesis
 from ..stated import StatedArticulator
 from .answers import answer_path, keep_answer, kept_answer
 from .endpoint import Reply, ask, require_endpoint
@@ -29,21 +29,21 @@ LONGEST = 64 * 1024
 _FENCED = re.compile(r"\s*```(?:json)?\s*(.*?)\s*```\s*", re.DOTALL)
 
 
+@dataclass(frozen=True)
 class VlmArticulator(HypothesisMaker):
     """Asks a model once, once more with the fault, and never again about the same pictures.
 
-    Args:
+    Attributes:
         input_name: of the input's file, which is told.
         config: which model, and where.
     """
 
     name = NAME
 
-    def __init__(self, input_name: str, config: VlmConfig) -> None:
-        self._input_name = input_name
-        self._config = config
+    input_name: str
+    config: VlmConfig
 
-    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+    def hypotheses(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return the articulations that fit the model's answer, the likeliest first.
 
         Raises:
@@ -51,33 +51,30 @@ class VlmArticulator(HypothesisMaker):
             Unjudged: ``model_unavailable``.
             ConfigError: the endpoint refuses the key, the model or the question.
         """
-        question = question_of(mesh, self._input_name)
-        path = answer_path(self._config, question)
+        question = question_of(mesh, self.input_name)
+        path = answer_path(self.config, question)
         kept = kept_answer(path)
         if kept is not None:
             return self._noted(_found(kept.text, mesh), kept)
         messages = [_first_message(question)]
-        reply = ask(self._config, messages)
+        reply = ask(self.config, messages)
         try:
             found = _found(reply.text, mesh)
         except InputRejected as fault:
-            again = ask(self._config, [*messages, *_corrections(reply, fault)])
+            again = ask(self.config, [*messages, *_corrections(reply, fault)])
             found = _found(again.text, mesh)
             reply = Reply(again.text, reply.read + again.read, reply.written + again.written)
         keep_answer(path, reply)
         return self._noted(found, reply)
 
-    def _noted(self, found: tuple[Hypothesis, ...], kept: Reply) -> tuple[Hypothesis, ...]:
+    def _noted(self, found: tuple[Articulation, ...], kept: Reply) -> tuple[Articulation, ...]:
         """Return hypotheses that say who proposed them, and what that cost."""
-        host = urlsplit(self._config.url).hostname
+        host = urlsplit(self.config.url).hostname
         note = (
-            f"{self._config.model} at {host} said what opens: "
+            f"{self.config.model} at {host} said what opens: "
             f"{kept.read} tokens read, {kept.written} written"
         )
-        trees = (each.articulation for each in found)
-        return tuple(
-            Hypothesis(replace(tree, articulator=NAME, notes=(*tree.notes, note))) for tree in trees
-        )
+        return tuple(replace(each, articulator=NAME, notes=(*each.notes, note)) for each in found)
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
@@ -88,14 +85,14 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     """
     if intake.stated is not None:
         return StatedArticulator(intake.stated)
-    annotation = annotation_of(intake)
-    if annotation is not None:
-        return annotated_articulator(intake, annotation)
+    annotated = annotated_articulator(intake)
+    if annotated is not None:
+        return annotated
     require_endpoint(config.vlm, needed=True)
     return VlmArticulator(intake.provenance.input, config.vlm)
 
 
-def _found(text: str, mesh: Mesh) -> tuple[Hypothesis, ...]:
+def _found(text: str, mesh: Mesh) -> tuple[Articulation, ...]:
     """Return the articulations that an answer states.
 
     Raises:

@@ -15,7 +15,7 @@ from ...mesh import Mesh
 from ...models.particulate.inference import Network
 from ...models.weights.sources import SHIPPED
 from ...part import Proposer
-from ..annotated import annotated_articulator, annotation_of
+from ..annotated import annotated_articulator
 from ..articulator import Articulator
 from ..assembly import assembled
 from ..geometric import GeometricArticulator
@@ -149,21 +149,16 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     """
     if intake.stated is not None:
         return StatedArticulator(intake.stated, _guess(config))
-    annotation = annotation_of(intake)
-    if annotation is not None:
-        return annotated_articulator(intake, annotation)
-    return _guess(config)
+    return annotated_articulator(intake) or _guess(config)
 
 
 def _guess(config: BuildConfig) -> Articulator:
     """Return who is asked where nothing came with the input."""
     if config.particulate.checkpoint == SHIPPED:
-        from ...models.detector.detect import detector_weights
-        from ..detected import DetectedArticulator, load_agreement
+        from ..detected import DetectedArticulator
 
         guess = load_auto(config.particulate, config.auto)
-        least = config.auto.least_confidence
-        return DetectedArticulator(guess, load_agreement(), (detector_weights(),), least)
+        return DetectedArticulator(guess, config.auto.least_confidence)
     from ..particulate import load_articulator
 
     return load_articulator(config.particulate)

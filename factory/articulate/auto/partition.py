@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import FloatArray, IntArray
-from ...models.particulate.surface import BoolArray
+from ...mesh import BoolArray, FloatArray, IntArray
 
 #: A part that lies in another to this share of its area, and is at most half as large, hangs on it.
 INSIDE = 0.8

@@ -6,8 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...mesh import FloatArray, read_only
-from ...models.particulate.surface import BoolArray
+from ...mesh import BoolArray, FloatArray, freeze
 from ..evidence import Guess
 from ..proposal import Motion
 from .views import NetworkView, SeenPart
@@ -40,7 +39,7 @@ class LearnedPart:
     slide: Motion | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "faces", read_only(self.faces, np.bool_))
+        freeze(self, "faces", dtype=np.bool_)
 
 
 @dataclass(frozen=True)

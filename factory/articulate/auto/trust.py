@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from scipy.special import expit, logit
+from scipy.special import logit
 
 from ...mesh import FloatArray
 from ...models.perceptron import Perceptron
@@ -44,7 +44,7 @@ class Trust:
 
     def confidence(self, signs: Mapping[str, float]) -> float:
         """Return the probability that a proposal for which these signs speak is right, 0 to 1."""
-        return float(expit(self.network.scores(signs_of(signs))[0]))
+        return self.network.chance(signs_of(signs))
 
 
 def signs_of(values: Mapping[str, float]) -> FloatArray:

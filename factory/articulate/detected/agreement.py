@@ -5,10 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 
-import numpy as np
-from scipy.special import expit
-
-from ...mesh import FloatArray
 from ...models.perceptron import Perceptron
 from ...models.shipped import Arrays, load_shipped
 
@@ -26,6 +22,8 @@ SIGNS = {PROPOSED: PROPOSED_SIGNS, PANEL: PANEL_SIGNS, LID: ("support",)}
 class Agreement:
     """Logistic models, fitted to meshes that the detector did not learn from.
 
+    Each is given the numbers that :data:`SIGNS` names.
+
     Attributes:
         proposed: of a part that somebody else proposes.
         panel: of a door, drawer or flap that only the detector sees.
@@ -37,18 +35,6 @@ class Agreement:
     panel: Perceptron
     lid: Perceptron
     least: float
-
-    def of_proposed(self, signs: FloatArray) -> float:
-        """Return the probability of a part for which :data:`PROPOSED_SIGNS` speak."""
-        return _chance(self.proposed, *signs)
-
-    def of_panel(self, signs: FloatArray) -> float:
-        """Return the probability of a panel for which :data:`PANEL_SIGNS` speak."""
-        return _chance(self.panel, *signs)
-
-    def of_lid(self, support: float) -> float:
-        """Return the probability of a lid that only the detector sees."""
-        return _chance(self.lid, support)
 
 
 @cache
@@ -65,7 +51,3 @@ def agreement_of(stored: Arrays) -> Agreement:
     """Return what a file holds; errors as for :func:`load_agreement`."""
     proposed, panel, lid = (Perceptron.read(stored, name, signs) for name, signs in SIGNS.items())
     return Agreement(proposed, panel, lid, float(stored.arrays["least"][0]))
-
-
-def _chance(network: Perceptron, *signs: float) -> float:
-    return float(expit(network.scores(np.array(signs))[0]))

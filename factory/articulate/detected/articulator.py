@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import structs
 
-from ...articulation import Articulation, Joint, Weights
+from ...articulation import Articulation, Joint
 from ...errors import InputRejected
 from ...geometry.posing import closed, posed, rotated
+from ...geometry.welding import welded
 from ...intake.stated import Hinge, Stated, StatedAlternative, StatedKind, StatedPart
 from ...mesh import Mesh
 from ...models.detector.canvas import Sort, look_at
@@ -20,13 +21,11 @@ from ...views.raster import Side
 from ..articulator import Articulator, HypothesisMaker
 from ..closing import note_open, with_closed_hinges
 from ..origin import MeshOrigin
-from ..proposal import Hypothesis
-from ..pruning import keep_parts
 from ..rigid import rigid_articulation
-from ..stated.articulator import StatedArticulator, seen_from
-from ..stated.placing import SeenMesh
+from ..stated import StatedArticulator
+from ..stated.seen import SeenMesh
 from ..straight import straightening
-from .agreement import Agreement
+from .agreement import load_agreement
 from .boxes import with_whole_drawers
 from .facing import without_backs
 from .merging import DetectedPart, likely_hinges, seen_parts
@@ -69,14 +68,10 @@ class DetectedArticulator(HypothesisMaker):
 
     Attributes:
         guess: who is asked.
-        agreement: how sure both must be.
-        weights: of the detector.
         least: probability below which a part stays fixed; ``None``: the agreement's.
     """
 
     guess: Articulator
-    agreement: Agreement
-    weights: tuple[Weights, ...]
     least: float | None = None
 
     @property
@@ -84,33 +79,31 @@ class DetectedArticulator(HypothesisMaker):
         """Return how whoever is asked is called."""
         return self.guess.name
 
-    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+    def hypotheses(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return what may open, the likeliest first; all that is seen together comes first."""
         straight = straightening(mesh)
         if straight is None:
-            made = self._articulations(mesh)
-        else:
-            turned = self._articulations(mesh.turned(straight))
-            made = [rotated(each, straight.T) for each in turned]
-        return tuple(Hypothesis(each) for each in made)
+            return self._articulations(mesh)
+        turned = self._articulations(mesh.turned(straight))
+        return tuple(rotated(each, straight.T) for each in turned)
 
-    def _articulations(self, mesh: Mesh) -> list[Articulation]:
+    def _articulations(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return the articulations that a mesh may have whose sides look along the axes."""
         from ...models.detector.detect import detect
 
         detection = detect(mesh)
         sure_kind = detection.kind if detection.kinds.max() >= SURE_KIND else None
         if sure_kind == LAPTOP and (made := _with_screen(mesh, float(detection.kinds.max()))):
-            return [self._noted(each, sure_kind) for each in made]
-        least = self.agreement.least if self.least is None else self.least
+            return tuple(self._noted(each, sure_kind) for each in made)
+        least = load_agreement().least if self.least is None else self.least
         shell = MeshOrigin.of(mesh).is_shell
-        seen = seen_from(mesh, Stated().front)
-        drawn = open_panels(seen.pieces.views, detection, one_piece=shell)
+        seen = SeenMesh.of(mesh)
+        drawn = open_panels(seen.views, detection, one_piece=shell)
         if drawn is not None:
             shut = closed(drawn)
             mesh = shut.mesh
             detection = detect(mesh)
-            seen = seen_from(mesh, Stated().front)
+            seen = SeenMesh.of(mesh)
         rated = self._rated(detection, seen, closed=shell)
         sure = [part for part in rated if part.probability >= least]
         guess = self.guess.articulate(mesh)
@@ -126,10 +119,10 @@ class DetectedArticulator(HypothesisMaker):
         gone = _misplaced(cells, sure)
         if shell:
             gone += _several_in_one(cells, sure)
-        guess = _without(guess, gone)
+        guess = welded(guess, gone)
         cells = CellParts.of(guess, faces)
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
-        guess = _without(guess, _pulls(cells, beside))
+        guess = welded(guess, _pulls(cells, beside))
         made = [*self._with(guess, beside), *([guess] if moves else [])]
         if not made or 0 < len(guess.movable_joints) < len(sure):
             made += self._with(rigid_articulation(mesh, self.name, ()), sure)
@@ -140,17 +133,19 @@ class DetectedArticulator(HypothesisMaker):
         if drawn is not None:
             told = [reopened(each, drawn) for each in told]
             notes += drawn.notes
-        return [self._noted(each, sure_kind, notes) for each in told]
+        return tuple(self._noted(each, sure_kind, notes) for each in told)
 
     def _noted(
         self, made: Articulation, kind: str | None, notes: tuple[str, ...] = ()
     ) -> Articulation:
         """Return an articulation with who made it, what it looks like and notes."""
+        from ...models.detector.detect import detector_weights
+
         return replace(
             made,
             articulator=self.name,
             notes=(*notes, *made.notes),
-            weights=(*made.weights, *self.weights),
+            weights=(*made.weights, detector_weights()),
             looks_like=kind,
         )
 
@@ -165,7 +160,7 @@ class DetectedArticulator(HypothesisMaker):
         dense = detection.dense
         panels = []
         for found, signs in panels_of(dense, seen, closed=closed):
-            chance = self.agreement.of_panel(signs)
+            chance = load_agreement().panel.chance(signs)
             if chance >= LEAST_CHANCE:
                 panels.append(replace(found, score=chance))
         # Where little is asked lids with a lower score are looked at, too.
@@ -177,7 +172,7 @@ class DetectedArticulator(HypothesisMaker):
             probability = part.found[0].score
             if stated.kind is StatedKind.LID:
                 support = max(support_of_box(each, dense) for each in part.found)
-                probability = self.agreement.of_lid(support)
+                probability = load_agreement().lid.chance(np.array([support]))
                 stated = stated if stated.hinge is not None else _hinged(part)
             rated.append(replace(part, stated=stated, probability=probability))
         return sorted(rated, key=lambda part: -part.probability)
@@ -196,31 +191,33 @@ class DetectedArticulator(HypothesisMaker):
         of shape find move alone as well, such as a cooktop's knobs. Whether anything moves that
         needs nothing else to is told, too.
         """
-        kept = []
+        fixed = []
         chances = {}
         alone = False
         for joint in guess.joints:
             part = guess.parts[joint.child]
             signs = cells.signs(joint.child, detection) if part.kind in ASKED else None
             if signs is None:
-                if not part.is_by(Proposer.SIDES) or detection.kind in KNOBBED:
-                    kept.append(joint.child)
+                if part.is_by(Proposer.SIDES) and detection.kind not in KNOBBED:
+                    fixed.append(joint.name)
+                else:
                     alone |= by_rules(part)
                 continue
-            chance = self.agreement.of_proposed(signs)
+            chance = load_agreement().proposed.chance(signs)
             confidence = part.confidence or 0.0
             if confidence >= BELIEVED and not any(
                 cells.hides(joint.child, f) for each in sure for f in each.found
             ):
                 chance = max(chance, confidence)
             if chance >= least:
-                kept.append(joint.child)
                 chances[joint.child] = chance
-        return keep_parts(guess, kept, chances), alone or bool(chances)
+            else:
+                fixed.append(joint.name)
+        return welded(_with_chances(guess, chances), fixed), alone or bool(chances)
 
-    def _with(self, guess: Articulation, parts: Sequence[DetectedPart]) -> list[Articulation]:
+    def _with(self, guess: Articulation, parts: Sequence[DetectedPart]) -> tuple[Articulation, ...]:
         """Return a guess with parts beside it; the least sure is left out where they do not fit."""
-        seen = seen_from(guess.mesh, Stated().front)
+        seen = SeenMesh.of(guess.mesh)
         for count in range(len(parts), 0, -1):
             chosen = parts[:count]
             stated = StatedArticulator(
@@ -230,10 +227,10 @@ class DetectedArticulator(HypothesisMaker):
                 seen=seen,
             )
             try:
-                return [each.articulation for each in stated.beside(guess)]
+                return stated.beside(guess)
             except InputRejected:
                 continue
-        return []
+        return ()
 
     def _still(self, mesh: Mesh, guess: Articulation, detection: Detection) -> Articulation:
         """Return an articulation that moves nothing, with notes on all that was seen."""
@@ -258,9 +255,9 @@ def _with_screen(mesh: Mesh, chance: float) -> list[Articulation]:
     notes = (note_open("its screen", screen.drawn),)
     made = []
     for each in hypotheses:
-        (joint,) = each.articulation.joints
+        (joint,) = each.joints
         drawn = {joint.name: min(float(np.radians(screen.drawn)), joint.upper)}
-        made.append(replace(posed(each.articulation, drawn), notes=notes))
+        made.append(replace(posed(each, drawn), notes=notes))
     return made
 
 
@@ -271,13 +268,18 @@ def _hinged(part: DetectedPart) -> StatedPart:
     return structs.replace(part.stated, hinge=Hinge(first), alternatives=(other,))
 
 
-def _without(guess: Articulation, gone: Collection[int]) -> Articulation:
-    """Return a guess in which these parts stay fixed."""
-    return keep_parts(guess, {j.child for j in guess.joints} - set(gone)) if gone else guess
+def _with_chances(guess: Articulation, chances: Mapping[int, float]) -> Articulation:
+    """Return a guess in which some parts, by number, and their joints have other probabilities."""
+    parts = list(guess.parts)
+    joints = list(guess.joints)
+    for number, chance in chances.items():
+        parts[number] = replace(parts[number], confidence=chance)
+        joints[number - 1] = replace(joints[number - 1], confidence=chance)
+    return replace(guess, parts=tuple(parts), joints=tuple(joints))
 
 
-def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
-    """Return the parts hinged elsewhere than all sides of a lid in their place agree on."""
+def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[str]:
+    """Return the joints that are elsewhere than all sides of a lid in their place agree on."""
     guess = cells.articulation
     lids = [
         (part, Side(hinge))
@@ -285,7 +287,7 @@ def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
         if part.stated.kind is StatedKind.LID and part.agreed and (hinge := part.stated.hinge)
     ]
     return [
-        joint.child
+        joint.name
         for joint in guess.joints
         if any(
             cells.hides(joint.child, found) and not _hinged_at(guess, joint, side)
@@ -295,14 +297,14 @@ def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
     ]
 
 
-def _several_in_one(cells: CellParts, sure: Sequence[DetectedPart]) -> list[int]:
-    """Return the parts in whose place several panels are seen.
+def _several_in_one(cells: CellParts, sure: Sequence[DetectedPart]) -> list[str]:
+    """Return the joints of parts in whose place several panels are seen.
 
     That is right of shells only: pieces that somebody modelled are parts as they are.
     """
     panels = [part.found[0] for part in sure if part.stated.kind is not StatedKind.LID]
     return [
-        joint.child
+        joint.name
         for joint in cells.articulation.joints
         if sum(cells.hides(joint.child, found) for found in panels) > 1
     ]
@@ -316,11 +318,11 @@ def _hinged_at(guess: Articulation, joint: Joint, side: Side) -> bool:
     return float(outward @ (joint.origin - (low + high) / 2.0)) > AT_SIDE * half
 
 
-def _pulls(cells: CellParts, beside: Sequence[DetectedPart]) -> list[int]:
-    """Return the knobs on panels that come beside a guess: these are pulled by them."""
+def _pulls(cells: CellParts, beside: Sequence[DetectedPart]) -> list[str]:
+    """Return the joints of knobs on panels that come beside a guess: these are pulled by them."""
     guess = cells.articulation
     return [
-        joint.child
+        joint.name
         for joint in guess.joints
         if guess.parts[joint.child].kind in CARRIED
         and any(cells.lies_in(joint.child, f) for part in beside for f in part.found)

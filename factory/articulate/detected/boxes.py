@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import Articulation, Joint, JointKind
+from ...geometry.welding import welded
 from ...models.detector.decode import shared_areas
 from ...part import PartKind
-from ..pruning import keep_parts
 
 #: Two slide one way if the cosine between their axes is at least this, and are in line if they
 #: share this much of the smaller one's outline. A part of more than so many times a drawer's
@@ -28,13 +28,13 @@ def with_whole_drawers(articulation: Articulation) -> Articulation:
         if kinds[j.child] is PartKind.PART and j.child not in carrying
     ]
     # Of several drawers the first one counts.
-    into = {
-        joint.child: drawer.child
+    onto = {
+        joint.name: drawer.child
         for drawer in reversed(drawers)
         for joint in loose
         if _slides_along(joint, drawer) and _is_in_line(articulation, joint, drawer)
     }
-    return keep_parts(articulation, kinds.keys() - into.keys(), into=into) if into else articulation
+    return welded(articulation, (), onto) if onto else articulation
 
 
 def _slides_along(joint: Joint, drawer: Joint) -> bool:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ...articulation import Articulation
+from ...geometry.welding import welded
 from ...part import PartKind
 from ...views.raster import side_facing
-from ..pruning import keep_parts
 from ..seams.fronts import OPPOSITE
 
 #: Panels of these kinds of object are seen from both sides, and may open either way.
@@ -36,6 +36,6 @@ def without_backs(made: Articulation, kind: str) -> Articulation:
         if side in OPPOSITE:
             chances[side] += part.confidence or 0.0
             if part.kind.closes_side:
-                panels[joint.child] = side
-    gone = {child for child, side in panels.items() if chances[side] < chances[OPPOSITE[side]]}
-    return keep_parts(made, {joint.child for joint in made.joints} - gone)
+                panels[joint.name] = side
+    gone = {name for name, side in panels.items() if chances[side] < chances[OPPOSITE[side]]}
+    return welded(made, gone)

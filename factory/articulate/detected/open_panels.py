@@ -9,6 +9,7 @@ import numpy as np
 
 from ...articulation import Articulation, JointKind
 from ...geometry.posing import face_parts, posed
+from ...geometry.welding import welded
 from ...mesh import FloatArray
 from ...models.detector.canvas import KINDS
 from ...models.detector.detect import Detection
@@ -18,7 +19,6 @@ from ...views.view import View, Views
 from ..assembly import JOINT_SUFFIX
 from ..closing import note_open
 from ..proposal import Motion
-from ..pruning import keep_parts
 from ..seams.cutting import Region
 from ..seams.placing import TURN, OpeningPart, cut_out
 from .plates import Plate, Silhouette, sticking_out
@@ -243,8 +243,8 @@ def with_closed(guess: Articulation, closed: Articulation) -> Articulation:
     if guess.mesh is not closed.mesh:
         return closed
     taken = face_parts(closed) > 0
-    free = [each.child for each in guess.joints if not taken[guess.parts[each.child].faces].any()]
-    guess = keep_parts(guess, free)
+    covered = [each.name for each in guess.joints if taken[guess.parts[each.child].faces].any()]
+    guess = welded(guess, covered)
     parts = [replace(part, faces=part.faces[~taken[part.faces]]) for part in guess.parts]
     joints = list(guess.joints)
     for joint in closed.joints:

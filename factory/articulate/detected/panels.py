@@ -14,7 +14,7 @@ from ...models.detector.decode import Dense, Found, found_parts
 from ...views.raster import Side
 from ..seams.fronts import Front
 from ..seams.rectangles import Rectangle
-from ..stated.placing import SeenMesh
+from ..stated.seen import SeenMesh
 from ..stated.snapping import StatedFrame, snap
 from .merging import PANELS
 from .rating import box_cells, support_of_box

@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 from ...geometry.components import connected_components
 from ...geometry.cutting import divide
 from ...geometry.triangles import ends_of
-from ...mesh import BoolArray, FloatArray, IntArray, Mesh, read_only
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh, freeze
 from ..geometric.scene import level_frame
 from .frames import distinct, own_frame
 from .grid import Grid, grid_around
@@ -44,8 +44,7 @@ class Partition:
     parents: IntArray
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "face_part", read_only(self.face_part, np.int64))
-        object.__setattr__(self, "parents", read_only(self.parents, np.int64))
+        freeze(self, "face_part", "parents", dtype=np.int64)
         if self.face_part.shape != (len(self.mesh.faces),):
             raise ValueError(
                 f"partition: {self.face_part.shape} labels for {len(self.mesh.faces)} faces"

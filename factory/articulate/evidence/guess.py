@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...mesh import FloatArray, read_only
+from ...mesh import FloatArray, freeze, read_only
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,7 @@ class Guess:
                     "want a vector that points somewhere, or None"
                 )
             object.__setattr__(self, "direction", read_only(np.asarray(self.direction) / length))
-        if self.point is not None:
-            object.__setattr__(self, "point", read_only(self.point))
+        freeze(self, "point")
 
 
 NOTHING = Guess()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,11 +9,12 @@ import numpy as np
 
 from ...mesh import FloatArray
 from ...views.raster import Side
+from ...views.view import Views
 from .controls import with_strips
 from .evidence import seams_of
 from .handles import Face, Protrusion, cleared
 from .rectangles import SHORTEST, Lines, Rectangle, lines_of, rectangles_of
-from .relief import Relief
+from .relief import Relief, relief_of
 
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
 OPPOSITE = {
@@ -73,8 +73,9 @@ class Front:
         return rectangles_of(self.level, self.upright, shortest)
 
 
-def fronts_of(reliefs: Mapping[Side, Relief]) -> dict[Side, Front]:
-    """Return the four sides of an object."""
+def fronts_of(views: Views) -> dict[Side, Front]:
+    """Return the four upright sides of a mesh."""
+    reliefs = {side: relief_of(views[side]) for side in AROUND}
     return {
         side: Front(reliefs[side], cleared(reliefs[side]), reliefs[OPPOSITE[side]])
         for side in AROUND

@@ -7,12 +7,13 @@ import numpy as np
 from ...articulation import Articulation
 from ...mesh import Mesh
 from ...part import PartKind, Proposer
+from ...views.raster import Side
 from ...views.view import Views
 from ..proposal import Motion
 from ..rigid import rigid_articulation
 from .handles import FEWEST, Face, Protrusion, cleared
 from .placing import OpeningPart, box_before, cut_out
-from .relief import Relief, reliefs_of
+from .relief import Relief, relief_of
 
 #: A knob covers so much of its box: a disc 0.79.
 FULL = 0.65
@@ -33,7 +34,8 @@ def knobs_of(mesh: Mesh, articulator: str) -> Articulation:
         mesh: metres, z up.
         articulator: who is asked.
     """
-    sides = reliefs_of(Views(mesh)).values()
+    views = Views(mesh)
+    sides = [relief_of(views[side]) for side in Side if side is not Side.BOTTOM]
     movers = max((knobs_on(side, cleared(side)) for side in sides), key=len)
     if not movers:
         return rigid_articulation(mesh, articulator, ())

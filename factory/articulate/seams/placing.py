@@ -20,14 +20,6 @@ from .rectangles import Rectangle
 
 #: A panel's outer edge is looked at so far inside of its outline [pixels].
 INSET = 4
-#: What a panel is that opens so.
-KINDS = {
-    OpensBy.LEFT: PartKind.DOOR,
-    OpensBy.RIGHT: PartKind.DOOR,
-    OpensBy.BOTTOM: PartKind.FLAP,
-    OpensBy.TOP: PartKind.FLAP,
-    OpensBy.OUT: PartKind.DRAWER,
-}
 #: How far a door, a flap or a lid turns [rad], and a drawer slides as a share of the depth behind.
 TURN = 1.57
 SLIDE = 0.8
@@ -150,7 +142,7 @@ def rim_depth(front: Front, panel: Rectangle) -> float:
 
 
 def panel_mover(
-    fronts: Mapping[Side, Front], side: Side, panel: Rectangle, way: OpensBy
+    fronts: Mapping[Side, Front], side: Side, panel: Rectangle, way: OpensBy, kind: PartKind
 ) -> OpeningPart:
     """Return a panel of a front that opens in one way.
 
@@ -159,6 +151,7 @@ def panel_mover(
         side: the panel's.
         panel: one of its panels.
         way: how it opens.
+        kind: what it is.
     """
     front = fronts[side]
     behind = front.relief.depth
@@ -187,7 +180,7 @@ def panel_mover(
         upper=SLIDE * behind if slides else TURN,
     )
     return OpeningPart(
-        kind=KINDS[way],
+        kind=kind,
         region=region,
         motion=motion,
         panel=Panel(raster.side.frame, low, high, rim, thickness, way),

@@ -11,7 +11,7 @@ from scipy import ndimage
 from ...geometry.colors import linear_of
 from ...mesh import BoolArray, FloatArray, IntArray
 from ...views.raster import Raster, Side
-from ...views.view import View, Views
+from ...views.view import View
 
 #: Nothing lies so far behind everything [pixels]; an outline is a step as high as that.
 BEHIND = 24.0
@@ -62,11 +62,6 @@ class Relief:
 def _extent(counts: IntArray) -> IntArray:
     """Return first and last row that is more than a sliver, shape [2]."""
     return np.flatnonzero(counts > SLIVER * counts.max())[[0, -1]]
-
-
-def reliefs_of(views: Views) -> dict[Side, Relief]:
-    """Return every side of a mesh but the lower one."""
-    return {side: relief_of(views[side]) for side in Side if side is not Side.BOTTOM}
 
 
 def relief_of(view: View) -> Relief:

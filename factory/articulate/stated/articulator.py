@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import chain, islice, product
 
 import numpy as np
 
-from ...articulation import Articulation, rotation_about
+from ...articulation import Articulation
 from ...config import BuildConfig
 from ...errors import InputRejected
-from ...geometry.posing import UP, posed
+from ...geometry.posing import posed
 from ...geometry.triangles import face_areas
 from ...intake.intake import Intake
 from ...intake.stated import Stated, StatedPart
@@ -20,12 +20,13 @@ from ...mesh import BoolArray, IntArray, Mesh
 from ...part import PartKind, Proposer
 from ..articulator import Articulator, HypothesisMaker, make_hypotheses
 from ..assembly import assembled
-from ..proposal import Hypothesis, Motion, Proposal
+from ..proposal import Motion, Proposal
 from ..rigid import rigid_articulation
 from ..seams.cutting import CutMesh, Region, cut_along, inside
 from .boxed import NOT_FOUND, USUAL, label_of
-from .expecting import Expected, count_expected, find_expected, require_some
-from .placing import Placed, SeenMesh, place_parts, stated_unit
+from .expecting import count_expected, keep_expected, proposals_on, require_some
+from .placing import Placed, place_parts, stated_unit
+from .seen import SeenMesh
 from .wholes import StatedWay
 
 NAME = "stated"
@@ -33,38 +34,29 @@ NAME = "stated"
 MOST_HYPOTHESES = 4
 #: Sides of the mesh that was stated may differ so much from this one's, of the longest.
 SAME_SHAPE = 0.05
-#: Quarter turns about z that bring a stated front to -Y.
-_TURNS: Mapping[str, int] = {"-y": 0, "-x": 1, "y": 2, "x": 3}
 
 
+@dataclass(frozen=True)
 class StatedArticulator(HypothesisMaker):
     """Finds on a mesh the parts that somebody stated.
 
-    Args:
+    Attributes:
         stated: what a sidecar says.
         guess: who is asked for parts that are stated without a place.
         proposer: who stated them.
         chances: probability of each, in their order; none where a person's word counts.
-        seen: the mesh that is going to be asked about, as :func:`seen_from` gives it.
+        seen: the mesh that is going to be asked about, with its sides.
     """
 
     name = NAME
 
-    def __init__(
-        self,
-        stated: Stated,
-        guess: Articulator | None = None,
-        proposer: Proposer = Proposer.SIDECAR,
-        chances: Sequence[float] = (),
-        seen: SeenMesh | None = None,
-    ) -> None:
-        self.stated = stated
-        self.guess = guess
-        self._proposer = proposer
-        self._chances = tuple(chances)
-        self._seen = seen
+    stated: Stated
+    guess: Articulator | None = None
+    proposer: Proposer = Proposer.SIDECAR
+    chances: tuple[float, ...] = ()
+    seen: SeenMesh | None = None
 
-    def hypotheses(self, mesh: Mesh) -> tuple[Hypothesis, ...]:
+    def hypotheses(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return the articulations that fit the statement, the likeliest first.
 
         All share one mesh: the given one, cut along the outlines of all their parts.
@@ -75,16 +67,16 @@ class StatedArticulator(HypothesisMaker):
         _refuse_other_size(mesh, self.stated)
         if not self.stated.opens:
             note = "its sidecar says that nothing opens"
-            return (Hypothesis(rigid_articulation(mesh, self.name, (note,))),)
+            return (rigid_articulation(mesh, self.name, (note,)),)
         wanted = count_expected(self.stated.parts)
         if wanted:
             return self._filled(mesh, wanted)
         placed = self._placed_on(mesh)
         chosen = list(islice(_with_cut(_choices(placed)), MOST_HYPOTHESES))
         cut = cut_along(mesh, chain.from_iterable(_to_cut(ways) for ways in chosen))
-        return tuple(Hypothesis(self._articulation(cut, placed, ways)) for ways in chosen)
+        return tuple(self._articulation(cut, placed, ways) for ways in chosen)
 
-    def beside(self, guess: Articulation) -> tuple[Hypothesis, ...]:
+    def beside(self, guess: Articulation) -> tuple[Articulation, ...]:
         """Return the stated parts beside all that moves in a guess, the likeliest first.
 
         Raises:
@@ -92,23 +84,24 @@ class StatedArticulator(HypothesisMaker):
         """
         if not guess.movable_joints:
             return self.hypotheses(guess.mesh)
-        return self._beside(Expected(guess, self._placed_on(guess.mesh), guess.joints))
+        return self._beside(guess, self._placed_on(guess.mesh))
 
     def _placed_on(self, mesh: Mesh) -> list[Placed]:
         """Return the stated parts that have a place, found on a mesh."""
-        seen = self._seen or seen_from(mesh, self.stated.front)
+        seen = self.seen or SeenMesh.of(mesh, self.stated.front)
         return place_parts(seen, self.stated.parts)
 
-    def _beside(self, each: Expected) -> tuple[Hypothesis, ...]:
-        """Return the placed parts beside those wanted of a guess, cut from the guess's mesh."""
+    def _beside(self, guess: Articulation, placed: Sequence[Placed]) -> tuple[Articulation, ...]:
+        """Return the placed parts beside those of a guess, cut from the guess's mesh."""
         made = []
-        for ways in islice(_with_cut(_choices(each.placed)), MOST_HYPOTHESES):
-            cut = cut_along(each.guess.mesh, _to_cut(ways))
-            filled = self._articulation(cut, each.placed, ways, each.proposals(cut), each.hosts)
-            made.append(Hypothesis(replace(filled, weights=each.guess.weights)))
+        hosts = [joint.parent for joint in guess.joints]
+        for ways in islice(_with_cut(_choices(placed)), MOST_HYPOTHESES):
+            cut = cut_along(guess.mesh, _to_cut(ways))
+            filled = self._articulation(cut, placed, ways, proposals_on(cut, guess), hosts)
+            made.append(replace(filled, weights=guess.weights))
         return tuple(made)
 
-    def _filled(self, mesh: Mesh, wanted: Counter[PartKind]) -> tuple[Hypothesis, ...]:
+    def _filled(self, mesh: Mesh, wanted: Counter[PartKind]) -> tuple[Articulation, ...]:
         """Return the placed parts, and those that the guess has of expected ones."""
         if self.guess is None:
             bare = [part.view is None for part in self.stated.parts].index(True)
@@ -117,11 +110,13 @@ class StatedArticulator(HypothesisMaker):
                 f"{label_of(self.stated.parts[bare], bare)}: has no side and box; want them for "
                 "every part, or an articulator that looks for it, as auto does",
             )
-        guesses = [each.articulation for each in make_hypotheses(self.guess, mesh)]
-        found = [find_expected(each, wanted, self._placed_on(each.mesh)) for each in guesses]
-        made: list[Hypothesis] = []
-        for each in require_some(found, wanted):
-            made += (Hypothesis(each.guess),) if each.is_whole else self._beside(each)
+        guesses = make_hypotheses(self.guess, mesh)
+        placed = [self._placed_on(each.mesh) for each in guesses]
+        kept = [keep_expected(*each, wanted) for each in zip(guesses, placed, strict=True)]
+        made: list[Articulation] = []
+        for place in require_some(kept, wanted):
+            whole = not placed[place] and len(kept[place].parts) == len(guesses[place].parts)
+            made += (guesses[place],) if whole else self._beside(kept[place], placed[place])
         return tuple(made[:MOST_HYPOTHESES])
 
     def _articulation(
@@ -136,13 +131,13 @@ class StatedArticulator(HypothesisMaker):
         hosts = _hosts(placed, ways)
         owner = _owners(cut, placed, ways, hosts)
         movers = [way.mover for way in ways]
-        chances = self._chances or (None,) * len(placed)
+        chances = self.chances or (None,) * len(placed)
         proposals = [
             Proposal(
                 mover.kind,
                 owner == number,
                 _from_closed(each.stated, mover.motion),
-                proposer=self._proposer,
+                proposer=self.proposer,
                 panel=mover.panel if each.stated.drawn is None else None,
                 existence=chance,
                 probability=chance,
@@ -201,12 +196,6 @@ def _refuse_other_size(mesh: Mesh, stated: Stated) -> None:
         )
 
 
-def seen_from(mesh: Mesh, front: str) -> SeenMesh:
-    """Return a mesh turned so that a stated front is -Y."""
-    turn = rotation_about(UP, _TURNS[front] * np.pi / 2.0)
-    return SeenMesh(mesh.turned(turn), turn.T)
-
-
 def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedWay, ...]]:
     """Yield each choice, and after one with parts that are whole pieces the same cut out.
 
@@ -214,13 +203,13 @@ def _with_cut(chosen: Iterable[tuple[StatedWay, ...]]) -> Iterator[tuple[StatedW
     """
     for ways in chosen:
         yield ways
-        if any(len(way.pieces) for way in ways):
+        if any(len(way.faces) for way in ways):
             yield tuple(StatedWay(way.cut or way.mover) for way in ways)
 
 
 def _to_cut(ways: Sequence[StatedWay]) -> Iterator[Region]:
     """Yield what those parts fill that are cut out of the mesh."""
-    return (way.mover.region for way in ways if not len(way.pieces))
+    return (way.mover.region for way in ways if not len(way.faces))
 
 
 def _choices(placed: Sequence[Placed]) -> Iterator[tuple[StatedWay, ...]]:
@@ -286,7 +275,7 @@ def _owners(
     mesh = cut.mesh
     owner = np.zeros(len(mesh.faces), dtype=np.int64)
     areas = face_areas(mesh)
-    within_each = [_faces_of(cut, each, way) for each, way in zip(placed, ways, strict=True)]
+    within_each = [_faces_of(cut, way) for way in ways]
     for index in sorted(range(len(ways)), key=lambda index: (hosts[index] == 0, index)):
         within = within_each[index]
         own = within & (owner == 0)
@@ -304,8 +293,8 @@ def _owners(
     return owner
 
 
-def _faces_of(cut: CutMesh, placed: Placed, way: StatedWay) -> BoolArray:
+def _faces_of(cut: CutMesh, way: StatedWay) -> BoolArray:
     """Return which faces are in a part's region, or of its pieces, shape [face_count]."""
-    if len(way.pieces):
-        return np.isin(placed.piece_of[cut.source], way.pieces)
+    if len(way.faces):
+        return np.isin(cut.source, way.faces)
     return inside(cut.mesh, way.mover.region)

@@ -10,7 +10,6 @@ import numpy as np
 from ...articulation import JointKind
 from ...intake.stated import Hinge
 from ...mesh import FloatArray
-from ...part import PartKind
 from ...views.raster import Side
 from ..proposal import Motion
 from ..seams.cutting import Region
@@ -58,7 +57,7 @@ def _opening(
     across = raster.low[0] + (left + last) / 2.0 * raster.pixel
     end = _end(front if part.stated.drawn is None else fronts[OPPOSITE[hinge]], row, bounds)
     return OpeningPart(
-        kind=PartKind.LID,
+        kind=part.kind,
         region=Region(-up[None, :], np.array([-height])).within(bounds),
         motion=Motion(JointKind.REVOLUTE, right, across * right + height * up + end, 0.0, TURN),
     )

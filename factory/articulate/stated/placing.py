@@ -4,70 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from ...articulation import JointKind
 from ...errors import InputRejected
-from ...geometry.components import connected_components
 from ...intake.stated import Hinge, StatedPart, StatedView
-from ...mesh import FloatArray, IntArray, Mesh
+from ...mesh import Mesh
 from ...part import OpensBy, PartKind
 from ...views.raster import Side
-from ...views.view import Views
 from ..geometric.rounds import FROM_ABOVE
 from ..proposal import Motion
-from ..seams.fronts import Front, fronts_of
+from ..seams.fronts import Front
 from ..seams.placing import OpeningPart, box_behind, panel_mover
 from ..seams.rectangles import Rectangle
-from ..seams.relief import reliefs_of
 from .boxed import EDGES, MOST_WAYS, NOT_FOUND, USUAL, StatedBox, boxed_in
 from .controls import control_openings
 from .hinging import level_edge, upright_edge
 from .lids import hinged_inside, lid_openings
+from .seen import SeenMesh
 from .snapping import LEAST_OFF, OFF, StatedFrame, snap
 from .tilting import tilted
-from .wholes import SeenPieces, StatedWay
+from .wholes import StatedWay, find_outline, way_of
 
 #: Boxes of two panels of one side may share so much of the smaller one.
 MOST_SHARED = 0.25
 #: From above the back is at the top of the picture.
 _EDGES_ABOVE = {**EDGES, Hinge.BACK: OpensBy.TOP, Hinge.FRONT: OpensBy.BOTTOM}
-
-
-@dataclass(frozen=True, eq=False)
-class SeenMesh:
-    """A mesh with its sides, to be kept by who changes the boxes on them.
-
-    Attributes:
-        mesh: whose front is -Y.
-        back: rotation of the mesh to where its front was stated to be, shape [3, 3].
-    """
-
-    mesh: Mesh
-    back: FloatArray
-
-    @cached_property
-    def pieces(self) -> SeenPieces:
-        """Return the pieces that it is made of."""
-        return SeenPieces(Views(self.mesh, connected_components(self.mesh)))
-
-    @cached_property
-    def around(self) -> dict[Side, Front]:
-        """Return its upright sides."""
-        return fronts_of(reliefs_of(self.pieces.views))
-
-    @cached_property
-    def above(self) -> dict[Side, Front]:
-        """Return the sides of the mesh turned so that its top is its front."""
-        return fronts_of(reliefs_of(Views(self.mesh.turned(FROM_ABOVE))))
-
-    def look(self) -> SeenMesh:
-        """Look at its upright sides now; returns itself."""
-        for front in self.around.values():
-            _ = front.pulls
-        return self
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,13 +41,11 @@ class Placed:
         stated: as somebody said it.
         label: how messages call it.
         ways: in which it may open, the likeliest first; at least one.
-        piece_of: the mesh's piece of every face, shape [face_count].
     """
 
     stated: StatedPart
     label: str
     ways: tuple[StatedWay, ...]
-    piece_of: IntArray
 
 
 def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
@@ -94,7 +55,6 @@ def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
         InputRejected: ``stated_part_not_found``: a box shows nothing, or two take the same place.
     """
     mesh = seen.mesh
-    pieces = seen.pieces
     found: dict[int, Placed] = {}
     for above, turn in ((False, np.eye(3)), (True, FROM_ABOVE)):
         views = {
@@ -107,21 +67,21 @@ def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
             seams = [
                 _boxed(mesh, fronts, parts[place], place, view) for place, view in views.items()
             ]
-            outlines = [_outlined(mesh, pieces, each) for each in seams]
+            outlines = [_outlined(seen, each) for each in seams]
             _refuse_shared(outlines)
             for cut, whole in zip(seams, outlines, strict=True):
                 ways = [
-                    pieces.way(_as_stated(mover.turned(turn.T), whole, mesh), whole)
+                    way_of(seen, _as_stated(mover.turned(turn.T), whole, mesh), whole)
                     for mover in _all_openings(fronts, whole, outlines)
                 ]
-                if any(len(way.pieces) for way in ways):
+                if any(len(way.faces) for way in ways):
                     movers = _all_openings(fronts, cut, seams)
                     ways = [
                         replace(way, cut=_as_stated(mover.turned(turn.T), cut, mesh))
                         for way, mover in zip(ways, movers, strict=True)
                     ]
                 back = tuple(way.turned(seen.back) for way in ways)
-                found[cut.place] = Placed(cut.stated, cut.label, back, pieces.of_faces)
+                found[cut.place] = Placed(cut.stated, cut.label, back)
     return [found[place] for place in sorted(found)]
 
 
@@ -146,14 +106,14 @@ def _boxed(
     return boxed_in(front, part, place, snap(front, frame, view.box))
 
 
-def _outlined(mesh: Mesh, pieces: SeenPieces, part: StatedBox) -> StatedBox:
+def _outlined(seen: SeenMesh, part: StatedBox) -> StatedBox:
     """Return a part in the outline of the piece that its box means; as it is if there is none."""
     front = part.front
-    frame = StatedFrame.of(mesh, part.view.side)
+    frame = StatedFrame.of(seen.mesh, part.view.side)
     raster = front.relief.raster
     # A piece that fits is meant, though somebody drew a little beside it.
     reach = 1.25 * np.maximum(OFF * frame.size, LEAST_OFF * raster.pixel)
-    outline = pieces.nearest(part.view.side, frame.place(part.view.box), reach)
+    outline = find_outline(seen, part.view.side, frame.place(part.view.box), reach)
     if outline is None:
         return part
     low, high = np.rint((outline - raster.low) / raster.pixel).astype(np.int64)[:, ::-1]
@@ -185,16 +145,16 @@ def _openings(
     """Return the ways in which a part may open, the likeliest first, in the turned frame."""
     above = part.view.side is Side.TOP
     if part.kind in (PartKind.LID, PartKind.SCREEN) and not above:
-        made = lid_openings(fronts, part)
-    elif not part.is_panel:
-        made = control_openings(part)
-    else:
-        way = part.hinged(_EDGES_ABOVE if above else EDGES)
-        wanted = _likeliest_first(part, boxed) if way is None else (way,)
-        side = part.front.relief.side
-        movers = [panel_mover(fronts, side, part.rectangle, way) for way in wanted[:MOST_WAYS]]
-        made = [tilted(mover, part) for mover in movers]
-    return [replace(each, kind=part.kind) for each in made]
+        return lid_openings(fronts, part)
+    if not part.is_panel:
+        return control_openings(part)
+    way = part.hinged(_EDGES_ABOVE if above else EDGES)
+    wanted = _likeliest_first(part, boxed) if way is None else (way,)
+    side = part.front.relief.side
+    return [
+        tilted(panel_mover(fronts, side, part.rectangle, way, part.kind), part)
+        for way in wanted[:MOST_WAYS]
+    ]
 
 
 def _likeliest_first(part: StatedBox, boxed: Sequence[StatedBox]) -> tuple[OpensBy, ...]:

@@ -32,14 +32,12 @@ class Detection:
         faces: the nearest triangle at the middle of every cell, -1 for none, shape [5, 64, 64].
         kinds: probability of each kind of object, shape [kind_count].
         opens: probability that anything opens.
-        fronts: probability of each upright side that it is the front, shape [4].
     """
 
     dense: Dense
     faces: IntArray
     kinds: FloatArray
     opens: float
-    fronts: FloatArray
 
     def parts(self, least: float) -> tuple[Found, ...]:
         """Return the parts that are seen with a score of at least ``least``."""
@@ -57,7 +55,7 @@ def detect(mesh: Mesh) -> Detection:
     cues = cues_of(torch.from_numpy(canvases.color), torch.from_numpy(canvases.depth))
     dense = first_of(_network()(cues[None]))
     kinds = softmax(dense.kind)
-    return Detection(dense, canvases.cells, kinds, float(expit(dense.opens)), softmax(dense.front))
+    return Detection(dense, canvases.cells, kinds, float(expit(dense.opens)))
 
 
 def first_of(answers: Dense) -> Dense:

@@ -9,8 +9,8 @@ from enum import StrEnum
 import numpy as np
 
 from ...geometry.edges import label_linked
-from ...mesh import FloatArray, IntArray
-from .surface import BoolArray, Surface, last_of
+from ...mesh import BoolArray, FloatArray, IntArray
+from .surface import Surface, last_of
 
 TINY = 0.0005
 """A label with a smaller share of the mesh's area is a stray, not a part fused to others."""

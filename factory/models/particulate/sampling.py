@@ -7,9 +7,9 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from ...errors import InputRejected
-from ...mesh import FloatArray, IntArray
+from ...mesh import BoolArray, FloatArray, IntArray
 from .frames import UnitBox
-from .surface import BoolArray, Surface
+from .surface import Surface
 
 SHARP_SHARE = 0.5
 

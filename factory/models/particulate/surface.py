@@ -6,13 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
 from ...geometry.edges import label_linked, shared_edges
 from ...geometry.rows import distinct_rows, weld_points
-from ...mesh import FloatArray, IntArray
-
-BoolArray = npt.NDArray[np.bool_]
+from ...mesh import BoolArray, FloatArray, IntArray
 
 WELD_SHARE = 1e-8
 """Corners closer than this share of the box's longest side are one vertex."""

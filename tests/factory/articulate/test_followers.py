@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.annotated import annotated_articulator, annotation_of
+from asset_factory.factory.articulate.annotated import annotated_articulator
 from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.errors import InvalidArticulation
@@ -38,9 +38,7 @@ def articulated(folder, text, height=None):
     path = folder / ("thing.urdf" if text.startswith("<robot") else "thing.xml")
     path.write_text(text)
     intake = load(path, IntakeConfig(height=height))
-    annotation = annotation_of(intake)
-    assert annotation is not None
-    return annotated_articulator(intake, annotation).articulate(intake.mesh)
+    return annotated_articulator(intake).articulate(intake.mesh)
 
 
 def test_a_mirrored_finger_opens_with_the_other(tmp_path):

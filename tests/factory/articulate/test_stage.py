@@ -9,7 +9,6 @@ from one_piece import fridge
 from refusing import refusal
 
 from asset_factory.factory.articulate import stage
-from asset_factory.factory.articulate.proposal import Hypothesis
 from asset_factory.factory.articulate.rigid import rigid_articulation
 from asset_factory.factory.articulate.stage import articulate, hypotheses
 from asset_factory.factory.config import BuildConfig, IntakeConfig
@@ -29,10 +28,10 @@ def test_a_cut_mesh_comes_back_from_the_cache(tmp_path, monkeypatch):
     (tmp_path / "fridge.parts.json").write_text(json.dumps({"parts": [DOOR]}))
     intake = load(file, IntakeConfig(up="z"))
     stages = Stages(CONFIG, Store(tmp_path / "cache"))
-    first = hypotheses(intake, "key", stages)[0].articulation
+    first = hypotheses(intake, "key", stages)[0]
     assert len(first.mesh.faces) > len(intake.mesh.faces)
     monkeypatch.setattr(stage, "hypotheses_of", None)
-    again = hypotheses(intake, "key", Stages(CONFIG, Store(tmp_path / "cache")))[0].articulation
+    again = hypotheses(intake, "key", Stages(CONFIG, Store(tmp_path / "cache")))[0]
     assert first.mesh.corner_normals is not None
     for name in ("vertices", "faces", "face_material", "corner_normals"):
         assert np.array_equal(getattr(again.mesh, name), getattr(first.mesh, name))
@@ -45,10 +44,10 @@ def test_what_an_object_looks_like_comes_back_too(tmp_path, monkeypatch):
     trimesh.creation.box().export(file)
     intake = load(file, IntakeConfig(up="z"))
     seen = replace(rigid_articulation(intake.mesh, "auto", ()), looks_like="fridge")
-    monkeypatch.setattr(stage, "hypotheses_of", lambda *_: (Hypothesis(seen),))
+    monkeypatch.setattr(stage, "hypotheses_of", lambda *_: (seen,))
     for _ in range(2):
         (found,) = hypotheses(intake, "key", Stages(CONFIG, Store(tmp_path / "cache")))
-        assert found.articulation.looks_like == "fridge"
+        assert found.looks_like == "fridge"
 
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"

@@ -36,7 +36,7 @@ def read(path, mesh, up="z"):
 def test_two_doors_that_show_only_with_the_other_axis_up_stand_it_up(tmp_path, suffix, up):
     mesh = fridge()
     intake, hypotheses = read(tmp_path / f"fridge.{suffix}", mesh, up)
-    assert len(hypotheses[0].articulation.movable_joints) == 2
+    assert len(hypotheses[0].movable_joints) == 2
     assert intake.provenance.up == up
     assert intake.provenance.up_source == "sides"
     assert any("opens" in note and "2 doors" in note for note in intake.provenance.notes)
@@ -62,5 +62,5 @@ def test_one_panel_is_no_reason_to_turn_a_mesh_over(tmp_path):
     with pytest.raises(InputRejected, match="nothing moves"):
         read(tmp_path / "oven.glb", bumpy(bar_across(edge=0.03)))
     _, hypotheses = read(tmp_path / "upright.glb", bumpy(bar_across(edge=0.03)), "y")
-    parts = hypotheses[0].articulation.parts
+    parts = hypotheses[0].parts
     assert sum(part.kind.closes_side for part in parts) == 1

@@ -42,9 +42,7 @@ def bound(monkeypatch):
 
     def helped(*arguments):
         intake, found = standing(*arguments)
-        trees = [replace(each.articulation, weights=weights) for each in found]
-        made = zip(found, trees, strict=True)
-        return intake, tuple(replace(each, articulation=tree) for each, tree in made)
+        return intake, tuple(replace(each, weights=weights) for each in found)
 
     monkeypatch.setattr(pipeline, "standing_hypotheses", helped)
 

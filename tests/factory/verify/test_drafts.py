@@ -15,7 +15,6 @@ from modelled_furniture import METAL, PAINT, board
 from repository import FRIDGE
 
 from asset_factory.factory.articulate import standing
-from asset_factory.factory.articulate.proposal import Hypothesis
 from asset_factory.factory.build import build_asset
 from asset_factory.factory.config import BuildConfig, ReadingsConfig
 from asset_factory.factory.errors import InputRejected
@@ -102,7 +101,7 @@ def read_as(monkeypatch):
     def read(*changes):
         def hypotheses(*asked):
             right, *_ = likeliest(*asked)
-            return tuple(Hypothesis(change(right.articulation)) for change in changes)
+            return tuple(change(right) for change in changes)
 
         monkeypatch.setattr(standing, "hypotheses", hypotheses)
 

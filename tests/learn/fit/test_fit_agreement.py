@@ -62,7 +62,7 @@ def test_what_is_fitted_believes_what_was_right():
         right = (rows[:, 0] + 0.1 * rng.normal(size=200) > 0.5).astype(float)
         rated[name] = [tuple(row) for row in np.column_stack([rows, right]).tolist()]
     fitted = agreement_of(fit_agreement(rated))
-    assert fitted.of_lid(0.9) > 0.9
-    assert fitted.of_lid(0.1) < 0.1
-    for believed in (fitted.of_panel, fitted.of_proposed):
+    assert fitted.lid.chance(np.array([0.9])) > 0.9
+    assert fitted.lid.chance(np.array([0.1])) < 0.1
+    for believed in (fitted.panel.chance, fitted.proposed.chance):
         assert believed(np.array([0.9, 0.5, 0.5, 0.5])) > 0.9

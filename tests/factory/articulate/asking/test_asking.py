@@ -101,8 +101,7 @@ def ask(server, drawn, tmp_path, monkeypatch):
 
 
 def test_a_good_answer_is_found_on_the_mesh_and_asked_for_once(server, ask, tmp_path):
-    (made,) = ask(completion(f"```json\n{GOOD}\n```"))
-    tree = made.articulation
+    (tree,) = ask(completion(f"```json\n{GOOD}\n```"))
     assert (tree.articulator, [part.kind for part in tree.parts]) == ("vlm", ["body", "door"])
     assert tree.parts[1].source.proposer == "vlm"
     assert tree.notes[-1] == ("eyes-1 at 127.0.0.1 said what opens: 1200 tokens read, 34 written")
@@ -114,7 +113,7 @@ def test_a_good_answer_is_found_on_the_mesh_and_asked_for_once(server, ask, tmp_
     assert "fridge.glb" in text["text"]
     assert picture["image_url"]["url"].startswith("data:image/png;base64,iVBOR")
     again = ask(completion("never asked"))
-    assert again[0].articulation.notes == tree.notes
+    assert again[0].notes == tree.notes
     assert len(server.asked) == 1
     for kept in (tmp_path / "answers").iterdir():
         assert KEY not in kept.read_text()
@@ -132,8 +131,8 @@ def test_a_good_answer_is_found_on_the_mesh_and_asked_for_once(server, ask, tmp_
 )
 def test_a_bad_answer_is_asked_for_again_with_what_is_wrong(server, ask, bad, wrong):
     (made,) = ask(completion(bad), completion(GOOD))
-    assert len(made.articulation.parts) == 2
-    assert "2400 tokens read" in made.articulation.notes[-1]
+    assert len(made.parts) == 2
+    assert "2400 tokens read" in made.notes[-1]
     _, said, correction = server.asked[1][2]["messages"]
     assert (said["role"], said["content"]) == ("assistant", bad)
     assert wrong in correction["content"]

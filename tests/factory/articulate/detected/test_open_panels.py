@@ -27,7 +27,7 @@ from asset_factory.learn.surfaces import coloured_skin
 def seen(kind, opens=0.99):
     """Return a detection of a kind of object; nothing else is asked of it."""
     kinds = np.eye(len(KINDS))[KINDS.index(kind)]
-    return Detection(None, np.zeros((5, 64, 64), np.int64), kinds, opens, np.full(4, 0.25))
+    return Detection(None, np.zeros((5, 64, 64), np.int64), kinds, opens)
 
 
 def found_open(mesh, detection, one_piece=True):
@@ -169,7 +169,7 @@ def test_a_lying_plate_a_sheet_and_a_tower_have_no_screen():
 def test_what_is_open_stays_as_drawn_and_its_joint_closes_it(kind, seed, degrees, part):
     truth = opened(kind, seed, np.radians(degrees))
     drawn = coloured_skin(truth.mesh, 0) if kind == "fridge" else truth.mesh
-    made = detected(rigid_articulation(drawn, "auto", ()))[0].articulation
+    made = detected(rigid_articulation(drawn, "auto", ()))[0]
     (joint,) = [each for each in made.joints if each.lower < 0.0]
     assert made.parts[joint.child].kind is part
     assert made.looks_like == kind

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from manifold3d import CrossSection, Manifold
 from one_piece import doors, drawers, fridge, mesh_of
 from refusing import refusal
+from says import Says
 from stated_parts import FINE, articulated, block, box_of
 
 from asset_factory.factory.articulate.locate import located
@@ -182,6 +183,17 @@ def test_what_is_expected_is_found_or_counted():
     found = refusal(StatedArticulator(too_many, guess()).articulate, drawers())
     assert found.code == "stated_part_not_found"
     assert "found 3 of 4 drawers" in found.message
+
+
+def test_what_is_not_expected_stays_on_what_holds_it():
+    drawer = {"kind": "drawer", "side": "front", "box": [0.05, 0.378, 0.95, 0.667], "name": "low"}
+    knob = {"kind": "knob", "side": "front", "box": [0.36, 0.5, 0.64, 0.55], "parent": "low"}
+    (whole, *_) = articulated(drawers(), drawer, knob)
+    expected = stated_from({"parts": [{"kind": "drawer"}]})
+    made = StatedArticulator(expected, Says(whole)).articulate(drawers())
+    moving = np.concatenate([part.faces for part in whole.parts[1:]])
+    assert len(whole.parts) == 3
+    assert made.parts[1].faces.tolist() == sorted(moving.tolist())
 
 
 def opened_box(angle):
