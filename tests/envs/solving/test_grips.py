@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from making import UNWARNED
 from openable_samples import FRONT, assemble, box, write_registry
 
 from asset_factory.envs.solving import make_episodes
@@ -12,7 +11,6 @@ from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Handle
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = UNWARNED
 #: Height of the base and of the lid's lower edge, and the lid's thickness [m].
 BASE = 0.3
 EDGE = 0.304

@@ -43,8 +43,6 @@ ORIGINAL = {
 }
 SHAPE = NetworkShape(hidden=16, blocks=2, heads=2, features=0, max_parts=6, mlp_ratio=2)
 
-torch.set_num_threads(1)
-
 
 @pytest.fixture
 def network():

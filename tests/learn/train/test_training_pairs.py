@@ -6,8 +6,6 @@ import torch  # noqa: TID253
 from asset_factory.factory.models.network import transformer
 from asset_factory.factory.models.network.layers import two_layers
 
-torch.set_num_threads(1)
-
 
 @pytest.mark.parametrize("cached", [1, 1 << 18])
 def test_pairs_and_their_gradients_are_those_of_the_concatenated_rows(monkeypatch, cached):
