@@ -13,23 +13,13 @@ from asset_factory.learn.fit.perceptron import (
 )
 
 
-def _examples():
-    rng = np.random.default_rng(0)
-    rows = rng.normal(size=(400, 3))
-    wanted = (rows[:, :1] * rows[:, 1:2] > 0.0).astype(np.float64)
-    return Examples(rows, wanted, np.ones(len(rows)))
-
-
-def _settings(width, decay, seed):
-    weights = dict.fromkeys(("inner", "offset", "outer", "base"), Weighing(0.5, decay))
-    return FitSettings(width, 1, weights, 400, seed)
-
-
 def test_a_network_learns_what_no_line_divides():
-    examples = _examples()
-    network = fit_examples(examples, _settings(6, 2e-5, 0))
-    right = (network.scores(examples.rows) > 0.0) == (examples.wanted > 0.5)
-    assert right.mean() > 0.9
+    rows = np.random.default_rng(0).normal(size=(400, 3))
+    wanted = rows[:, :1] * rows[:, 1:2] > 0.0
+    examples = Examples(rows, wanted.astype(np.float64), np.ones(len(rows)))
+    weights = dict.fromkeys(("inner", "offset", "outer", "base"), Weighing(0.5, 2e-5))
+    network = fit_examples(examples, FitSettings(6, 1, weights, 400, 0))
+    assert ((network.scores(rows) > 0.0) == wanted).mean() > 0.9
 
 
 def test_weights_past_the_hidden_layer_are_fitted_too():
