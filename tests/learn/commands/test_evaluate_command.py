@@ -134,9 +134,9 @@ def hangs(trial):
     time.sleep(60.0)
 
 
-def one_trial(repeat=0, method="naive"):
+def one_trial(repeat=0):
     request = procedural_requests(("cabinet",), (0,))[0]
-    return trials.Trial(request, Method(method, ParticulateConfig()), repeat)
+    return trials.Trial(request, Method("naive", ParticulateConfig()), repeat)
 
 
 def test_a_method_that_hangs_is_cut_off_and_not_scored(monkeypatch):

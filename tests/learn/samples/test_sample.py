@@ -24,8 +24,8 @@ SHARES = dict.fromkeys(("turned_share", "facing_share", "mirrored_share", "merge
 BUSY = DrawSettings(points=400, **SHARES, stretch=0.6, components=True)
 
 
-def sampled(category="cabinet", seed=0, points=3000):
-    return sampled_from(make_object(category, seed), "one", points, np.random.default_rng(0))
+def sampled(category="cabinet"):
+    return sampled_from(make_object(category, 0), "one", 3000, np.random.default_rng(0))
 
 
 CABINET = sampled()
