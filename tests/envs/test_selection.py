@@ -4,7 +4,8 @@ import json
 from dataclasses import replace
 
 import pytest
-from openable_samples import assemble, box, cabinet, oven, valve, write_registry
+from export_samples import box, boxes_asset
+from openable_samples import cabinet, oven, valve, write_registry
 
 from asset_factory.envs.assets import read_registry
 from asset_factory.envs.loading import warn_of_hulls
@@ -15,7 +16,7 @@ from asset_factory.factory.registry.entry import TEST_SHARE, split_of
 
 @pytest.fixture
 def assets(tmp_path):
-    stone = assemble("stone", [box([0, 0, 0], [1, 1, 1])], (), {})
+    stone = boxes_asset([box([0, 0, 0], [1, 1, 1])], (), name="stone")
     read = read_registry(write_registry(tmp_path, cabinet(), oven(), valve(), stone))
     called = {key: "furniture" if key == "cabinet" else "other" for key in read}
     manifests = {key: replace(read[key].manifest, category=word) for key, word in called.items()}

@@ -6,13 +6,11 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from making import UNWARNED
 from openable_samples import HOUSEHOLD, cabinet, write_registry
 
 from asset_factory.factory.errors import RegistryError
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = UNWARNED
 
 BLIND = {"render_backend": "none", "sim_backend": "physx_cpu", "obs_mode": "state"}
 

@@ -10,7 +10,6 @@ from asset_factory.envs.assets import read_registry
 
 torch = pytest.importorskip("torch", reason="torch is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning")
 
 ROWS = 8
 

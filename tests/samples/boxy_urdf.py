@@ -19,10 +19,10 @@ URDF = """<robot name="{name}">
 """
 
 
-def write_cabinets(folder, names=("one", "two")):
+def write_cabinets(folder):
     """Cabinets with their fronts at +X, and ``list.csv``; returns that."""
     lines = [",".join(COLUMNS)]
-    for number, name in enumerate(names):
+    for number, name in enumerate(("one", "two")):
         path = folder / "made" / name / f"{name}.urdf"
         path.parent.mkdir(parents=True)
         path.write_text(URDF.format(name=name, height=0.6 - 0.1 * number))

@@ -42,7 +42,10 @@ def inertial_of(mesh: Mesh, mass: float = 2.0) -> Inertial:
 
 
 def boxes_asset(
-    meshes: list[Mesh], joints: tuple[Joint, ...], handles: dict[int, Handle] | None = None
+    meshes: list[Mesh],
+    joints: tuple[Joint, ...],
+    handles: dict[int, Handle] | None = None,
+    name: str = "boxes",
 ) -> Asset:
     """One part ``part_<i>`` per mesh; a mesh without faces makes a carrier."""
     articulation = parted({f"part_{i}": [mesh] for i, mesh in enumerate(meshes)}, *joints)
@@ -52,7 +55,7 @@ def boxes_asset(
         else PartBody((), Inertial(0.01, np.zeros(3), np.eye(3) * 1e-5))
         for i, m in enumerate(meshes)
     )
-    return Asset("boxes", articulation, bodies)
+    return Asset(name, articulation, bodies)
 
 
 def cabinet(looks: Sequence[Material] = (Material("red", (0.8, 0.1, 0.1, 1.0)),) * 3) -> Asset:

@@ -1,11 +1,13 @@
 """One-piece skins with labelled patches: a box whose front or top opens."""
 
+from dataclasses import replace
+
 import numpy as np
 import trimesh
 
 from asset_factory.factory.articulate.locate import located
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
-from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.mesh import Mesh, concatenate
 
 SIZE = np.array([0.6, 0.5, 0.8])
 #: Length of the triangles' sides [m].
@@ -32,6 +34,15 @@ def labelled(vertices, faces, patches, joints):
     parts = tuple(Part(name, np.flatnonzero(label == i)) for i, name in enumerate(names))
     mesh = Mesh.from_triangles(vertices, faces)
     return located(Articulation(mesh, parts, tuple(joints), "test"))
+
+
+def with_more(given, part, vertices, faces):
+    """The same with more faces of one of its parts."""
+    own = np.append(given.parts[part].faces, len(given.mesh.faces) + np.arange(len(faces)))
+    parts = list(given.parts)
+    parts[part] = replace(parts[part], faces=own)
+    mesh = concatenate([given.mesh, Mesh.from_triangles(vertices, faces)])
+    return replace(given, mesh=mesh, parts=tuple(parts))
 
 
 def front(low, high):

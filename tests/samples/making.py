@@ -6,12 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+pytest.importorskip("mani_skill", reason="mani_skill is not installed")
+
 HEADLESS = {"obs_mode": "state", "sim_backend": "physx_cpu"}
-#: What ManiSkill and what it stands on warn of on a machine without a screen.
-UNWARNED = [
-    pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning"),
-    pytest.mark.filterwarnings("ignore:__array_wrap__ must accept context:DeprecationWarning"),
-]
 
 
 def make(registry: Path, task: str = "OpenJoint-v1", **options: Any) -> Any:

@@ -33,8 +33,8 @@ def bar(low, high, off=0.03):
     return block((low[0], -off, low[1]), (high[0], 0.001, high[1]))
 
 
-def _knob(x, z, radius=0.02, off=0.035):
-    knob = Manifold.cylinder(off + 0.001, radius, circular_segments=24)
+def _knob(x, z, off=0.035):
+    knob = Manifold.cylinder(off + 0.001, 0.02, circular_segments=24)
     return knob.rotate([90.0, 0.0, 0.0]).translate([x, 0.001, z])
 
 

@@ -20,9 +20,6 @@ TINY_FIELD = PartFieldShape(
 )
 GAINS = {"point_mask_decoder": 3.0, "part_hierarchy_decoder": 2.0}
 
-# Threads that wait for each other cost more than such small products.
-torch.set_num_threads(1)
-
 
 def model_of(shape, gains, dtype=torch.float32):
     """A model of that shape."""

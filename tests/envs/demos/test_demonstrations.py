@@ -5,7 +5,6 @@ import shutil
 
 import numpy as np
 import pytest
-from making import UNWARNED
 from openable_samples import fin, write_registry
 
 from asset_factory.envs.demos import Episode, Settings, Shard, Taken
@@ -18,7 +17,7 @@ from asset_factory.factory.errors import Exit
 h5py = pytest.importorskip("h5py", reason="h5py is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
 WARN = "ignore:The 'warn' method is deprecated:DeprecationWarning:mani_skill"
-pytestmark = [pytest.mark.filterwarnings(WARN), *UNWARNED]
+pytestmark = pytest.mark.filterwarnings(WARN)
 
 
 @pytest.fixture(scope="module")

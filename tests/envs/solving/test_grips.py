@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from making import UNWARNED
-from openable_samples import FRONT, assemble, box, write_registry
+from export_samples import box, boxes_asset
+from openable_samples import FRONT, write_registry
 
 from asset_factory.envs.solving import make_episodes
 from asset_factory.envs.solving.grips import PRESS_ON, _hand_points, drags
@@ -12,7 +12,6 @@ from asset_factory.factory.articulation import Joint, JointKind
 from asset_factory.factory.asset import Handle
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = UNWARNED
 #: Height of the base and of the lid's lower edge, and the lid's thickness [m].
 BASE = 0.3
 EDGE = 0.304
@@ -24,7 +23,8 @@ def clamshell():
     middle = EDGE + 0.5 * THICK
     meshes = [box([0.0, 0.0, 0.15], [0.3, 0.24, 0.3]), box([0.0, 0.0, middle], [0.3, 0.24, THICK])]
     hinge = Joint("lid", JointKind.REVOLUTE, 0, 1, [-1, 0, 0], [0.0, 0.12, EDGE], 0.0, 1.5)
-    return assemble("clamshell", meshes, (hinge,), {1: Handle([0.0, -0.12, middle], FRONT, FRONT)})
+    handle = Handle([0.0, -0.12, middle], FRONT, FRONT)
+    return boxes_asset(meshes, (hinge,), {1: handle}, "clamshell")
 
 
 @pytest.fixture(scope="module")

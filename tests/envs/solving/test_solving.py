@@ -6,7 +6,6 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from making import UNWARNED
 from openable_samples import fin, write_registry
 
 from asset_factory.envs.solving import driving, film, make_episodes, replay, solve_joint
@@ -15,7 +14,6 @@ from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.sim_checks.processes.isolation import WarmChild
 
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = UNWARNED
 
 #: More than an arm can pull [N].
 LOCKED = 5000.0

@@ -2,15 +2,12 @@
 
 import numpy as np
 import pytest
-from making import HEADLESS, UNWARNED, make, put
+from making import HEADLESS, make, put
 from openable_samples import cabinet, oven, train, valve, write_registry
 
 from asset_factory.factory.errors import ConfigError, RegistryError
 from asset_factory.factory.export import export_bundle
 from asset_factory.factory.intake.intake import Provenance
-
-pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = UNWARNED
 
 
 @pytest.fixture(scope="module")

@@ -1,14 +1,10 @@
 """What the cameras see where there is Vulkan, and what is said where there is none."""
 
-import pytest
 from making import make
 from openable_samples import cabinet, write_registry
 
 from asset_factory.factory.errors import ConfigError
 from asset_factory.sim_checks.processes.isolation import Limits, run_isolated
-
-pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning")
 
 
 def pictures(registry):

@@ -2,12 +2,10 @@
 
 import numpy as np
 import pytest
-from making import HEADLESS, UNWARNED, make
+from making import HEADLESS, make
 
 from asset_factory.envs import TASKS, make_processes
 
-pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = UNWARNED
 LONG = [pytest.param(task.id, 3, 100, marks=pytest.mark.full) for task in TASKS]
 
 

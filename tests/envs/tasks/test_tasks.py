@@ -4,13 +4,10 @@ from copy import deepcopy
 
 import numpy as np
 import pytest
-from making import UNWARNED, make, put, rollout
+from making import make, put, rollout
 from openable_samples import HOUSEHOLD
 
 from asset_factory.envs import TASKS
-
-pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = UNWARNED
 
 
 @pytest.fixture(scope="module", params=[task.id for task in TASKS])

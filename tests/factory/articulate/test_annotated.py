@@ -30,7 +30,7 @@ def joint(kind, lower=0.0, upper=1.0, **changes):
     return AnnotatedJoint(**(values | changes))
 
 
-def build(meshes, joints, names=None, transform=None):
+def build(meshes, joints, names=None, transform=None, lenient=False):
     present = [mesh for mesh in meshes if mesh is not None]
     labels = np.concatenate([np.full(len(m.faces), i) for i, m in enumerate(meshes) if m])
     matrix = np.eye(4) if transform is None else transform
@@ -38,7 +38,8 @@ def build(meshes, joints, names=None, transform=None):
         labels, tuple(names or [f"p{i}" for i in range(len(meshes))]), tuple(joints), "urdf"
     )
     mesh = concatenate(present).transformed(matrix)
-    return AnnotatedArticulator(annotation, matrix, np.arange(len(labels))).articulate(mesh)
+    faces = np.arange(len(labels))
+    return AnnotatedArticulator(annotation, matrix, faces, lenient=lenient).articulate(mesh)
 
 
 def cabinet(*joints):
@@ -146,12 +147,8 @@ def test_a_joint_without_range_is_fixed_where_it_stands(where):
 
 
 def test_a_description_s_slide_without_limits_gets_usual_ones_and_says_so():
-    mesh = concatenate([BODY, FRONT])
-    labels = np.repeat([0, 1], [len(BODY.faces), len(FRONT.faces)])
-    annotation = Annotation(labels, ("a", "b"), (joint("prismatic", None, None),), "urdf")
     scaled = np.diag([2.0, 2.0, 2.0, 1.0])
-    reader = AnnotatedArticulator(annotation, scaled, np.arange(len(mesh.faces)), lenient=True)
-    result = reader.articulate(mesh.transformed(scaled))
+    result = build([BODY, FRONT], [joint("prismatic", None, None)], None, scaled, lenient=True)
     # The front is 0.2 m deep at this scale.
     assert (result.joints[0].lower, result.joints[0].upper) == pytest.approx((0.0, 0.1))
     assert said(result, "has no limits: taken to slide by 0.1 m")

@@ -290,14 +290,6 @@ def test_guesses_are_said():
     )
 
 
-def test_a_fused_mesh_is_kept_rigid_and_says_so():
-    articulation = articulate(box((0, 0, 0), (1, 1, 1)))
-    assert articulation.joints == ()
-    assert articulation.notes == (
-        "the mesh is one connected surface: nothing can be told apart; kept rigid",
-    )
-
-
 @pytest.mark.parametrize("degrees", [90, 180, 270, 30])
 def test_the_front_is_found_whichever_way_it_faces(degrees):
     mesh = concatenate([*CARCASS, DOOR, GRIP_RIGHT])

@@ -23,7 +23,6 @@ from asset_factory.factory.errors import ConfigError, Exit
 
 h5py = pytest.importorskip("h5py", reason="h5py is not installed")
 pytest.importorskip("mani_skill", reason="mani_skill is not installed")
-pytestmark = pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning")
 
 
 def write_trajectory(path, seed, steps=5):

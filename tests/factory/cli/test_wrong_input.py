@@ -9,7 +9,6 @@ from asset_factory.factory.cli import run
 from asset_factory.factory.cli.commands import COMMANDS
 
 pytest.importorskip("mani_skill", reason="solve and demos want it")
-pytestmark = pytest.mark.filterwarnings("ignore:Failed to find system libvulkan:UserWarning")
 
 NO_REGISTRY = "nowhere: no registry here; `factory build --output nowhere ...` makes one"
 NO_ASSET = "no asset 'nobody' in out; "

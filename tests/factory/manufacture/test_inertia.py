@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from export_samples import hull_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from manufactured import manufactured
-from plain_solids import box, cylinder
+from plain_solids import box
 from scipy.spatial.transform import Rotation
 
-from asset_factory.factory.asset import Hull
 from asset_factory.factory.config import InertiaConfig
 from asset_factory.factory.errors import InvalidAsset
 from asset_factory.factory.geometry.posing import closed
@@ -26,7 +26,6 @@ from asset_factory.factory.manufacture.inertia import (
 )
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.learn.objects import make_object
-from asset_factory.learn.objects.catalog import DEMO_CATEGORIES
 
 DENSITY = 650.0
 CONFIG = InertiaConfig()
@@ -46,10 +45,6 @@ def inside_out(mesh):
 
 def two_sided(mesh):
     return Mesh.from_triangles(mesh.vertices, np.vstack([mesh.faces, mesh.faces[:, ::-1]]))
-
-
-def hull_of(mesh):
-    return Hull(mesh.vertices, mesh.faces)
 
 
 def without_top(mesh):
@@ -113,17 +108,6 @@ def test_a_part_has_the_textbook_inertia_of_the_boxes_that_it_consists_of(name):
     mass, center, tensor = together(*boxes)
     assert found.mass == pytest.approx(mass, rel=1e-5)
     np.testing.assert_allclose(found.center, center, atol=1e-6)
-    np.testing.assert_allclose(found.tensor, tensor, rtol=1e-3, atol=1e-9)
-
-
-def test_a_cylinder_comes_close_to_its_textbook_inertia():
-    radius = 0.1
-    height = 0.5
-    found = inertial(cylinder(2, (0.0, 0.0), radius, (0.0, height), PLAIN, sides=360))
-    mass = DENSITY * np.pi * radius**2 * height
-    across = mass * (3 * radius**2 + height**2) / 12
-    assert found.mass == pytest.approx(mass, rel=1e-3)
-    tensor = np.diag([across, across, mass * radius**2 / 2])
     np.testing.assert_allclose(found.tensor, tensor, rtol=1e-3, atol=1e-9)
 
 
@@ -218,14 +202,6 @@ def test_moving_turning_and_scaling_commute_with_the_inertia(seed, shift, factor
     )
     turned = factor**5 * rotation @ before.tensor @ rotation.T
     np.testing.assert_allclose(after.tensor, turned, atol=1e-5 * np.abs(turned).max())
-
-
-@pytest.mark.parametrize("category", DEMO_CATEGORIES)
-def test_generated_objects_weigh_what_such_things_weigh(category):
-    articulation = make_object(category, 0)
-    masses = [inertial(articulation.part_mesh(i)).mass for i in range(len(articulation.parts))]
-    low, high = (0.5, 3.0) if category == "laptop" else (3.0, 200.0)
-    assert low < sum(masses) < high
 
 
 def mass_of(whole, kept, **known):

@@ -43,9 +43,9 @@ def pieces_of(*hulls):
     return tuple(SolidPieces((one,), "exact") for one in hulls)
 
 
-def gap(result, pose=None):
+def gap(result):
     first, second = (piece.hulls[0] for piece in result.pieces[:2])
-    return -meeting(first, second, np.eye(4) if pose is None else pose).depth
+    return -meeting(first, second, np.eye(4)).depth
 
 
 def test_what_decomposition_added_is_taken_off():

@@ -4,18 +4,17 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from plain_solids import parted
+from plain_solids import parted, sized_box
 
 from asset_factory.factory.articulation import Joint
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.mesh import Material, Mesh
+from asset_factory.factory.mesh import Mesh
 from asset_factory.learn.datasets.description import find_descriptions, find_partnet
 from asset_factory.learn.datasets.predictions import find_predictions, read_prediction_item
 from asset_factory.learn.datasets.settings import SourceSettings
 from asset_factory.learn.datasets.split import is_held_out
 from asset_factory.learn.evaluate.files import write_obj
 from asset_factory.learn.objects.export import write_annotation, write_sidecar
-from asset_factory.sim_checks.read.primitives import box
 
 
 def touch(path, text="<robot/>"):
@@ -71,13 +70,10 @@ def test_partnet_objects_are_called_by_their_numbers(tmp_path):
 
 
 def chest():
-    material = Material("wood")
-    lid = np.eye(4)
-    lid[:3, 3] = 0.0, 0.0, 0.55
-    top = Mesh.from_triangles(*box(np.array([1, 1, 0.1])), material).transformed(lid)
-    chest = Mesh.from_triangles(*box(np.ones(3)), material)
     hinge = Joint("lid", "revolute", 0, 1, [-1.0, 0, 0], [0, 0.5, 0.5], 0.0, 1.5)
-    return parted({"base": [chest], "lid": [top]}, hinge)
+    sides, lid = sized_box((1, 1, 1)), sized_box((1, 1, 0.1), (0.0, 0.0, 0.55))
+    boxes = {"base": sides, "lid": lid}
+    return parted({name: [Mesh.from_triangles(*each)] for name, each in boxes.items()}, hinge)
 
 
 @pytest.mark.parametrize("named", ["sidecar", "stem", "alone"])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from evidence_worlds import apart
 from refusing import refusal
 
 from asset_factory.factory.articulation import Articulation
@@ -47,11 +48,6 @@ def shown(articulation):
     return [part for part in range(len(articulation.parts)) if len(articulation.parts[part].faces)]
 
 
-def off_line(point, joint):
-    across = point - joint.origin
-    return float(np.linalg.norm(across - joint.axis * (across @ joint.axis)))
-
-
 def matched(ours, theirs, centre, side):
     """Part by part, those with the same corners."""
     found = {}
@@ -84,7 +80,7 @@ def test_parts_axes_and_ranges_agree(fixtures, name):
         limits = [mine.lower / scale, mine.upper / scale]
         np.testing.assert_allclose(limits, [yours.lower, yours.upper], atol=1e-4)
         if mine.turns:
-            assert off_line((mine.origin - centre) / side, yours) < 1e-4
+            assert apart((mine.origin - centre) / side, yours.axis, yours.origin) < 1e-4
 
 
 @pytest.mark.parametrize("name", [*DESCRIPTIONS, *STAGES])

@@ -1,6 +1,7 @@
 """The truth goes with the triangles, however an articulator cuts them."""
 
 import numpy as np
+import trimesh
 from cupboards import cupboard, hinge
 
 from asset_factory.factory.geometry.posing import face_parts
@@ -10,20 +11,15 @@ from asset_factory.learn.evaluate.physical import physical
 from asset_factory.learn.evaluate.transfer import on_mesh, sources
 
 
-def halved(mesh, chosen):
-    """With the chosen triangles cut in two from a corner, and all of them shuffled."""
-    a, b, c = mesh.faces[chosen].T
-    new = len(mesh.vertices) + np.arange(len(chosen))
-    middles = (mesh.vertices[b] + mesh.vertices[c]) / 2.0
-    kept = np.delete(mesh.faces, chosen, axis=0)
-    faces = np.concatenate([kept, np.stack([a, b, new], 1), np.stack([a, new, c], 1)])
-    order = np.random.default_rng(0).permutation(len(faces))
-    return Mesh.from_triangles(np.concatenate([mesh.vertices, middles]), faces[order])
+def quartered(mesh, chosen):
+    """With the chosen triangles cut in four, and all of them shuffled."""
+    vertices, faces = trimesh.remesh.subdivide(mesh.vertices, mesh.faces, face_index=chosen)
+    return Mesh.from_triangles(vertices, np.random.default_rng(0).permutation(faces))
 
 
 def test_every_cut_triangle_knows_where_it_comes_from_and_is_scored_as_that():
     truth = cupboard(hinge())
-    cut = halved(truth.mesh, np.arange(0, len(truth.mesh.faces), 3))
+    cut = quartered(truth.mesh, np.arange(0, len(truth.mesh.faces), 3))
     source = sources(truth.mesh, cut)
     area = np.bincount(source, weights=face_areas(cut), minlength=len(truth.mesh.faces))
     assert np.allclose(area, face_areas(truth.mesh))

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plain_solids import box, parted
+from plain_solids import box_between, parted
 
 from asset_factory.factory.articulate.catalog import choose
 from asset_factory.factory.articulation import Joint, JointKind, Part
@@ -14,7 +14,6 @@ from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.geometry.posing import face_parts, posed
 from asset_factory.factory.geometry.triangles import face_areas
 from asset_factory.factory.intake.load import load
-from asset_factory.factory.mesh import Material
 from asset_factory.factory.runtime.store import folder_digests
 from asset_factory.learn.objects import artist_like, fused_like, make_object, write_sample
 from asset_factory.learn.objects.__main__ import main
@@ -74,14 +73,12 @@ def test_a_sample_of_any_character_keeps_its_parts_face_by_face(change, tmp_path
 
 
 def turning_slider():
-    grey = Material("grey")
-    body = box((0, 1), (0, 1), (0, 1), grey)
-    knob = box((0.2, 0.8), (-0.1, 0), (0.2, 0.8), grey)
-    axis = np.array([0.0, -1.0, 0.0])
-    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, axis, np.array([0.5, 0.0, 0.5]), 0.0, 2.0)
-    slide = Joint("slide", JointKind.PRISMATIC, 1, 2, axis, np.array([0.5, 0.0, 0.5]), 0.0, 0.05)
-    parts = {"body": [body], "carrier": [body.submesh([])], "knob": [knob]}
-    return parted(parts, turn, slide)
+    body = box_between((0, 0, 0), (1, 1, 1))
+    knob = box_between((0.2, -0.1, 0.2), (0.8, 0, 0.8))
+    line = ([0.0, -1.0, 0.0], [0.5, 0.0, 0.5], 0.0)
+    turn = Joint("turn", JointKind.REVOLUTE, 0, 1, *line, 2.0)
+    slide = Joint("slide", JointKind.PRISMATIC, 1, 2, *line, 0.05)
+    return parted({"body": [body], "carrier": [], "knob": [knob]}, turn, slide)
 
 
 def test_a_part_that_turns_and_slides_is_one_row_of_the_annotation(tmp_path):

@@ -5,16 +5,14 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-import trimesh
 from box_sampled_objects import box_sampled
 from hypothesis import given
 from hypothesis import strategies as st
-from plain_solids import parted
+from plain_solids import box_between, parted
 from refusing import refusal
 
 from asset_factory.factory.articulation import Joint, JointKind, Part, rotation_about
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.particulate.prediction import MotionClass
 from asset_factory.learn.objects import make_object
 from asset_factory.learn.samples import sampled_object as sampled_objects
@@ -26,8 +24,8 @@ SHARES = dict.fromkeys(("turned_share", "facing_share", "mirrored_share", "merge
 BUSY = DrawSettings(points=400, **SHARES, stretch=0.6, components=True)
 
 
-def sampled(category="cabinet", seed=0, points=3000):
-    return sampled_from(make_object(category, seed), "one", points, np.random.default_rng(0))
+def sampled(category="cabinet"):
+    return sampled_from(make_object(category, 0), "one", 3000, np.random.default_rng(0))
 
 
 CABINET = sampled()
@@ -35,17 +33,14 @@ CABINET = sampled()
 
 def lid_on_a_post():
     """A root, a turning carrier, a lid sliding on it (one part, both motions), a fixed foot."""
-    cube = trimesh.creation.box((1.0, 1.0, 1.0))
-    rows = [cube.vertices + np.array([0, 0, 2 * number]) for number in range(3)]
-    base, foot, lid = (Mesh.from_triangles(row, cube.faces) for row in rows)
+    base, foot, lid = ([box_between((0, 0, z), (1, 1, z + 1))] for z in (0, 2, 4))
     up = np.array([0.0, 0.0, 1.0])
     joints = (
         Joint("glued", JointKind.FIXED, 0, 1, up, np.zeros(3)),
-        Joint("turn", JointKind.CONTINUOUS, 1, 2, up, np.array([0.0, 0.0, 0.0]), -np.pi, np.pi),
-        Joint("slide", JointKind.PRISMATIC, 2, 3, up, np.array([0.0, 0.0, 0.0]), 0.0, 0.3),
+        Joint("turn", JointKind.CONTINUOUS, 1, 2, up, np.zeros(3), -np.pi, np.pi),
+        Joint("slide", JointKind.PRISMATIC, 2, 3, up, np.zeros(3), 0.0, 0.3),
     )
-    parts = {"base": base, "foot": foot, "carrier": base.submesh([]), "lid": lid}
-    return parted({name: [mesh] for name, mesh in parts.items()}, *joints)
+    return parted({"base": base, "foot": foot, "carrier": [], "lid": lid}, *joints)
 
 
 def test_a_part_behind_a_carrier_turns_and_slides_and_what_is_fixed_is_one_with_its_parent():

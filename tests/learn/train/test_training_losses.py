@@ -1,4 +1,4 @@
-"""Losses and the matcher: the original's numbers, and what they promise whatever the numbers."""
+"""Losses, the matcher, the head on pairs: the original's numbers, and what they always promise."""
 
 from dataclasses import replace
 
@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 from stored_arrays import arrays
 
+from asset_factory.factory.models.network import transformer
+from asset_factory.factory.models.network.layers import two_layers
 from asset_factory.factory.models.network.shape import AxisForm, NetworkShape
 from asset_factory.factory.models.network.transformer import PartArticulationTransformer
 from asset_factory.factory.models.particulate.model import load_model
@@ -43,8 +45,6 @@ ORIGINAL = {
 }
 SHAPE = NetworkShape(hidden=16, blocks=2, heads=2, features=0, max_parts=6, mlp_ratio=2)
 
-torch.set_num_threads(1)
-
 
 @pytest.fixture
 def network():
@@ -58,11 +58,12 @@ def boxes(count):
     return collate(drawn, 6).to("cpu")
 
 
-def found_losses(network, batch, settings, counts=None):
+def found_losses(network, batch, settings, counts=None, said=None):
+    """What a network's answers cost, or others ``said`` in their place."""
     targets = targets_of(batch, settings)
     answers, early = forward(network, batch, settings)
     counts = counts or Counts(*count(batch, targets, settings))
-    return losses(answers, early, batch, targets, counts, settings)
+    return losses(said or answers, early, batch, targets, counts, settings)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -167,9 +168,7 @@ def test_an_opposite_direction_is_as_good_where_the_range_reads_the_same_from_bo
     said = replace(answers.parts, revolute_direction=-direction)
     answers = Answers(answers.queries, answers.mask_logits, said, answers.closest_points)
     for settings, wrong in ((LossSettings(), 6), (LossSettings(sign_free=True), 2)):
-        targets = targets_of(batch, settings)
-        counts = Counts(*count(batch, targets, settings))
-        found = losses(answers, [], batch, targets, counts, settings)
+        found = found_losses(network, batch, settings, said=answers)
         # Opposite unit vectors along a coordinate differ by 2 in one coordinate of three.
         assert found["revolute_direction"].item() == pytest.approx(wrong / 6 * 2 / 3)
 
@@ -203,10 +202,8 @@ def test_a_network_that_says_axes_by_moments_is_taught_those_of_the_annotated_ax
     network = PartArticulationTransformer(shape)
     batch = boxes(6)
     settings = LossSettings()
-    targets = targets_of(batch, settings)
-    counts = Counts(*count(batch, targets, settings))
-    assert counts.closest_points > 0
-    answers, early = forward(network, batch, settings)
+    assert Counts(*count(batch, targets_of(batch, settings), settings)).closest_points > 0
+    answers, _ = forward(network, batch, settings)
     assert answers.closest_points is None
     # The moment of the axis through any of its points, as a part says it.
     moment = torch.zeros_like(answers.parts.revolute_moment)
@@ -217,8 +214,27 @@ def test_a_network_that_says_axes_by_moments_is_taught_those_of_the_annotated_ax
                 direction = batch.revolute_direction[row, part]
                 moment[row, part] = torch.linalg.cross(direction, points[0])
     told = replace(answers, parts=replace(answers.parts, revolute_moment=moment))
-    right = losses(told, early, batch, targets, counts, settings)["closest_points"]
+    right = found_losses(network, batch, settings, said=told)["closest_points"]
     assert right.item() == pytest.approx(0.0, abs=1e-5)
     wrong = replace(told, parts=replace(answers.parts, revolute_moment=moment + 0.5))
-    found = losses(wrong, early, batch, targets, counts, settings)["closest_points"]
+    found = found_losses(network, batch, settings, said=wrong)["closest_points"]
     assert found.item() == pytest.approx(0.5, abs=1e-5)
+
+
+@pytest.mark.parametrize("cached", [1, 1 << 18])
+def test_pairs_and_their_gradients_are_those_of_the_concatenated_rows(monkeypatch, cached):
+    monkeypatch.setattr(transformer, "_CACHED", cached)
+    torch.manual_seed(0)
+    head = two_layers(10, 7, 1).double()
+    rows = torch.randn(3, 4, 5, dtype=torch.float64, requires_grad=True)
+    columns = torch.randn(3, 6, 5, dtype=torch.float64, requires_grad=True)
+    above = torch.randn(3, 4, 6, dtype=torch.float64)
+    leaves = (rows, columns, *head.parameters())
+    found = transformer.pair_logits(head, rows, columns)
+    gradients = torch.autograd.grad((found * above).sum(), leaves)
+    both = torch.cat(
+        [rows[:, :, None].expand(-1, -1, 6, -1), columns[:, None].expand(-1, 4, -1, -1)], dim=-1
+    )
+    wanted = head(both)[..., 0]
+    torch.testing.assert_close(found, wanted)
+    torch.testing.assert_close(gradients, torch.autograd.grad((wanted * above).sum(), leaves))

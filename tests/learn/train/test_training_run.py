@@ -33,8 +33,6 @@ from asset_factory.learn.train.trainer import Trainer
 
 SAME = ("curves.csv", "validation.csv", "model.safetensors")
 
-torch.set_num_threads(1)
-
 
 @pytest.fixture(scope="module")
 def path(tmp_path_factory):

@@ -14,8 +14,6 @@ from asset_factory.learn.train.settings import OptimiserSettings, ScheduleSettin
 from asset_factory.learn.train.trainer import quieten
 from asset_factory.learn.train.validation import part_ious
 
-torch.set_num_threads(1)
-
 
 def test_the_rate_climbs_a_line_and_falls_half_a_cosine():
     schedule = ScheduleSettings(steps=110, rate=2.0, warm_up=10, last_rate=0.1)

@@ -5,7 +5,6 @@ import json
 import threading
 import time
 from dataclasses import replace
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import numpy as np
 import pytest
@@ -13,6 +12,8 @@ import trimesh
 from one_piece import fridge
 from PIL import Image
 from refusing import refusal
+from werkzeug import Request, Response
+from werkzeug.serving import make_server
 
 from asset_factory.factory.articulate.asking import endpoint, question
 from asset_factory.factory.articulate.asking.articulator import VlmArticulator
@@ -44,30 +45,15 @@ class Server:
         self.asked = []
         self.answers = []
         self.wait_s = 0.0
-        outer = self
-
-        class Handler(BaseHTTPRequestHandler):
-            def do_POST(self):
-                text = self.rfile.read(int(self.headers["Content-Length"]))
-                outer.asked.append((self.path, dict(self.headers), json.loads(text)))
-                time.sleep(outer.wait_s)
-                last = len(outer.answers) - 1
-                status, body = outer.answers[min(len(outer.asked) - 1, last)]
-                self.send_response(status)
-                self.send_header("Retry-After", "0")
-                self.send_header("Content-Length", str(len(body)))
-                self.end_headers()
-                try:
-                    self.wfile.write(body)
-                except OSError:
-                    return
-
-            def log_message(self, *arguments):
-                pass
-
-        self.http = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self.http = make_server("127.0.0.1", 0, Request.application(self.answer), threaded=True)
         threading.Thread(target=self.http.serve_forever, daemon=True).start()
         self.url = f"http://127.0.0.1:{self.http.server_port}/v1"
+
+    def answer(self, request):
+        self.asked.append((request.path, dict(request.headers), request.json))
+        time.sleep(self.wait_s)
+        status, body = self.answers[min(len(self.asked), len(self.answers)) - 1]
+        return Response(body, status, {"Retry-After": "0"})
 
 
 @pytest.fixture

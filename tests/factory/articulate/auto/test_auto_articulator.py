@@ -67,9 +67,9 @@ class Labeller:
         )  # fmt: skip
 
 
-def asked(truth, network=None, trust=BELIEVING, **config):
+def asked(truth, network=None, **config):
     settings = AutoConfig(views=2, **config)
-    articulator = AutoArticulator(network or Labeller(truth), (), trust, SHOWN, settings)
+    articulator = AutoArticulator(network or Labeller(truth), (), BELIEVING, SHOWN, settings)
     return articulator.articulate(truth.mesh)
 
 

@@ -29,9 +29,9 @@ def mask(*faces):
     return found
 
 
-def view(labels, sign=1.0, confidence=0.9, moves=0.9, both=0.0, slide=None):
+def view(labels, sign=1.0, moves=0.9, both=0.0, slide=None):
     root = SeenPart(1.0, 0.0, 0.0, 0.0, 1.0, None, None, 0.0, 0.0)
-    door = SeenPart(confidence, moves, 1.0, both, 0.8, sign * UP, np.zeros(3), 0.0, 1.5, slide)
+    door = SeenPart(0.9, moves, 1.0, both, 0.8, sign * UP, np.zeros(3), 0.0, 1.5, slide)
     return NetworkView(np.array(labels), (root, door))
 
 

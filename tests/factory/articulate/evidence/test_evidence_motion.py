@@ -25,11 +25,11 @@ OUT = np.array([0.0, -1.0, 0.0])
 WORLDS = {"left": cupboard("left"), "right": cupboard("right"), "drawer": chest(), "oven": oven()}
 
 
-def _rough(joint, rotation, turns=0.7):
+def _rough(joint, rotation):
     """The truth, 12 degrees, 8 cm and a sign off."""
     off = rotation_about(np.eye(3)[0] if abs(joint.axis[0]) < 0.5 else UP, np.radians(12.0))
     return Guess(
-        turns=turns if joint.turns else 1.0 - turns,
+        turns=0.7 if joint.turns else 0.3,
         direction=-(rotation @ off @ joint.axis),
         point=rotation @ (joint.origin + np.array([0.05, 0.05, 0.04])),
     )

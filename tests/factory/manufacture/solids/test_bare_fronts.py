@@ -41,20 +41,28 @@ def with_door(mesh, *pieces):
     return moving(mesh, pieces, Joint("hinge", JointKind.REVOLUTE, 0, 1, UP, at, upper=1.5))
 
 
-def hollow_case():
-    """Five boards and a front plate."""
-    return [*carcass(0.6, 0.4, 0.6), board((0.0, -0.02, 0.0), (0.6, -0.001, 0.6))]
+CASE = carcass(0.6, 0.4, 0.6)
+FRONT = board((0.0, -0.02, 0.0), (0.6, -0.001, 0.6))
+
+
+def sliding_in_case(**parts):
+    """The solids of a hollow case's parts, each on a slide of its own."""
+    slides = [
+        replace(SLIDE, name=f"{name}_slide", child=child)
+        for child, name in enumerate(parts, start=1)
+    ]
+    return solids(located(parted({"base": CASE, **parts}, *slides)), SolidsConfig())
 
 
 def test_a_plate_that_slides_is_bare_and_a_box_is_not():
     assert bare_fronts(with_drawer(drawer_chest(), 1, 3)) == (1,)
     box = board((0.05, -0.001, 0.05), (0.55, 0.35, 0.5))
-    assert bare_fronts(with_drawer(concatenate([*hollow_case(), box]), 5, 6)) == ()
+    assert bare_fronts(with_drawer(concatenate([*CASE, FRONT, box]), 5, 6)) == ()
 
 
 def test_a_door_is_bare_only_where_it_closes_something_solid():
     assert bare_fronts(with_door(fridge(), 1, 3)) == (1,)
-    assert bare_fronts(with_door(concatenate(hollow_case()), 5)) == ()
+    assert bare_fronts(with_door(concatenate([*CASE, FRONT]), 5)) == ()
 
 
 def test_a_drawer_of_a_solid_chest_gets_a_box_and_room_for_it():
@@ -68,7 +76,7 @@ def test_a_drawer_of_a_solid_chest_gets_a_box_and_room_for_it():
 
 
 def test_a_drawer_of_a_hollow_case_gets_a_box_too():
-    made = solids(with_drawer(concatenate(hollow_case()), 5), SolidsConfig())
+    made = sliding_in_case(drawer=[FRONT])
     assert ("drawer", "drawer box") in {(each.part, each.kind) for each in made.surfaces}
     assert not any(each.kind == "hollow" for each in made.surfaces)
 
@@ -90,19 +98,13 @@ def test_a_front_gets_no_box_where_a_tray_of_its_own_slides():
     ends = ((0.55, 0.36, 0.204), (0.054, 0.36, 0.4), (0.55, 0.034, 0.4))
     begins = ((0.546, 0.03, 0.2), (0.05, 0.356, 0.2))
     tray = [*(board(low, end) for end in ends), *(board(begin, high) for begin in begins)]
-    *case, front = hollow_case()
-    second = replace(SLIDE, name="tray_slide", child=2)
-    given = parted({"base": case, "drawer": [front], "tray": tray}, SLIDE, second)
-    made = solids(located(given), SolidsConfig())
+    made = sliding_in_case(drawer=[FRONT], tray=tray)
     assert "drawer box" not in {each.kind for each in made.surfaces}
 
 
 def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces():
     bar = board((0.2, -0.1, 0.3), (0.4, -0.02, 0.34))
-    *case, front = hollow_case()
-    second = replace(SLIDE, name="second_slide", child=2)
-    given = parted({"base": case, "bar": [bar], "drawer": [front]}, SLIDE, second)
-    made = solids(located(given), SolidsConfig())
+    made = sliding_in_case(bar=[bar], drawer=[FRONT])
     assert all(len(part.faces) for part in made.articulation.parts)
 
 
@@ -124,9 +126,6 @@ def test_a_button_in_a_door_has_room_to_be_pressed():
 def test_a_body_behind_a_front_is_left_to_decomposition():
     wires = [board((x, 0.05, 0.3), (x + 0.006, 0.36, 0.306)) for x in (0.1, 0.2, 0.3, 0.4)]
     rails = [board((0.1, y, 0.3), (0.406, y + 0.006, 0.306)) for y in (0.05, 0.354)]
-    *case, front = hollow_case()
-    second = replace(SLIDE, name="rack_slide", child=2)
-    given = parted({"base": case, "drawer": [front], "rack": [*wires, *rails]}, SLIDE, second)
-    made = solids(located(given), SolidsConfig())
+    made = sliding_in_case(drawer=[FRONT], rack=[*wires, *rails])
     assert made.pieces[2] is None
-    assert len(made.articulation.parts[2].faces) == len(given.parts[2].faces)
+    assert len(made.articulation.parts[2].faces) == sum(len(each.faces) for each in wires + rails)

@@ -8,13 +8,14 @@ import trimesh
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
-from labelled_skins import SIZE, box_skin, chest, cupboard, labelled
+from labelled_skins import SIZE, box_skin, chest, cupboard, labelled, with_more
 from plain_solids import box_between, parted
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
 from asset_factory.factory.config import SolidsConfig
 from asset_factory.factory.geometry import posing
 from asset_factory.factory.geometry.posing import face_parts
+from asset_factory.factory.geometry.triangles import areas_of, doubled_normals
 from asset_factory.factory.manufacture.decompose.convex import depth_below, hull_of
 from asset_factory.factory.manufacture.separate.clip import SHEET_M
 from asset_factory.factory.manufacture.solids.boards import BOTTOM_M, HEIGHT, STOP_M, drawer_box
@@ -31,7 +32,7 @@ from asset_factory.factory.manufacture.solids.seam import CutSkin, cut
 from asset_factory.factory.manufacture.solids.skin import border, parts_to_build, skin_parts
 from asset_factory.factory.manufacture.solids.surfaces import boundary, inside_of, outside_of, plate
 from asset_factory.factory.manufacture.solids.sweep import CLEAR_M
-from asset_factory.factory.mesh import Mesh, concatenate
+from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.views.raster import Side
 
 UNIT = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
@@ -62,11 +63,7 @@ def test_a_drawer_deeper_than_high_keeps_its_own_box(depth, framed, built):
         edges, _ = border(given.mesh, face_parts(given))
         inner = np.full((len(edges), 1, 3), [0.0, 0.1, 0.5])
         corners = np.concatenate([given.mesh.vertices[edges], inner], axis=1).reshape(-1, 3)
-        frame = Mesh.from_triangles(corners, np.arange(len(corners)).reshape(-1, 3))
-        first = len(given.mesh.faces)
-        body = np.append(given.parts[0].faces, np.arange(first, first + len(frame.faces)))
-        parts = (replace(given.parts[0], faces=body), given.parts[1])
-        given = replace(given, mesh=concatenate([given.mesh, frame]), parts=parts)
+        given = with_more(given, 0, corners, np.arange(len(corners)).reshape(-1, 3))
     assert skin_parts(given) == (1,)
     assert parts_to_build(given) == built
 
@@ -104,9 +101,7 @@ def test_a_cut_keeps_the_surface_and_leaves_nothing_across_the_plane(axis, offse
     normal = np.eye(3)[axis]
     height = offset + (0.4 if axis == 2 else 0.0)
     halves = cut(skin, normal, height, np.ones(len(faces), dtype=bool))
-    a, b, c = np.moveaxis(halves.corners, 1, 0)
-    across = np.cross(b - a, c - a)
-    area = np.linalg.norm(across, axis=1).sum() / 2.0
+    area = areas_of(halves.corners).sum()
     want = 2.0 * (SIZE[0] * SIZE[1] + SIZE[1] * SIZE[2] + SIZE[2] * SIZE[0])
     assert area == pytest.approx(want, rel=1e-9)
     side = halves.corners @ normal - height
@@ -143,7 +138,7 @@ def test_a_tapered_room_is_hollowed_in_steps_without_a_skin_between(depth):
     assert len(boxes) > 1
     assert widths == sorted(widths, reverse=True)
     corners = inside_of(boxes, boxes[0].low[2])
-    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2.0
+    areas = doubled_normals(corners)[:, 2] / 2.0
     mouth = boxes[0].size[0] * boxes[0].size[1]
     assert np.abs(areas).sum() == pytest.approx(mouth, rel=1e-6)
 
@@ -275,7 +270,7 @@ def test_hollows_and_boards_bound_their_volume():
 def test_a_plate_with_a_hole_has_the_area_of_what_is_left():
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     ring = plate(square, [square * 0.5 + 0.25], 0.3)
-    normals = np.cross(ring[:, 1] - ring[:, 0], ring[:, 2] - ring[:, 0])
+    normals = doubled_normals(ring)
     assert normals[:, 2].sum() / 2.0 == pytest.approx(0.75)
     assert (normals[:, 2] > 0.0).all()
 

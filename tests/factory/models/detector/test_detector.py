@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from openable_samples import box
+from openable_samples import RED, box
 
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.models.detector.canvas import (
@@ -50,7 +50,7 @@ def dense_with(boxes):
 
 
 def test_a_box_stands_in_the_middle_of_its_canvases_at_one_scale():
-    canvases = look_at(box([0.0, 0.0, 0.5], [0.5, 0.25, 1.0]))
+    canvases = look_at(box([0.0, 0.0, 0.5], [0.5, 0.25, 1.0], RED))
     for view, wide, high in ((0, 120, 240), (1, 60, 240), (4, 120, 60)):
         rows, columns = np.nonzero(canvases.depth[view] != NOTHING)
         assert [np.ptp(rows) + 1, np.ptp(columns) + 1] == pytest.approx([high, wide], abs=1)
