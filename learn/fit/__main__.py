@@ -2,7 +2,7 @@
 
     python -m asset_factory.learn.fit agreement configs/weights/agreement.safetensors \
         --real FOLDER... --data ROOT
-    python -m asset_factory.learn.fit motions configs/weights/evidence.safetensors
+    python -m asset_factory.learn.fit motions configs/weights/evidence.safetensors --data FOLDER
     python -m asset_factory.learn.fit trust configs/weights/trust.safetensors
 
 Each takes up to an hour of one core.

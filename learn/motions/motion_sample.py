@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from asset_factory.factory.articulate.evidence import NOTHING
 from asset_factory.factory.articulate.evidence.body import Partition, body_of
 from asset_factory.factory.articulate.evidence.candidates import Candidates, find_candidates
 from asset_factory.factory.articulate.evidence.numbers import measure
@@ -20,8 +19,6 @@ from .spoiling import made_up_guess, spoilt
 
 #: Parts of one object that teach; the rest say the same again.
 MOST_PARTS = 5
-#: Of so many parts nobody guesses anything.
-UNGUESSED = 0.2
 #: What turns so far has no way that is the wrong one [rad].
 ROUND = 6.0
 #: Errors of axis [deg] and of place that count for none, and that divide a worth by e.
@@ -67,8 +64,7 @@ def motion_samples(
         if body is None:
             continue
         middle = (body.corners.min(axis=0) + body.corners.max(axis=0)) / 2.0
-        made_up = made_up_guess(joint, middle, size, rng)
-        guess = NOTHING if rng.random() < UNGUESSED else made_up
+        guess = made_up_guess(joint, middle, size, rng)
         candidates = find_candidates(body, guess)
         numbers = measure(body, candidates, guess)
         worth, right = _judged(candidates, joint, middle, size)

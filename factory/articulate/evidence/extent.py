@@ -88,13 +88,13 @@ def extent_of(body: Body, chosen: Candidates, guess: Guess) -> Extent:
 
 
 def _slide(body: Body, axis: FloatArray, said: float | None) -> float:
-    """Return how far a part should slide [m], by what is said, or usual."""
+    """Return how far a part should slide [m], as somebody says or as usual."""
     way = _way(body, axis)
     return min(said, FARTHEST_SLIDE * way) if said else USUAL_SLIDE * way
 
 
 def _turn(said: float | None) -> float:
-    """Return how far a part should turn [rad], by what is said, or usual."""
+    """Return how far a part should turn [rad], as somebody says or as usual."""
     if not said:
         return QUARTER
     quarters = QUARTER * max(round(said / QUARTER), 1)

@@ -60,7 +60,7 @@ class Box:
         return Box(low, high)
 
     def shared(self, other: Box) -> Box:
-        """Return what lies in both boxes."""
+        """Return the room in both boxes."""
         return Box(np.maximum(self.low, other.low), np.minimum(self.high, other.high))
 
     def turned(self, rows: FloatArray) -> Box:

@@ -96,7 +96,7 @@ class FlatPanel:
         )
 
     def within(self, inset: float, start: float = -np.inf, end: float = np.inf) -> Box:
-        """Return what lies within its edges by ``inset``, from one depth to another [m]."""
+        """Return the room within its edges by ``inset``, from one depth to another [m]."""
         return Box(np.append(self.low + inset, start), np.append(self.high - inset, end))
 
 

@@ -118,7 +118,7 @@ def right(*wanted):
 
 
 NO_ENDS = {"opens_right_way": (), "range_error_rad": ()}
-#: Truth, prediction and figures, by what is to be told of them. The longest side is 1 m.
+#: Truth, prediction and figures, by the name of the case. The longest side is 1 m.
 SCORES = {
     "the door itself": (
         DOOR,

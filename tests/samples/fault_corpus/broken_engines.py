@@ -39,7 +39,7 @@ LIGHT = with_body(cabinet(), "carcass", mass=1.0)
 POINT = np.vstack([BLOCK[BLOCK[:, 2] > 0.1], [0.0, 0.2, 0.0]])
 POINTED = urdf(with_body(kiosk(), "carcass", pieces=(POINT,)))
 BROKEN = (
-    # Files that loaders refuse, or of which they keep something else than what is written.
+    # Files that loaders refuse, or of which they keep something else than is written.
     Exhibit("ply_collision.urdf", _as_ply, "load_failed", "error", (), REFUSED),
     Exhibit("axis_of_length_2.urdf", LONG_AXIS, "axis_not_unit", engines=MISPLACED),
     Exhibit("joint_with_friction.urdf", RUBBING, "friction_ignored", "note", ("sapien",)),
@@ -53,7 +53,7 @@ BROKEN = (
     Exhibit("door_that_falls_open.urdf", urdf(oven()), "opens_by_itself", "warning", ENGINES),
     Exhibit("button_that_creeps.mjcf", SOFT, "creeps", "error", ("mujoco",)),
     Exhibit("button_of_a_urdf.urdf", STATED, "creeps", "warning", ("mujoco",)),
-    # What stands on the floor and would not stay there.
+    # Assets on the floor that would not stay there.
     Exhibit("top_heavy.urdf", urdf(HEAVY), "topples", "warning"),
     Exhibit("too_light_to_pull.urdf", urdf(LIGHT), "topples_when_pulled", "warning"),
     Exhibit("on_a_point.urdf", POINTED, "no_stable_footing", "warning"),

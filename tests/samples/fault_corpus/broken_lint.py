@@ -169,7 +169,7 @@ ERRORS = listed(
     ("collision_knife_edge.urdf", "collision_gap", urdf(_touched(KNIFE, seen=SHEET))),
     engines=HELD,
 )
-#: What is reported and does not reject.
+#: Reported, and no reason to reject.
 WARNINGS = listed(
     ("stiff_damping.urdf", "damping_stiff", _dynamics('damping="850"')),
     ("no_effort.urdf", "invalid_effort", restated(URDF, LIMIT, effort="0")),
@@ -200,7 +200,7 @@ BROKEN = (
     *both("filled_drawer", _filled_drawer(), "interior_filled"),
     *WARNINGS,
 )
-#: What is close to the faults above and none.
+#: Close to the faults above and none.
 SOUND = (
     *both("steel_door", _weighing(33.0), None),
     *listed(

@@ -145,7 +145,7 @@ BROKEN = (
     *both("lid_in_the_air", _shifted(CABINET, 3, (0.0, 0.0, 0.3)), "part_detached"),
     *both("drawer_leaves", with_move(CABINET, "slide", upper=3.0), "range_implausible"),
     *both("hardly_a_range", with_move(CABINET, "slide", upper=1e-4), "range_tiny", "warning"),
-    # What is reported and does not reject.
+    # Reported, and no reason to reject.
     *both("rack_behind_a_door", oven(), "joint_dependency", "warning"),
     *both("both_open", crossing(), "joints_collide", "warning"),
     # Nothing in the file tells the engines that this overlap is a knuckle.

@@ -36,17 +36,12 @@ def _rough(joint, rotation):
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.9])
-@pytest.mark.parametrize(
-    ("name", "guessed"),
-    [(name, True) for name in ("left", "right", "drawer", "oven")]
-    + [("left", False), ("right", False)],
-)
-def test_a_front_opens_as_it_should(name, yaw, guessed):
+@pytest.mark.parametrize("name", ["left", "right", "drawer", "oven"])
+def test_a_front_opens_as_it_should(name, yaw):
     world = WORLDS[name]
     rotation = rotation_about(UP, yaw)
     joint = world.joints[0]
-    guess = _rough(joint, rotation) if guessed else NOTHING
-    found = best_motion(partition(world, yaw), 1, guess)
+    found = best_motion(partition(world, yaw), 1, _rough(joint, rotation))
     assert found.motion.kind is joint.kind
     assert found.motion.axis @ (rotation @ joint.axis) > 0.999
     if joint.turns:
@@ -69,8 +64,8 @@ def test_size_does_not_matter():
     small = partition(WORLDS["drawer"])
     tenfold = replace(small.mesh, vertices=small.mesh.vertices * 10.0)
     large = Partition(tenfold, small.face_part, small.parents)
-    one = best_motion(small, 1)
-    ten = best_motion(large, 1)
+    one = best_motion(small, 1, Guess(0.0, OUT))
+    ten = best_motion(large, 1, Guess(0.0, OUT))
     assert np.allclose(one.motion.axis, ten.motion.axis)
     assert ten.motion.upper == pytest.approx(10.0 * one.motion.upper, rel=1e-6)
 

@@ -57,7 +57,7 @@ def assert_same(found, wanted=TENSORS):
 
 
 def require_refused(file, content, said):
-    """At once, in a sentence that is not as long as what is refused."""
+    """At once, in a sentence that is not as long as the file."""
     file.write_bytes(content)
     started = time.process_time()
     with pytest.raises(ConfigError, match=said) as caught:
@@ -211,7 +211,7 @@ LAUGH = b"(t" + b"2\x86" * 60
 REMEMBERED = b"(t" + SHARED * 60
 PAIRS = (b"}" + LAUGH + b"Ns", b"}" + REMEMBERED + b"Ns", REMEMBERED + b")R")
 CALLS = (b"cos\nsystem\n(NtR", b"(Nios\nsystem\n", b"(cos\nsystem\nNo", b"(Nishutil\nrmtree\n")
-#: What is wrong with what torch is said to have saved -> the file, and what is told.
+#: The fault of a file said to be of torch -> the file, and the answer.
 REFUSED = {
     "no tensor": (repacked("/data/", None), "failed locating file data/0"),
     "half a tensor": (
