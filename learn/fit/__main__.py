@@ -2,7 +2,7 @@
 
     python -m asset_factory.learn.fit agreement configs/weights/agreement.safetensors \
         --real FOLDER... --data ROOT
-    python -m asset_factory.learn.fit motions configs/weights/evidence.safetensors --data FOLDER
+    python -m asset_factory.learn.fit motions configs/weights/evidence.safetensors
     python -m asset_factory.learn.fit trust configs/weights/trust.safetensors
 
 Each takes up to an hour of one core.
@@ -49,8 +49,8 @@ def _motions(asked: Asked) -> Fit:
     samples = list(measured(objects))
     stored = fit_motions(samples, asked.steps)
     what = (
-        "A small network: which motion of a part geometry and somebody's guess speak for. "
-        "`factory/articulate/evidence` asks it."
+        "Two small networks: which motion of a part the evidence speaks for, where somebody "
+        "guessed one and where nobody did. `factory/articulate/evidence` asks them."
     )
     data = f"{len(samples)} parts of {len({each.name for each in samples})} objects"
     return Fit(stored, what, data, report(stored, samples))

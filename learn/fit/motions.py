@@ -13,7 +13,7 @@ from scipy.special import softmax
 from torch.nn.utils.rnn import pad_sequence  # noqa: TID253
 
 from asset_factory.factory.articulate.evidence.numbers import NAMES
-from asset_factory.factory.articulate.evidence.rating import NAME, Rating, rating_of
+from asset_factory.factory.articulate.evidence.rating import Rating, rating_of
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.mesh import FloatArray, IntArray
 from asset_factory.factory.models.perceptron import Perceptron
@@ -23,6 +23,7 @@ from ..motions.motion_sample import MotionSample, motion_samples
 from .perceptron import FitSettings, Tensor, Weighing, fit_perceptron
 from .writing import networks_stored
 
+RATINGS = ("guided", "blind")
 HIDDEN = 12
 WEIGHING = {
     "inner": Weighing(0.15, 3e-3),
@@ -37,10 +38,12 @@ LEAST_WORTH = 1e-4
 
 
 def fit_motions(samples: Sequence[MotionSample], steps: int) -> Arrays:
-    """Fit the rating to motion samples, in so many steps of each optimisation at most."""
-    rating = fit_rating(samples, steps)
-    others = {"sure": np.array(rating.sure)}
-    return networks_stored({NAME: rating.network}, {NAME: NAMES}, others)
+    """Fit both ratings to the same motion samples, in so many steps of each optimisation."""
+    given = (samples, [each.unguided() for each in samples])
+    fitted = {name: fit_rating(each, steps) for name, each in zip(RATINGS, given, strict=True)}
+    networks = {name: each.network for name, each in fitted.items()}
+    others = {f"{name}.sure": np.array(each.sure) for name, each in fitted.items()}
+    return networks_stored(networks, dict.fromkeys(RATINGS, NAMES), others)
 
 
 def measured(objects: Iterable[tuple[str, Articulation]]) -> Iterator[MotionSample]:
@@ -52,9 +55,12 @@ def measured(objects: Iterable[tuple[str, Articulation]]) -> Iterator[MotionSamp
 
 def report(stored: Arrays, samples: Sequence[MotionSample]) -> str:
     """Return how many of the parts' motions are found, those that were learned from."""
-    rating = rating_of(stored)
-    right = [each.right[int(np.argmax(rating.scores(each.numbers)))] for each in samples]
-    return f"motions right of those learned from: {np.mean(right):.3f}"
+    shares = []
+    for name, given in (("guided", samples), ("blind", [each.unguided() for each in samples])):
+        rating = rating_of(stored, name)
+        right = [each.right[int(np.argmax(rating.scores(each.numbers)))] for each in given]
+        shares.append(f"{name} {np.mean(right):.3f}")
+    return f"motions right of those learned from: {', '.join(shares)}"
 
 
 def fit_rating(samples: Sequence[MotionSample], steps: int) -> Rating:

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from asset_factory.factory.articulate.evidence.body import Partition, body_of
-from asset_factory.factory.articulate.evidence.candidates import Candidates, find_candidates
-from asset_factory.factory.articulate.evidence.numbers import measure
+from asset_factory.factory.articulate.evidence.candidates import (
+    Candidates,
+    LineSource,
+    find_candidates,
+)
+from asset_factory.factory.articulate.evidence.numbers import GUESS, measure
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
 from asset_factory.factory.geometry.posing import closed, turned
 from asset_factory.factory.mesh import BoolArray, FloatArray
@@ -38,6 +42,7 @@ class MotionSample:
     Attributes:
         name: of the object.
         numbers: evidence of every candidate, a guess included, shape [n, len(NAMES)].
+        guessed: candidates there would not be without the guess, shape [n].
         worth: how good each candidate is, 0 to 1, shape [n].
         right: whether each is right but for the sense, shape [n].
         alike: for each candidate, which others are the same motion but for the sense, shape [n, n].
@@ -45,9 +50,18 @@ class MotionSample:
 
     name: str
     numbers: FloatArray
+    guessed: BoolArray
     worth: FloatArray
     right: BoolArray
     alike: BoolArray
+
+    def unguided(self) -> MotionSample:
+        """Return the same part if nobody had guessed."""
+        keep = ~self.guessed
+        numbers = self.numbers[keep].copy()
+        numbers[:, -len(GUESS) :] = 0.0
+        kept = {name: getattr(self, name)[keep] for name in ("guessed", "worth", "right")}
+        return replace(self, numbers=numbers, alike=self.alike[np.ix_(keep, keep)], **kept)
 
 
 def motion_samples(
@@ -71,6 +85,7 @@ def motion_samples(
         yield MotionSample(
             name=name,
             numbers=numbers.astype(np.float32),
+            guessed=candidates.source == LineSource.GUESSED,
             worth=worth,
             right=right,
             alike=_alike(candidates, size),

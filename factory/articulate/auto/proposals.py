@@ -27,7 +27,8 @@ class _Judged:
     """A learned part with what the geometry makes of its motion."""
 
     part: LearnedPart
-    evidence: MotionEvidence
+    guided: MotionEvidence
+    unguided: MotionEvidence
 
 
 def propose(
@@ -52,7 +53,7 @@ def propose(
         mate = (
             left.pop(int(np.argmax(overlaps))) if max(overlaps, default=0.0) > SAME_PART else None
         )
-        motion = None if mate is None else mate.evidence.motion
+        motion = None if mate is None else mate.guided.motion
         seen = motion if _alike(said.motion, motion) else None
         signs = _signs(said.faces, areas, mate, len(judged))
         signs |= {
@@ -62,7 +63,7 @@ def propose(
         }
         found.append(replace(said, motion=_as_open(said.motion, seen), signs=signs))
     for each in left:
-        motion = each.evidence.motion
+        motion = each.guided.motion
         if motion is not None:
             signs = _signs(each.part.faces, areas, each, len(judged)) | {"learned": 1.0}
             found.append(
@@ -84,7 +85,8 @@ def _judged(mesh: Mesh, areas: FloatArray, learned: tuple[LearnedPart, ...]) -> 
     return [
         _Judged(
             part=replace(learned[index], faces=sharing.face_part == number),
-            evidence=best_motion(partition, number, learned[index].guess),
+            guided=best_motion(partition, number, learned[index].guess),
+            unguided=best_motion(partition, number),
         )
         for number, index in enumerate(sharing.chosen, start=1)
     ]
@@ -101,7 +103,8 @@ def _signs(
             "confidence": log_odds(seen.part.confidence),
             "moves": log_odds(seen.part.moves),
             "hangs": log_odds(seen.part.hangs),
-            "evidence": log_odds(seen.evidence.confidence),
+            "evidence": log_odds(seen.guided.confidence),
+            "unguided": log_odds(seen.unguided.confidence),
         }
     return signs
 

@@ -25,6 +25,7 @@ SIGNS = (
     "moves",  # of the network that it moves, log-odds
     "hangs",  # of the network in what it hangs on, log-odds
     "evidence",  # of the geometry in the motion, given the network's guess, log-odds
+    "unguided",  # of the geometry in the motion, nothing given, log-odds
     "area",  # share of the mesh's area, log10
     "rivals",  # moving parts that the network sees, log2
 )

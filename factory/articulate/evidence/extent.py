@@ -30,8 +30,8 @@ SMALL = 0.07
 #: A part shorter than this share of the object, as seen along its way, is a front: it goes as deep
 #: as the object.
 FRONT = 0.15
-#: A way is looked at in so many steps; among the first the part comes free of what it touches at
-#: rest.
+#: A way, or half a turn, has so many steps: a network's last digits are the processor's. Among the
+#: first the part comes free of what it touches at rest.
 STEPS = 36
 AT_REST = 5
 #: Share of the points that may meet something on the way in all: a wrong label is not yet a wall.
@@ -90,7 +90,9 @@ def extent_of(body: Body, chosen: Candidates, guess: Guess) -> Extent:
 def _slide(body: Body, axis: FloatArray, said: float | None) -> float:
     """Return how far a part should slide [m], as somebody says or as usual."""
     way = _way(body, axis)
-    return min(said, FARTHEST_SLIDE * way) if said else USUAL_SLIDE * way
+    if not said:
+        return USUAL_SLIDE * way
+    return min(max(round(STEPS * said / way), 1) / STEPS, FARTHEST_SLIDE) * way
 
 
 def _turn(said: float | None) -> float:
@@ -98,7 +100,9 @@ def _turn(said: float | None) -> float:
     if not said:
         return QUARTER
     quarters = QUARTER * max(round(said / QUARTER), 1)
-    return quarters if abs(said - quarters) < NEAR_QUARTERS else said
+    if abs(said - quarters) < NEAR_QUARTERS:
+        return quarters
+    return max(round(STEPS * said / np.pi), 1) * np.pi / STEPS
 
 
 def is_small(body: Body) -> bool:

@@ -21,6 +21,7 @@ class Look:
 
     Attributes:
         front: unit direction of its largest open side, shape [3].
+        facing: share of the surface that looks along ``front`` (either way), 0 to 1.
         center: of the part's box, level frame, in object coordinates [m], shape [3].
         extents: of the part along the level frame's axes [m], shape [3].
         thickness: along ``front``, handle apart [m].
@@ -31,6 +32,7 @@ class Look:
     """
 
     front: FloatArray
+    facing: float
     center: FloatArray
     extents: FloatArray
     thickness: float
@@ -47,8 +49,7 @@ def look_at(body: Body) -> Look:
     )
     free = free_share(body, directions)
     facing = np.abs(body.own.normals @ directions.T).mean(axis=0)
-    handled = np.array([_handle(body, direction).any() for direction in directions])
-    best = int(np.argmax(free * (0.2 + facing) * (1.0 + 0.1 * handled)))
+    best = int(np.argmax(free * (0.2 + facing) * (1.0 + 0.1 * stands_out(body, directions))))
     front = directions[best]
     level = body.corners @ body.partition.level.T
     low = level.min(axis=0)
@@ -57,6 +58,7 @@ def look_at(body: Body) -> Look:
     held = _handle(body, front)
     return Look(
         front=front,
+        facing=float(facing[best]),
         center=(low + high) / 2.0 @ body.partition.level,
         extents=high - low,
         thickness=plane - back_plane,
@@ -82,6 +84,11 @@ def free_share(body: Body, directions: FloatArray) -> FloatArray:
         return np.asarray(free)
     held = 1.0 - body.holder.filled(walked).any(axis=1).mean(axis=1)
     return np.asarray((free + held) / 2.0)
+
+
+def stands_out(body: Body, directions: FloatArray) -> FloatArray:
+    """Return 1 where something small protrudes along a direction, shape [direction_count]."""
+    return np.array([float(_handle(body, direction).any()) for direction in directions])
 
 
 def _handle(body: Body, direction: FloatArray) -> BoolArray:

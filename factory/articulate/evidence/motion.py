@@ -52,7 +52,7 @@ def best_motion(partition: Partition, part: int, guess: Guess = NOTHING) -> Moti
         return MotionEvidence(None, 0.0)
     candidates = find_candidates(body, guess)
     numbers = measure(body, candidates, guess)
-    rating = load_rating()
+    rating = load_rating(guess.direction is not None)
     belief = softmax(rating.scores(numbers))
     chosen = int(np.argmax(belief))
     like = _alike(body, candidates, chosen)

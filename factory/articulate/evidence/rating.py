@@ -14,7 +14,6 @@ from ...models.shipped import Arrays, load_shipped
 from .numbers import NAMES
 
 FILE = "evidence.safetensors"
-NAME = "motion"
 
 
 @dataclass(frozen=True)
@@ -45,16 +44,16 @@ class Rating:
 
 
 @cache
-def load_rating() -> Rating:
-    """Return the rating that comes with the package."""
-    return rating_of(load_shipped(FILE))
+def load_rating(guided: bool) -> Rating:
+    """Return the shipped rating: for parts whose motion another source guessed, or for others."""
+    return rating_of(load_shipped(FILE), "guided" if guided else "blind")
 
 
-def rating_of(stored: Arrays) -> Rating:
-    """Return the rating of a file.
+def rating_of(stored: Arrays, name: str) -> Rating:
+    """Return a rating of a file.
 
     Raises:
         ConfigError: its numbers are not those that are measured.
     """
-    slope, offset = stored.arrays["sure"]
-    return Rating(Perceptron.read(stored, NAME, NAMES), (float(slope), float(offset)))
+    slope, offset = stored.arrays[f"{name}.sure"]
+    return Rating(Perceptron.read(stored, name, NAMES), (float(slope), float(offset)))

@@ -21,8 +21,8 @@ class Travel:
     """What became of the part's points.
 
     Attributes:
-        hits: share of them that have gone through what stays where most have, shape [n].
-        held: through what the part hangs on alone, where most have so far, on average, shape [n].
+        hits: share of them that have gone through what stays, by candidate and step, shape [n, 4].
+        held: as ``hits``, through what the part hangs on alone.
         out: how many more are outside the box of what stays after step 3, -1 to 1, shape [n].
     """
 
@@ -36,17 +36,17 @@ def travel(body: Body, some: Candidates) -> Travel:
     slides = bool(some.slides[0])
     values = _lengths(body, some)[:, None] * SLIDES if slides else np.tile(TURNS, (len(some), 1))
     points = body.probes.points
-    hits, held = np.zeros((2, len(SLIDES), len(some)))
+    hits, held = np.zeros((2, len(some), 4))
     outside = np.zeros(len(some))
-    for step in range(len(SLIDES)):
+    for step in range(4):
         moved, headings, gone = displaced(some, points, values[:, step])
-        hits[step] = body.grid.hits(moved, headings, gone).mean(axis=1)
-        held[step] = (
-            body.holder.hits(moved, headings, gone).mean(axis=1) if body.crowded else hits[step]
+        hits[:, step] = body.grid.hits(moved, headings, gone).mean(axis=1)
+        held[:, step] = (
+            body.holder.hits(moved, headings, gone).mean(axis=1) if body.crowded else hits[:, step]
         )
         if step == 2:
             outside = _outside(body, moved) - _outside(body, points[None])
-    return Travel(hits.max(axis=0), np.maximum.accumulate(held).mean(axis=0), outside)
+    return Travel(hits, held, outside)
 
 
 def displaced(

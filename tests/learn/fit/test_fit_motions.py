@@ -22,8 +22,8 @@ def motion_sample(seed):
     best = int(np.argmax(numbers[:, NAMES.index("turn_free")]))
     right = np.arange(COUNT) == best
     return MotionSample(
-        name=str(seed), numbers=numbers, worth=right.astype(float), right=right,
-        alike=np.eye(COUNT, dtype=bool),
+        name=str(seed), numbers=numbers, guessed=np.zeros(COUNT, dtype=bool),
+        worth=right.astype(float), right=right, alike=np.eye(COUNT, dtype=bool),
     )  # fmt: skip
 
 
@@ -38,7 +38,7 @@ def stored(motion_samples):
 
 
 def test_a_preference_is_recovered_for_parts_never_seen(stored):
-    rating = rating_of(stored)
+    rating = rating_of(stored, "guided")
     unseen = [motion_sample(seed) for seed in range(1000, 1060)]
     hits = [one.right[int(np.argmax(rating.scores(one.numbers)))] for one in unseen]
     assert np.mean(hits) > 0.8
@@ -60,7 +60,8 @@ def test_the_command_writes_what_the_evidence_reads_and_a_card(tmp_path, monkeyp
     assert command.main(asked) == 0
     assert f"weights in {output}" in capsys.readouterr().out
     stored = load_arrays(output)
-    assert rating_of(stored).scores(np.zeros((2, len(NAMES)))).shape == (2,)
+    for name in ("guided", "blind"):
+        assert rating_of(stored, name).scores(np.zeros((2, len(NAMES)))).shape == (2,)
     card = (tmp_path / "evidence.md").read_text()
     assert f"`python -m asset_factory.learn.fit {' '.join(asked)}`" in card
     assert "| seed | 500 |" in card

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from asset_factory.factory.articulate.evidence.numbers import NAMES
+from asset_factory.factory.articulate.evidence.numbers import GUESS, NAMES
 from asset_factory.learn.datasets.objects import generated
 from asset_factory.learn.motions.motion_sample import known_motions, motion_samples
 from asset_factory.learn.motions.spoiling import made_up_guess, spoilt
@@ -34,7 +34,10 @@ def test_motion_samples_know_what_is_right():
     for one in found:
         assert one.numbers.shape == (len(one.worth), len(NAMES))
         assert one.right[int(np.argmax(one.worth))]
-        assert one.alike.shape == (len(one.worth),) * 2
+        blind = one.unguided()
+        assert not blind.guessed.any()
+        assert (blind.numbers[:, -len(GUESS) :] == 0.0).all()
+        assert blind.alike.shape == (len(blind.worth),) * 2
 
 
 def test_guesses_are_rough_but_not_wild():

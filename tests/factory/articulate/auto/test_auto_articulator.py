@@ -123,7 +123,7 @@ def test_a_drawer_that_rules_find_is_as_open_as_the_evidence_says(sign, limits, 
     joint = next(joint for joint in truth.joints if not joint.turns)
     part = LearnedPart(face_parts(truth) == joint.child, 1.0, 0.9, 0.9, 0.9, Guess())
     seen = Motion(JointKind.PRISMATIC, sign * joint.axis, joint.origin, -0.1, 0.3)
-    judged = proposals._Judged(part, MotionEvidence(seen, 0.9))
+    judged = proposals._Judged(part, MotionEvidence(seen, 0.9), MotionEvidence(None, 0.0))
     monkeypatch.setattr(proposals, "_judged", lambda *_: [judged])
 
     def ruled(each):
@@ -214,7 +214,7 @@ def test_one_piece_without_parts_stays_rigid():
 
 
 #: Seeds below a million are never trained on.
-UNSEEN = [("notebook", 5), ("scissors", 5), ("kettle", 5), ("eyeglasses", 5), ("oven", 5)]
+UNSEEN = [("notebook", 5), ("scissors", 5), ("toilet", 5), ("oven", 5)]
 
 
 def right(articulator, category, seed):

@@ -103,7 +103,7 @@ def test_the_shipped_trust_believes_more_where_more_speaks_for_it():
     trust = load_trust()
     seen = {"agreement": 1.0, "area": -1.0, "rivals": 1.5}
     seen |= dict.fromkeys(("moves", "hangs"), log_odds(0.95))
-    seen |= dict.fromkeys(("confidence", "evidence"), log_odds(0.9))
+    seen |= dict.fromkeys(("confidence", "evidence", "unguided"), log_odds(0.9))
     doubtful = seen | {"agreement": 0.25, "confidence": log_odds(0.4), "evidence": log_odds(0.3)}
     both = trust.confidence(seen | {"shared": 1.0, "alike": 1.0})
     assert both > trust.confidence(doubtful | {"learned": 1.0})

@@ -15,7 +15,8 @@ from asset_factory.factory.articulate.evidence.candidates import (
     find_candidates,
 )
 from asset_factory.factory.articulate.evidence.extent import USUAL_SLIDE, extent_of, free_way
-from asset_factory.factory.articulate.evidence.travel import displaced, travel
+from asset_factory.factory.articulate.evidence.numbers import NAMES, measure
+from asset_factory.factory.articulate.evidence.travel import displaced
 from asset_factory.factory.articulation import Joint, JointKind, rotation_about
 from asset_factory.factory.mesh import concatenate
 
@@ -95,39 +96,41 @@ def with_box(whole, x, y, z):
 
 
 def tried(whole, part, axis):
-    """A part and its slide along an axis."""
+    """The slide of a part along an axis: its body, itself, and its evidence."""
     body = body_of(whole, part)
     found = find_candidates(body, NOTHING)
     best = int(np.argmax(found.slides * (found.axis @ axis)))
-    return body, found.at([best])
+    return body, found.at([best]), measure(body, found, NOTHING)[best]
 
 
 def test_a_closed_door_is_in_the_way_but_does_not_hold():
     whole = with_box(partition(cupboard()), (-0.25, 0.25), (0.01, 0.45), (0.1, 0.3))
-    body, chosen = tried(whole, 2, OUT)
+    body, _, evidence = tried(whole, 2, OUT)
+    named = dict(zip(NAMES, evidence, strict=True))
     assert body.crowded
-    gone = travel(body, chosen)
-    assert gone.hits > 0.04
-    assert gone.held == 0.0
-    assert travel(*tried(whole, 2, -OUT)).held > 0.0
+    assert named["slide_hit_4"] > 0.2
+    assert named["slide_held_4"] == 0.0
+    assert named["slide_ways"] > 0.05
 
 
 def test_what_is_alone_in_its_holder_is_not_crowded():
-    body, _ = tried(partition(chest()), 1, OUT)
+    body, _, evidence = tried(partition(chest()), 1, OUT)
     assert not body.crowded
     assert body.holder is body.grid
+    assert evidence[NAMES.index("slide_hit_4")] == evidence[NAMES.index("slide_held_4")]
 
 
 def test_a_drawer_is_measured_by_its_length_and_a_front_by_the_object():
-    body, chosen = tried(partition(chest()), 1, OUT)
+    body, chosen, _ = tried(partition(chest()), 1, OUT)
     long = extent_of(body, chosen, NOTHING)
     assert long.upper == pytest.approx(USUAL_SLIDE * 0.47, abs=0.04)
     assert long.share == 1.0
     bare = with_box(partition(cupboard()), (-0.29, 0.29), (-0.06, -0.03), (0.05, 0.35))
-    front = extent_of(*tried(bare, 2, OUT), NOTHING)
+    body, chosen, _ = tried(bare, 2, OUT)
     depth = float(np.ptp(bare.mesh.vertices[:, 1]))
-    assert front.upper == pytest.approx(USUAL_SLIDE * depth, rel=0.02)
+    assert extent_of(body, chosen, NOTHING).upper == pytest.approx(USUAL_SLIDE * depth, rel=0.02)
 
 
 def test_the_way_in_is_stopped_by_the_back():
-    assert free_way(*tried(partition(chest()), 1, -OUT), 0.5) < 0.3
+    body, chosen, _ = tried(partition(chest()), 1, -OUT)
+    assert free_way(body, chosen, 0.5) < 0.3

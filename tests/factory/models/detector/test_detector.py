@@ -95,7 +95,7 @@ def test_the_shipped_weights_know_made_objects(kind, seed, sort):
     made = make_object(kind, seed)
     detection = detect(made.mesh)
     assert detection.opens > 0.9
-    assert int(detection.fronts.argmax()) == 0
+    assert int(detection.dense.front.argmax()) == 0
     assert any(part.sort is sort and part.side is Side.FRONT for part in detection.parts(0.6))
 
 
