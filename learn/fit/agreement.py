@@ -166,7 +166,7 @@ def _reliability(network: Perceptron, rows: Sequence[tuple[float, ...]]) -> Iter
 def _fitted(rows: Sequence[tuple[float, ...]]) -> Perceptron:
     table = np.array(rows)
     weights = {name: Weighing(0.0, 1e-3) for name in ("base", "direct")}
-    settings = FitSettings(0, 1, weights, STEPS)
+    settings = FitSettings(0, weights, STEPS)
     return fit_scaled(table[:, :-1], cross_entropy(table[:, -1:]), settings)
 
 

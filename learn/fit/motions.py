@@ -23,7 +23,6 @@ from ..motions.motion_sample import MotionSample, motion_samples
 from .perceptron import FitSettings, Tensor, Weighing, fit_perceptron
 from .writing import networks_stored
 
-RATINGS = ("guided", "blind")
 HIDDEN = 12
 WEIGHING = {
     "inner": Weighing(0.15, 3e-3),
@@ -39,11 +38,15 @@ LEAST_WORTH = 1e-4
 
 def fit_motions(samples: Sequence[MotionSample], steps: int) -> Arrays:
     """Fit both ratings to the same motion samples, in so many steps of each optimisation."""
-    given = (samples, [each.unguided() for each in samples])
-    fitted = {name: fit_rating(each, steps) for name, each in zip(RATINGS, given, strict=True)}
+    fitted = {name: fit_rating(each, steps) for name, each in _by_rating(samples).items()}
     networks = {name: each.network for name, each in fitted.items()}
     others = {f"{name}.sure": np.array(each.sure) for name, each in fitted.items()}
-    return networks_stored(networks, dict.fromkeys(RATINGS, NAMES), others)
+    return networks_stored(networks, dict.fromkeys(fitted, NAMES), others)
+
+
+def _by_rating(samples: Sequence[MotionSample]) -> dict[str, Sequence[MotionSample]]:
+    """Return what each rating is fitted to: parts as somebody guesses them, and as nobody does."""
+    return {"guided": samples, "blind": [each.unguided() for each in samples]}
 
 
 def measured(objects: Iterable[tuple[str, Articulation]]) -> Iterator[MotionSample]:
@@ -56,7 +59,7 @@ def measured(objects: Iterable[tuple[str, Articulation]]) -> Iterator[MotionSamp
 def report(stored: Arrays, samples: Sequence[MotionSample]) -> str:
     """Return how many of the parts' motions are found, those that were learned from."""
     shares = []
-    for name, given in (("guided", samples), ("blind", [each.unguided() for each in samples])):
+    for name, given in _by_rating(samples).items():
         rating = rating_of(stored, name)
         right = [each.right[int(np.argmax(rating.scores(each.numbers)))] for each in given]
         shares.append(f"{name} {np.mean(right):.3f}")
@@ -97,7 +100,7 @@ def _weights(samples: Sequence[MotionSample], steps: int) -> Perceptron:
         listed = pad_sequence(parts, batch_first=True, padding_value=-torch.inf)
         return (weights * (listed.logsumexp(1) - (listed + worth).logsumexp(1))).mean()
 
-    return fit_perceptron(numbers, loss, FitSettings(HIDDEN, 1, WEIGHING, steps))
+    return fit_perceptron(numbers, loss, FitSettings(HIDDEN, WEIGHING, steps))
 
 
 def _telling(motion_sample: MotionSample) -> IntArray:

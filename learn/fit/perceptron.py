@@ -18,7 +18,7 @@ from asset_factory.factory.models.perceptron import FARTHEST, Perceptron
 Tensor = Any
 #: Of any precision.
 Numbers = npt.NDArray[Any]
-#: A loss of scores, float64, shape [n, answer_count].
+#: A loss of scores, float64, shape [n, 1].
 Loss = Callable[[Tensor], Tensor]
 #: Inputs that hardly vary are scaled as if they varied by so much.
 LEAST_SCALE = 0.02
@@ -37,17 +37,15 @@ class Weighing:
 
 @dataclass(frozen=True)
 class FitSettings:
-    """How a network is fitted.
+    """How a network of one answer is fitted.
 
     Attributes:
         width: of its hidden layer; 0: a linear model.
-        answers: how many scores it gives.
         weights: of a :class:`Perceptron`, those that are fitted, in its order; others are 0.
         steps: of the optimisation at most.
     """
 
     width: int
-    answers: int
     weights: Mapping[str, Weighing]
     steps: int
 
@@ -56,9 +54,9 @@ class FitSettings:
         shapes = {
             "inner": (inputs, self.width),
             "offset": (1, self.width),
-            "outer": (self.width, self.answers),
-            "base": (1, self.answers),
-            "direct": (inputs, self.answers),
+            "outer": (self.width, 1),
+            "base": (1, 1),
+            "direct": (inputs, 1),
         }
         return {name: shape for name, shape in shapes.items() if name in self.weights}
 
@@ -91,18 +89,17 @@ def fit_perceptron(numbers: Numbers, loss: Loss, settings: FitSettings) -> Perce
     )
     found = {name: part.numpy() for name, part in unpacked(torch.from_numpy(best.x)).items()}
     width = settings.width
-    answers = settings.answers
     return Perceptron(
         inner=found.get("inner", np.zeros((numbers.shape[1], width))),
         offset=found.get("offset", np.zeros(width)).ravel(),
-        outer=found.get("outer", np.zeros((width, answers))),
-        base=found.get("base", np.zeros(answers)).ravel(),
+        outer=found.get("outer", np.zeros((width, 1))),
+        base=found.get("base", np.zeros(1)).ravel(),
         direct=found.get("direct"),
     )
 
 
 def _scores(given: Tensor, weights: Mapping[str, Tensor]) -> Tensor:
-    """Return what weights make of rows, shape [n, answer_count]."""
+    """Return what weights make of rows, shape [n, 1]."""
     scores = given.new_zeros((len(given), 1)) + weights.get("base", 0.0)
     if "inner" in weights:
         hidden = torch.tanh(given @ weights["inner"] + weights["offset"])
@@ -110,25 +107,10 @@ def _scores(given: Tensor, weights: Mapping[str, Tensor]) -> Tensor:
     return scores + given @ weights["direct"] if "direct" in weights else scores
 
 
-def cross_entropy(wanted: FloatArray, weights: FloatArray | None = None) -> Loss:
-    """Return the loss that is the mean cross entropy of scores, shape [n, answer_count].
-
-    ``wanted`` is the probability of each answer, shape [n, answer_count]; one column: of yes.
-    ``weights`` are of each row, shape [n]; ``None``: all count alike.
-    """
-    shares = np.ones(len(wanted)) if weights is None else weights
-    shares = shares / shares.sum()
-    kind = (
-        functional.binary_cross_entropy_with_logits
-        if wanted.shape[1] == 1
-        else functional.cross_entropy
-    )
-
-    def loss(scores: Tensor) -> Tensor:
-        entropy = kind(scores, torch.from_numpy(wanted), reduction="none").view(len(scores))
-        return torch.from_numpy(shares) @ entropy
-
-    return loss
+def cross_entropy(wanted: FloatArray) -> Loss:
+    """Return the loss that is the mean cross entropy of scores; ``wanted``: chances, [n, 1]."""
+    chances = torch.from_numpy(wanted)
+    return lambda scores: functional.binary_cross_entropy_with_logits(scores, chances)
 
 
 def fit_scaled(numbers: FloatArray, loss: Loss, settings: FitSettings) -> Perceptron:

@@ -93,7 +93,7 @@ def fit_signs(trials: Sequence[TrustTrial]) -> Perceptron:
     signs = np.array([signs_of(each.signs) for trial in trials for each in trial.proposals])
     right = np.concatenate([trial.right for trial in trials])
     decay = {"direct": Weighing(0.0, PENALTY / len(right))}
-    settings = FitSettings(0, 1, decay, STEPS)
+    settings = FitSettings(0, decay, STEPS)
     return fit_perceptron(signs, cross_entropy(right[:, None]), settings)
 
 
