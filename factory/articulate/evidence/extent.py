@@ -18,10 +18,8 @@ QUARTER = np.pi / 2.0
 USUAL_SLIDE = 0.7
 #: Nothing slides farther than this share of its way, whoever says so.
 FARTHEST_SLIDE = 1.5
-#: A turn that is said to go this far round has no end [rad]; one that is said to end this near
-#: quarters of a turn does so there, as most do that are made.
+#: A turn that is said to go this far round has no end [rad].
 ROUND = 0.95 * 2.0 * np.pi
-NEAR_QUARTERS = 0.2
 #: No range is shorter than this share of what was hoped for: what meets something at once was seen
 #: wrongly.
 LEAST = 0.25
@@ -99,9 +97,6 @@ def _turn(said: float | None) -> float:
     """Return how far a part should turn [rad], as somebody says or as usual."""
     if not said:
         return QUARTER
-    quarters = QUARTER * max(round(said / QUARTER), 1)
-    if abs(said - quarters) < NEAR_QUARTERS:
-        return quarters
     return max(round(STEPS * said / np.pi), 1) * np.pi / STEPS
 
 

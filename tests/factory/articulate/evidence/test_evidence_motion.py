@@ -137,7 +137,7 @@ def test_soups_of_triangles_break_nothing(seed):
 @pytest.mark.parametrize(
     ("name", "turns", "said", "upper"),
     [
-        ("left", 0.9, 2.5, 2.5), ("left", 0.9, 1.4, np.pi / 2.0), ("left", 0.9, 0.7, 0.7),
+        ("left", 0.9, 2.5, 2.5), ("left", 0.9, 1.4, 1.4), ("left", 0.9, 0.7, 0.7),
         ("left", 0.9, None, np.pi / 2.0), ("drawer", 0.1, 0.3, 0.3),
         ("drawer", 0.1, None, USUAL_SLIDE * 0.493), ("drawer", 0.1, 9.0, FARTHEST_SLIDE * 0.493),
     ],
