@@ -196,6 +196,8 @@ class LintConfig:
         axis_soft, axis_hard: a hinge axis further than this many diagonals of what it moves, both
             from that and from the rest of the object, is reported, or rejects. A hinge is fastened
             to something; linkages that are written as one joint have their axis within a diagonal.
+        oblique_deg: a hinge further off every edge of a box that it turns rejects [deg]. Of 1,820
+            hinges that others made none is more than 1 off.
         apart: what a joint moves may lie this many times the larger of its own and the rest's
             diagonal away from the rest; further off, the two are no one object.
         finger_m: a slide comes this near to what carries it in some pose, and a hinge in each, a
@@ -243,6 +245,7 @@ class LintConfig:
     tiny_turn_rad: float = math.radians(0.5)
     axis_soft: float = 1.0
     axis_hard: float = 2.0
+    oblique_deg: float = 3.0
     apart: float = 1.0
     finger_m: float = 0.02
     near_share: float = 0.1

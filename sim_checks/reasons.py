@@ -61,6 +61,7 @@ ERRORS: Mapping[str, str] = {
     "load_failed": "the loader refused the file, in its own words",
     "range_implausible": "a slide over two diagonals [m], or a hinge over two turns [rad]",
     "axis_remote": "a hinge axis two diagonals away from its part [m]; a warning from one on",
+    "axis_oblique": "a hinge over 3 deg off every edge of the box that it turns [deg]",
     "part_remote": "what a joint moves lies further from all else than either is across [m]",
     "part_detached": "what a joint moves is near its carrier in no pose, or leaves its hinge [mm]",
     "friction_excessive": "friction takes over 100 N at the far edge [N]; over 30 a warning",

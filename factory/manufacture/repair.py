@@ -51,6 +51,10 @@ class RepairKind(StrEnum):
         *("axis_straightened", "axis straightened"),
         "mended {joints}: its axis was {before:.1f} degrees off a principal direction" + _AFTER,
     )
+    AXIS_SQUARED = (
+        *("axis_squared", "axis straightened"),
+        "mended {joints}: its axis was {before:.1f} degrees off every edge of its box",
+    )
     HINGE_TO_FRONT_EDGE = (
         *("hinge_to_front_edge", "hinge moved"),
         "mended {joints}: its hinge was {before:.1f} mm off its panel's front edge" + _AFTER,

@@ -17,7 +17,7 @@ from .repairs.geometry import (
     separate_hulls,
 )
 from .repairs.give_up import give_up_guesses
-from .repairs.mend import mend_joints, pull_in, rehang_doors
+from .repairs.mend import mend_joints, pull_in, rehang_doors, square_axes
 from .repairs.shorten import freeze_small, shorten_or_freeze
 from .validate import Verdict
 
@@ -26,6 +26,7 @@ Repairer = Callable[[RepairEvidence, Plan], Plan | None]
 #: Every repair, in the order in which they are tried; a round does the first that has something to
 #: change.
 REPAIRS: tuple[Repairer, ...] = (
+    square_axes,
     separate_hulls,
     exclude_knuckles,
     fit_closely,

@@ -9,9 +9,10 @@ import numpy as np
 
 from ..config import LintConfig
 from ..description import Description, FloatArray, JointLine
+from ..geometry.boxy import edge_meant
 from ..geometry.kinematics import MOVING_KINDS, Tree
 from ..geometry.path import JointAxis, joint_axis
-from ..geometry.placing import box_gap, diagonal, placed, shape_corners
+from ..geometry.placing import box_gap, diagonal, joined, placed, shape_corners
 from .result import Findings, about, error, graded, measured, rounded, significant, warning
 
 #: Directions in the half-degrees of a circle in which an axis may stand off.
@@ -36,6 +37,7 @@ def range_findings(description: Description, tree: Tree | None, config: LintConf
         yield from _drive_findings(joint)
         if tree is not None:
             yield from _place_findings(joint, tree, poses, boxes, config)
+            yield from _oblique_findings(joint, tree, poses, description, config)
 
 
 def _size_findings(joint: JointLine, length: float, across: float, config: LintConfig) -> Findings:
@@ -110,6 +112,28 @@ def _place_findings(
         )
         limit = (config.axis_hard if hard else config.axis_soft) * size
         yield graded(hard, "axis_remote", message, **about(joint), **rounded(distance, "m", limit))
+
+
+def _oblique_findings(
+    joint: JointLine,
+    tree: Tree,
+    poses: Mapping[str, FloatArray],
+    description: Description,
+    config: LintConfig,
+) -> Findings:
+    line = joint_axis(joint, poses[joint.child])
+    names = tree.parts[tree.part_of()[joint.child]]
+    own = (link for link in description.links if link.name in names)
+    mesh = joined((shape, poses[n.name]) for n in own for shape in n.visuals or n.collisions)
+    edge = edge_meant(*mesh, line.axis) if mesh is not None and line.turning else None
+    angle = 0.0 if edge is None else math.degrees(math.acos(min(float(edge @ line.axis), 1.0)))
+    if angle > config.oblique_deg:
+        message = (
+            f"the axis of joint {joint.name!r} is {angle:.1f} deg off every edge of the box that "
+            f"it turns, want at most {config.oblique_deg:g}: doors and lids turn along an edge"
+        )
+        told = rounded(angle, "deg", config.oblique_deg)
+        yield error("axis_oblique", message, **about(joint), **told)
 
 
 def _beside(line: JointAxis, corners: FloatArray) -> float:

@@ -27,7 +27,7 @@ from ..stated import StatedArticulator
 from .contacts import contacts_of, settled
 from .partition import share_out
 from .parts import agreed_parts
-from .proposals import propose
+from .proposals import copies_of, propose
 from .trust import Trust, load_trust
 from .views import MOST_VIEWS, look_around
 
@@ -84,8 +84,9 @@ class AutoArticulator:
         guessed = all(each.proposer is Proposer.NETWORK and each.rated < ALONE for each in likely)
         return ALONE if guessed else least
 
-    def _rated(self, proposals: Sequence[Proposal]) -> list[Proposal]:
+    def _rated(self, mesh: Mesh, proposals: Sequence[Proposal]) -> list[Proposal]:
         chances = [self.trust.confidence(each.signs) for each in proposals]
+        chances = [max(chances[copy] for copy in own) for own in copies_of(mesh, proposals)]
         return [
             replace(each, existence=chance, probability=chance)
             for each, chance in zip(proposals, chances, strict=True)
@@ -98,7 +99,7 @@ class AutoArticulator:
             mesh: metres, z up.
             proposals: about its faces.
         """
-        rated = self._rated(proposals)
+        rated = self._rated(mesh, proposals)
         rated.sort(key=lambda proposal: -proposal.rated)
         least = self._least(rated)
         sure = [proposal for proposal in rated if proposal.rated >= least]

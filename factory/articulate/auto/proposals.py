@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...geometry.triangles import face_areas
 from ...mesh import FloatArray, Mesh
 from ...part import PartKind, Proposer
 from ..evidence import MotionEvidence, Partition, best_motion
@@ -18,6 +20,8 @@ from .trust import log_odds
 SAME_PART = 0.5
 #: And for the same motion if their axes agree to this cosine.
 SAME_AXIS = 0.98
+#: Two parts are copies if their sizes agree to this share of the largest.
+SAME_SIZE = 0.02
 #: A slide that agrees with the axis of its turn to this cosine goes along it.
 ALONG = 0.9
 
@@ -77,6 +81,21 @@ def propose(
                 )
             )
     return tuple(found)
+
+
+def copies_of(mesh: Mesh, proposals: Sequence[Proposal]) -> list[list[int]]:
+    """Return the copies of each proposal's part that move alike, itself among them, by number."""
+    corners = mesh.vertices[mesh.faces]
+    areas = face_areas(mesh)
+    parts = [each.faces for each in proposals]
+    sizes = [[*np.ptp(corners[part], axis=(0, 1)), np.sqrt(areas[part].sum())] for part in parts]
+    whole = np.reshape(sizes, (-1, 4))
+    alike = np.abs(whole[:, None] - whole).max(axis=2) <= SAME_SIZE * whole.max(axis=1)
+    motions = [each.motion for each in proposals]
+    return [
+        [int(n) for n in np.flatnonzero(row) if n == number or _alike(motion, motions[n])]
+        for number, (row, motion) in enumerate(zip(alike, motions, strict=True))
+    ]
 
 
 def _judged(mesh: Mesh, areas: FloatArray, learned: tuple[LearnedPart, ...]) -> list[_Judged]:

@@ -7,12 +7,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from asset_factory.sim_checks.geometry.boxy import edge_meant
+
 from ...articulation import Articulation, Joint, JointKind
 from ...asset import Asset
 from ...manufacture.hinges import STRAIGHT, at_back_edge, at_front_edge, is_askew
 from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
 from ...manufacture.separate.sweep import swept_m
+from ...mesh import FloatArray
 from .evidence import RepairEvidence, record_change
 from .shorten import SHORTER
 
@@ -62,6 +65,23 @@ def rehang_doors(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         return None
     moved = Repair(RepairKind.GUESSED_HINGE_MOVED, joints=tuple(sorted(new)))
     return replace(plan, rehung=plan.rehung | new, repairs=(*plan.repairs, moved))
+
+
+def square_axes(evidence: RepairEvidence, plan: Plan) -> Plan | None:
+    """Turn hinges that are askew to the box that they turn along its nearest edge, once each."""
+    articulation = evidence.asset.articulation
+    mended = dict(plan.mended)
+    repairs = list(plan.repairs)
+    for name in sorted({each.joint or "" for each in evidence.found("axis_oblique")}):
+        joint = articulation.joint(name)
+        part = articulation.part_mesh(joint.child)
+        edge = edge_meant(part.vertices, part.faces, joint.axis)
+        if name in mended or edge is None:
+            continue
+        mended[name] = replace(joint, axis=edge)
+        kind = RepairKind.AXIS_SQUARED
+        repairs.append(record_change(kind, name, _degrees(edge, joint.axis), 0.0, "deg"))
+    return None if mended == plan.mended else replace(plan, mended=mended, repairs=tuple(repairs))
 
 
 def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -193,9 +213,9 @@ def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator
     if is_askew(joint.axis):
         longest = int(np.abs(joint.axis).argmax())
         base = replace(joint, axis=np.eye(3)[longest] * np.sign(joint.axis[longest]))
-        angle = float(np.degrees(np.arccos(min(1.0, float(base.axis @ joint.axis)))))
         kind = RepairKind.AXIS_STRAIGHTENED
-        yield Mended(base, record_change(kind, joint.name, angle, 0.0, "deg"))
+        off = _degrees(base.axis, joint.axis)
+        yield Mended(base, record_change(kind, joint.name, off, 0.0, "deg"))
     for kind, at_edge in TO_EDGE.items():
         hung = at_edge(articulation, base)
         if hung is not None and _is_near(articulation, base, hung):
@@ -203,6 +223,11 @@ def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator
     if share < BLOCKED_SHARE and joint.lower == 0.0:
         turned = replace(base, axis=-base.axis)
         yield Mended(turned, Repair(RepairKind.OPENING_REVERSED, joints=(joint.name,)))
+
+
+def _degrees(one: FloatArray, other: FloatArray) -> float:
+    """Return the angle between two unit vectors [deg]."""
+    return float(np.degrees(np.arccos(min(1.0, float(one @ other)))))
 
 
 def _at_lines(articulation: Articulation, joint: Joint, lines: Iterable[Joint]) -> Iterator[Mended]:

@@ -25,6 +25,10 @@ TOLD = (
         "it ran into something after 50%",
     ),
     (
+        Repair(RepairKind.AXIS_SQUARED, joints=("hinge",), before=9.96),
+        "mended hinge: its axis was 10.0 degrees off every edge of its box",
+    ),
+    (
         Repair(RepairKind.OVERLAPPING_GIVEN_UP, ("b", "a", "c"), joints=("b_hinge",)),
         "gave up b_hinge: b lies in a and c",
     ),

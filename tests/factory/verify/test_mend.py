@@ -12,6 +12,7 @@ from asset_factory.factory.asset import Asset, Hull, Inertial, PartBody
 from asset_factory.factory.config import RepairConfig
 from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.manufacture.plan import Plan, Spare, as_planned
+from asset_factory.factory.manufacture.repair import RepairKind
 from asset_factory.factory.manufacture.separate.sweep import swept_m
 from asset_factory.factory.mesh import Mesh
 from asset_factory.factory.part import PartKind
@@ -160,6 +161,20 @@ def test_what_is_askew_and_goes_too_far_is_straightened_and_ended():
     assert 2.75 <= hinge.upper < 4.75
     # What would have to be turned round besides is no small change.
     assert mended(replace(asset, articulation=cabinet(axis=(1.0, 0.0, 1.0)).articulation)) is None
+
+
+@pytest.mark.parametrize("axis", [TILTED, (0.3, 0.0, -1.0)], ids=["a little", "much"])
+def test_a_hinge_that_is_askew_to_its_door_turns_about_its_edge(axis):
+    asset = cabinet(axis=axis)
+    told = verdict(hard("axis_oblique", name="hinge"))
+    plan = next_plan(told, STARTED, CONFIG, SURE, asset)
+    assert [each.kind for each in plan.repairs] == [RepairKind.AXIS_SQUARED]
+    hinge = as_planned(asset.articulation, plan).joints[0]
+    assert hinge.axis == pytest.approx(DOWN)
+    assert hinge.origin == pytest.approx(EDGE)
+    assert next_plan(told, plan, CONFIG, SURE, asset) is None, "once"
+    geometry = replace(CONFIG, kinds="geometry")
+    assert next_plan(told, STARTED, geometry, SURE, asset) is None
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

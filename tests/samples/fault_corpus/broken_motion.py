@@ -117,6 +117,7 @@ FAR = with_body(CABINET, "door", frame=at(-0.3, -2.0, 0.5))
 EXCLUDE = '<contact><exclude body1="drawer" body2="carcass"/></contact></mujoco>'
 WIDER = with_body(CABINET, "drawer", pieces=tuple(piece * [1.03, 1.0, 1.0] for piece in TUB))
 EXCLUDED = edited(mjcf(WIDER), ("</mujoco>", EXCLUDE))
+ASKEW = (0.0, float(np.sin(0.1)), -float(np.cos(0.1)))
 ALL_JAM = dict.fromkeys(ENGINES, "jammed")
 REST = "rest_penetration"
 SWEEP = "sweep_penetration"
@@ -141,6 +142,7 @@ BROKEN = (
     Exhibit("each_bars_the_other.mjcf", mjcf(deadlock()), SWEEP, engines={"mujoco": "jammed"}),
     # Nothing ever meets anything, because it moves where nothing is, or not at all.
     *both("hinge_far_away", FAR, "axis_remote"),
+    *both("hinge_askew", with_move(CABINET, "hinge", axis=ASKEW), "axis_oblique"),
     *both("lid_next_door", _shifted(CABINET, 3, (30.0, 0.0, 0.0)), "part_remote"),
     *both("lid_in_the_air", _shifted(CABINET, 3, (0.0, 0.0, 0.3)), "part_detached"),
     *both("drawer_leaves", with_move(CABINET, "slide", upper=3.0), "range_implausible"),

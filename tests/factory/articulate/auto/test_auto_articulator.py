@@ -17,7 +17,7 @@ from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.config import AutoConfig, ParticulateConfig
 from asset_factory.factory.geometry.posing import face_parts, turned
 from asset_factory.factory.geometry.triangles import face_areas
-from asset_factory.factory.mesh import Mesh
+from asset_factory.factory.mesh import Mesh, concatenate
 from asset_factory.factory.models.particulate.prediction import MotionClass, Prediction
 from asset_factory.factory.models.perceptron import linear
 from asset_factory.factory.part import Proposer
@@ -145,6 +145,23 @@ def test_a_confused_network_moves_nothing_that_the_shapes_do_not():
     assert not [part for part in found.parts if part.name.startswith("part")]
 
 
+def test_a_copy_of_what_is_sure_moves_too():
+    truth = make_object("cabinet", 3)
+    joint = truth.joints[0]
+    one = face_parts(truth) == joint.child
+    part = truth.part_mesh(joint.child)
+    mesh = concatenate([truth.mesh, Mesh.from_triangles(part.vertices + 1.0, part.faces)])
+    parts = np.zeros((2, len(mesh.faces)), dtype=bool)
+    parts[0, : len(one)] = one
+    parts[1, len(one) :] = True
+    turn = Motion.endless(joint.axis, joint.origin)
+    doubtful = [Proposal("door", part, turn, {"confidence": -1.0}) for part in parts]
+    articulator = AutoArticulator(Labeller(truth), (), BELIEVING, SHOWN, AutoConfig())
+    assert not articulator.decide(mesh, doubtful).movable_joints
+    sure = replace(doubtful[0], signs={"geometric": 1.0})
+    assert len(articulator.decide(mesh, [sure, doubtful[1]]).movable_joints) == 2
+
+
 def test_what_is_left_fixed_is_said_with_its_probability():
     truth = make_object("trash_can", 3)
     found = asked(truth, least_confidence=1.0)
@@ -172,7 +189,7 @@ def test_where_only_the_network_sees_what_moves_one_part_must_be_surer(
         for number, joint in enumerate(truth.movable_joints[:2])
     ]
 
-    def rated(_, found):
+    def rated(_, __, found):
         return [replace(each, probability=sure) for each, sure in zip(found, sures, strict=True)]
 
     monkeypatch.setattr(AutoArticulator, "_rated", rated)
