@@ -11,7 +11,7 @@ from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.outside import outside
-from ..hinges import is_crooked
+from ..hinges import CROOKED, is_askew
 from ..poses import arms_from
 from .budget import SeenSurface
 from .clip import clipped
@@ -33,7 +33,7 @@ def well_hung(
 
     The surface of a carrier is ``None``; ``holder`` are the hulls that hold the part.
     """
-    if is_crooked(joint.axis):
+    if is_askew(joint.axis, CROOKED):
         return False
     if not joint.turns or surface is None:
         return True

@@ -15,7 +15,7 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of
 from ..decompose.solids import thickness_m, volume_within
-from ..hinges import is_crooked
+from ..hinges import CROOKED, is_askew
 from ..poses import held_by, joints_between, moved, relative_poses
 from ..repair import Pair
 from .along import Sides, hull_depth
@@ -163,7 +163,7 @@ class PartPair:
         """Return the joints at an edge of what they turn, the one against the other part."""
         turning = [joint for joint in self.joints if joint.turns]
         # What a crooked hinge needs is not cut back: its axis is to be mended.
-        if any(is_crooked(joint.axis) for joint in turning):
+        if any(is_askew(joint.axis, CROOKED) for joint in turning):
             return []
         config = self.bodies.config
         return [joint for joint in turning if at_an_edge(self._moved_by(joint), joint, config)]
