@@ -118,7 +118,10 @@ def solids(
     for part in set(work.rest) - set(skin_parts(work.source)):
         # A body of its own, a rack of wire: what it is made of is known better than cells tell.
         work.hulls[part] = ()
-    _shown(work)
+    for part in work.panels:
+        panel_surfaces(work, part)
+    for part in work.bumps:
+        bump_surfaces(work, part)
     made = _rotated(meshed(work), turn.T)
     pieces = tuple(
         _piece(tuple(turned_hull(hull, turn.T) for hull in work.hulls[index]), len(part.faces))
@@ -197,14 +200,6 @@ def _made(work: Workpiece) -> None:
     add_shelves(work)
 
 
-def _shown(work: Workpiece) -> None:
-    """Add every part's inner faces."""
-    for part in work.panels:
-        panel_surfaces(work, part)
-    for part in work.bumps:
-        bump_surfaces(work, part)
-
-
 def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:
     return articulation if np.array_equal(turn, np.eye(3)) else rotated(articulation, turn)
 
@@ -212,6 +207,4 @@ def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:
 def _piece(hulls: tuple[Hull, ...], faces: int) -> SolidPieces | None:
     if not faces:
         return SolidPieces((), "none")
-    if not hulls:
-        return None
-    return SolidPieces(hulls, "built")
+    return SolidPieces(hulls, "built") if hulls else None

@@ -81,15 +81,9 @@ def planes_of_panels(
 
 def surface_points(work: Workpiece, part: int) -> FloatArray:
     """Return the points of a part's surface, close enough for its pieces [m], shape [n, 3]."""
-    if part not in work.points:
-        work.points[part] = _surface_points(work, part)
-    return work.points[part]
-
-
-def _surface_points(work: Workpiece, part: int) -> FloatArray:
     corners = work.skin.of_part(part)
-    if not len(corners):
-        return np.zeros((0, 3))
+    if part in work.points or not len(corners):
+        return work.points.get(part, np.zeros((0, 3)))
     step = SPACING * work.lattice.step
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     parts = np.clip(np.ceil(longest / step).astype(np.int64), 1, 64)
@@ -100,7 +94,8 @@ def _surface_points(work: Workpiece, part: int) -> FloatArray:
         weights = np.array(grid) / count
         found.append(np.einsum("kc,ncd->nkd", weights, some).reshape(-1, 3))
     points = np.round(np.concatenate(found), 7)
-    return np.asarray(points[distinct_rows(points)[0]], dtype=np.float64)
+    work.points[part] = np.asarray(points[distinct_rows(points)[0]], dtype=np.float64)
+    return work.points[part]
 
 
 def carve_panel(work: Workpiece, part: int) -> None:
@@ -215,7 +210,8 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     column = panel.within(wall, start, far)
     if column.empty:
         return
-    work.filled[part] = _filled_behind(work, panel, column)
+    cells = work.whole[work.cells_of(panel, column.between(start, start + 0.03))]
+    work.filled[part] = bool(cells.size and cells.mean() > FILLED)
     if work.filled[part]:
         room = _inner(work, (0, part), wall)
     else:
@@ -249,12 +245,6 @@ def _taken(work: Workpiece, part: int) -> Iterator[Box]:
         corners = work.skin.of_part(other).reshape(-1, 3)
         if len(corners):
             yield Box.around(corners)
-
-
-def _filled_behind(work: Workpiece, panel: FlatPanel, column: Box) -> bool:
-    start = float(column.low[2])
-    cells = work.whole[work.cells_of(panel, column.between(start, start + 0.03))]
-    return bool(cells.size and cells.mean() > FILLED)
 
 
 def block_insides(work: Workpiece, part: int, points: FloatArray, solid: BoolArray) -> None:
