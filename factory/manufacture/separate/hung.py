@@ -37,7 +37,8 @@ def well_hung(
         return False
     if not joint.turns or surface is None:
         return True
-    if at_an_edge(surface, joint, config) or about_its_middle(surface, joint):
+    ahead, behind = _reach(arms_from(joint, surface.points))
+    if at_an_edge(surface, joint, config) or behind >= MIDDLE_SHARE * ahead:
         return True
     return seat_roundness(surface, joint, holder, config.clearance_m) > MIDDLE_SHARE
 
@@ -49,12 +50,6 @@ def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig
     arms = arms_from(joint, surface.points)
     near = max(float(np.linalg.norm(arms, axis=1).min()), _reach(arms)[1])
     return near <= trimmed_limit(config, surface.diagonal)
-
-
-def about_its_middle(surface: SeenSurface, joint: Joint) -> bool:
-    """Tell whether a part reaches about as far to one side of its axis as to the other."""
-    ahead, behind = _reach(arms_from(joint, surface.points))
-    return behind >= MIDDLE_SHARE * ahead
 
 
 def seat_roundness(
