@@ -22,7 +22,7 @@ from ...views.raster import Side
 from ...views.view import elevation
 from ..decompose.pieces import SolidPieces
 from ..poses import held_by
-from .body import add_shelves, hang_panels, make_body, make_rest, share_out
+from .body import hang_panels, make_body, make_rest, share_out
 from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
 from .clear import cleared
 from .frame import turned_hull, working_frame
@@ -197,7 +197,8 @@ def _made(work: Workpiece) -> None:
     hang_panels(work)
     make_rest(work, work.config.most_pieces // 2)
     make_body(work, work.config.most_pieces)
-    add_shelves(work)
+    for part, shelves in work.shelves.items():
+        work.add_boards(0, shelves, work.panels[part])
 
 
 def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:

@@ -218,7 +218,10 @@ def hollow_behind(work: Workpiece, part: int) -> None:
         block_insides(work, 0, surface_points(work, 0), work.whole)
         if not panel.slides:
             return
-        room = _empty(work, marked(work.lattice, surface_points(work, 0)))
+        # A drawer's box need not be shut in. Lines of matter without a surface are none: rays that
+        # an open mesh let through.
+        full = marked(work.lattice, surface_points(work, 0)) | ndimage.binary_opening(work.whole)
+        room = np.asarray(~full & (work.owner <= 0))
         room[work.cells_of(panel, column.between(start, start + BEHIND_BACK_M))] = True
     for taken in _taken(work, part):
         room[work.lattice.span(taken.grown(wall))] = False
@@ -257,32 +260,18 @@ def block_insides(work: Workpiece, part: int, points: FloatArray, solid: BoolArr
     work.block(part, ndimage.binary_erosion(empty), INSIDE)
 
 
-def _empty(work: Workpiece, walls: BoolArray) -> BoolArray:
-    """Return the cells without surface or matter: a drawer's box need not be shut in.
-
-    Lines of matter without a surface are none: rays that an open mesh let through.
-    """
-    matter = ndimage.binary_opening(work.whole)
-    return np.asarray(~walls & ~matter & (work.owner <= 0))
-
-
 def _give_box(work: Workpiece, panel: FlatPanel, room: Box) -> None:
+    """Give a drawer its box; it slides out no further than that is deep: nothing would hold it."""
     up = int(np.abs(panel.side.frame[:2, 2]).argmax())
     boards = drawer_box(room, panel.back, up)
     work.boards[panel.part] = boards
     work.add_boards(panel.part, boards, panel)
-    if boards:
-        _keep_in(work, panel.part, max(float(board.high[2]) for board in boards) - panel.back)
-
-
-def _keep_in(work: Workpiece, part: int, depth: float) -> None:
-    """Let no drawer slide out further than its box is deep [m]: nothing would hold it."""
-    joint = work.joints[part - 1]
-    if joint.upper <= depth:
-        return
-    held = replace(joint, upper=SLIDE * depth)
-    work.notes.append(
-        f"{work.name(part)!r} slides {held.upper:.3g} m out, not {joint.upper:.3g}: its box is "
-        f"{depth:.3g} m deep"
-    )
-    work.joints[part - 1] = held
+    depth = max((float(board.high[2]) for board in boards), default=np.inf) - panel.back
+    joint = work.joints[panel.part - 1]
+    if joint.upper > depth:
+        held = replace(joint, upper=SLIDE * depth)
+        work.notes.append(
+            f"{work.name(panel.part)!r} slides {held.upper:.3g} m out, not {joint.upper:.3g}: its "
+            f"box is {depth:.3g} m deep"
+        )
+        work.joints[panel.part - 1] = held
