@@ -29,14 +29,9 @@ STRAIGHT_ALREADY = float(np.cos(np.radians(0.1)))
 CROOKED = float(np.cos(np.radians(3.0)))
 
 
-def is_askew(axis: FloatArray) -> bool:
-    """Return whether a unit axis is a little off a principal direction of the object frame."""
-    return STRAIGHT <= float(np.abs(axis).max()) < STRAIGHT_ALREADY
-
-
-def is_crooked(axis: FloatArray) -> bool:
-    """Whether a unit axis is further off a principal direction than annotators are careless."""
-    return is_askew(axis) and float(np.abs(axis).max()) < CROOKED
+def is_askew(axis: FloatArray, straight: float = STRAIGHT_ALREADY) -> bool:
+    """Return whether a unit axis is a little off a principal direction, and not ``straight``."""
+    return STRAIGHT <= float(np.abs(axis).max()) < straight
 
 
 def at_front_edge(articulation: Articulation, joint: Joint) -> Joint | None:

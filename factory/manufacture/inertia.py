@@ -73,7 +73,8 @@ def part_inertial(
     center = mesh.bounds.mean(axis=0) if len(mesh.faces) else hulls[0].vertices.mean(axis=0)
     moments = _mesh_moments(mesh.vertices - center, mesh.faces, config.shell_thickness_m)
     if hulls:
-        filled = _hull_moments(hulls, center)
+        solids = [manifold3d.Manifold.hull_points(hull.vertices - center) for hull in hulls]
+        filled = _solid_moments(*triangles_of(union(solids)))
         if not moments[3, 3] > 0.0:
             moments = filled
         elif moments[3, 3] > filled[3, 3] > 0.0:
@@ -157,8 +158,3 @@ def _sheet_moments(vertices: FloatArray, faces: IntArray, thickness: float) -> M
     second = sum((p * volume[:, None]).T @ p for p in (a, b, c, total)) / 12.0
     across = (normal * volume[:, None]).T @ normal * thickness**2 / 12.0
     return _moments(volume.sum(), (volume @ total) / 3.0, np.asarray(second + across))
-
-
-def _hull_moments(hulls: Sequence[Hull], center: FloatArray) -> Moments:
-    solids = [manifold3d.Manifold.hull_points(hull.vertices - center) for hull in hulls]
-    return _solid_moments(*triangles_of(union(solids)))

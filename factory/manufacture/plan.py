@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -63,6 +64,10 @@ class Plan:
     fewer: int | None = None
     rehung: frozenset[str] = frozenset()
     repairs: tuple[Repair, ...] = ()
+
+    def repaired(self, *repairs: Repair, **changes: Any) -> Plan:
+        """Return the plan with other fields, and the repairs that changed them."""
+        return replace(self, **changes, repairs=(*self.repairs, *repairs))
 
 
 @dataclass(frozen=True)

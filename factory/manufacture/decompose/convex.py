@@ -46,16 +46,12 @@ def hull_of(points: FloatArray) -> Hull | None:
     # room for qhull's rounding.
     if found.volume < THINNEST_M * found.area and thickness(vertices, found.equations) < THINNEST_M:
         return None
+    # In one order, each from its smallest index on: the same hull has the same bytes.
+    faces = begun_lowest(faces)
     try:
-        return Hull(vertices=vertices, faces=canonical_faces(faces))
+        return Hull(vertices=vertices, faces=faces[np.lexsort(faces.T[::-1])])
     except InvalidAsset:
         return None
-
-
-def canonical_faces(faces: IntArray) -> IntArray:
-    """Put faces in one order, each from its smallest index on: the same hull has the same bytes."""
-    turned = begun_lowest(faces)
-    return np.asarray(turned[np.lexsort(turned.T[::-1])], dtype=np.int64)
 
 
 def begun_lowest(faces: IntArray) -> IntArray:

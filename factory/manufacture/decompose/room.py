@@ -74,7 +74,7 @@ class Rooms:
     def __init__(self, articulation: Articulation) -> None:
         self._articulation = articulation
         self.around = cache(self._around)
-        self._points_of = cache(self._spread_over)
+        self._points_of = cache(lambda part: spread_over(articulation.part_mesh(part), SPREAD))
 
     def _around(self, part: int) -> Room:
         own = self._articulation.part_mesh(part)
@@ -94,9 +94,6 @@ class Rooms:
                 if (reach.max(axis=0) > low).all() and (reach.min(axis=0) < high).all():
                     found.append(_between(moved(points, pose), low, high))
         return Room(_thinned(np.concatenate(found)))
-
-    def _spread_over(self, part: int) -> FloatArray:
-        return spread_over(self._articulation.part_mesh(part), SPREAD)
 
 
 def _between(points: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:

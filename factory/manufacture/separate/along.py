@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import chain
@@ -109,20 +109,14 @@ def carved_apart_along(
     """
     pieces_a = [[hull] for hull in a]
     pieces_b = [[hull] for hull in b]
-    for (i, j), way in _when_near(a, b, steps_along(poses), clearance_m):
+    when: dict[tuple[int, int], list[Step]] = {}
+    for step in steps_along(poses):
+        for pair in near_pairs(a, b, step.pose, clearance_m, step.behind):
+            when.setdefault(pair, []).append(step)
+    for i, j in sorted(when):
+        way = when[i, j]
         pieces_a[i], pieces_b[j] = _all_apart(pieces_a[i], pieces_b[j], way, clearance_m, giving)
     return list(chain.from_iterable(pieces_a)), list(chain.from_iterable(pieces_b))
-
-
-def _when_near(
-    a: Sequence[Hull], b: Sequence[Hull], steps: Iterable[Step], margin: float
-) -> list[tuple[tuple[int, int], list[Step]]]:
-    """Return the numbers of every two hulls that may come too near, and at which steps, sorted."""
-    when: dict[tuple[int, int], list[Step]] = {}
-    for step in steps:
-        for pair in near_pairs(a, b, step.pose, margin, step.behind):
-            when.setdefault(pair, []).append(step)
-    return [(pair, when[pair]) for pair in sorted(when)]
 
 
 def hull_depth(

@@ -53,16 +53,13 @@ class SeenSurface:
         """
         nearest = np.full(len(self.points), np.inf)
         for hull in hulls:
-            np.minimum(nearest, self._beyond_one(hull), out=nearest)
+            # With the hull, so that no other one gets its identity.
+            if id(hull) not in self.known:
+                if len(self.known) >= MOST_KNOWN:
+                    self.known.clear()
+                self.known[id(hull)] = hull, -depth_below(hull, self.points)
+            np.minimum(nearest, self.known[id(hull)][1], out=nearest)
         return np.asarray(np.maximum(nearest, 0.0))
-
-    def _beyond_one(self, hull: Hull) -> FloatArray:
-        # With the hull, so that no other one gets its identity.
-        if id(hull) not in self.known:
-            if len(self.known) >= MOST_KNOWN:
-                self.known.clear()
-            self.known[id(hull)] = hull, -depth_below(hull, self.points)
-        return self.known[id(hull)][1]
 
 
 @dataclass(frozen=True)

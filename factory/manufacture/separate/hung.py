@@ -11,7 +11,7 @@ from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.outside import outside
-from ..hinges import is_crooked
+from ..hinges import CROOKED, is_askew
 from ..poses import arms_from
 from .budget import SeenSurface
 from .clip import clipped
@@ -33,11 +33,12 @@ def well_hung(
 
     The surface of a carrier is ``None``; ``holder`` are the hulls that hold the part.
     """
-    if is_crooked(joint.axis):
+    if is_askew(joint.axis, CROOKED):
         return False
     if not joint.turns or surface is None:
         return True
-    if at_an_edge(surface, joint, config) or about_its_middle(surface, joint):
+    ahead, behind = _reach(arms_from(joint, surface.points))
+    if at_an_edge(surface, joint, config) or behind >= MIDDLE_SHARE * ahead:
         return True
     return seat_roundness(surface, joint, holder, config.clearance_m) > MIDDLE_SHARE
 
@@ -49,12 +50,6 @@ def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig
     arms = arms_from(joint, surface.points)
     near = max(float(np.linalg.norm(arms, axis=1).min()), _reach(arms)[1])
     return near <= trimmed_limit(config, surface.diagonal)
-
-
-def about_its_middle(surface: SeenSurface, joint: Joint) -> bool:
-    """Tell whether a part reaches about as far to one side of its axis as to the other."""
-    ahead, behind = _reach(arms_from(joint, surface.points))
-    return behind >= MIDDLE_SHARE * ahead
 
 
 def seat_roundness(

@@ -15,9 +15,8 @@ from ...config import SeparateConfig
 from ...mesh import FloatArray
 from ..decompose.convex import hull_of
 from ..decompose.solids import thickness_m, volume_within
-from ..hinges import is_crooked
+from ..hinges import CROOKED, is_askew
 from ..poses import held_by, joints_between, moved, relative_poses
-from ..repair import Pair
 from .along import Sides, hull_depth
 from .budget import CutSide, Loss, SeenSurface, overdone
 from .clip import SHEET_M
@@ -94,12 +93,6 @@ class PartPair:
         a, b = map(known.index, names)
         return cls(bodies, (a, b), (bodies.hulls[a], bodies.hulls[b]))
 
-    @property
-    def names(self) -> Pair:
-        """Return their names."""
-        first, second = (self.bodies.articulation.parts[part].name for part in self.parts)
-        return first, second
-
     @cached_property
     def poses(self) -> list[FloatArray]:
         """Return where the second part is as seen from the first: at rest, closed, on all ways."""
@@ -153,9 +146,10 @@ class PartPair:
     @cached_property
     def well_hung(self) -> bool:
         """Tell whether one holds the other, and all joints move as people hang things."""
+        bodies = self.bodies
         return self.jointed and all(
-            well_hung(self._moved_by(joint), joint, self.bodies.holding(joint), self.bodies.config)
-            for joint in self.joints
+            well_hung(bodies.surfaces[each.child], each, bodies.holding(each), bodies.config)
+            for each in self.joints
         )
 
     @cached_property
@@ -163,10 +157,11 @@ class PartPair:
         """Return the joints at an edge of what they turn, the one against the other part."""
         turning = [joint for joint in self.joints if joint.turns]
         # What a crooked hinge needs is not cut back: its axis is to be mended.
-        if any(is_crooked(joint.axis) for joint in turning):
+        if any(is_askew(joint.axis, CROOKED) for joint in turning):
             return []
+        surfaces = self.bodies.surfaces
         config = self.bodies.config
-        return [joint for joint in turning if at_an_edge(self._moved_by(joint), joint, config)]
+        return [each for each in turning if at_an_edge(surfaces[each.child], each, config)]
 
     @cached_property
     def pressed_m(self) -> float:
@@ -209,7 +204,7 @@ class PartPair:
             surface = self.bodies.surfaces[part]
             if surface is not None:
                 cut = CutSide(
-                    self.names[side],
+                    self.bodies.articulation.parts[part].name,
                     surface,
                     self.before[side],
                     self.before[1 - side],
@@ -292,7 +287,3 @@ class PartPair:
             return config.bared_m
         most = min(self._trimmed_m + config.clearance_m, config.scraped_m)
         return max(config.bared_m, most)
-
-    def _moved_by(self, joint: Joint) -> SeenSurface | None:
-        """Return the visible surface of the part that a joint moves."""
-        return self.bodies.surfaces[joint.child]

@@ -173,7 +173,12 @@ def _cut(found: Separation, bodies: Workpieces, names: Pair) -> None:
         at_rest = cut.reason is None
         found.refused[names] = SeparationRefusal(str(reason), pair.solid and hidden, at_rest)
     if cut.reason is None:
-        _keep(found, cut)
+        for part, hulls in zip(pair.parts, cut.after, strict=True):
+            bodies.hulls[part] = hulls
+        # What can be seen of it is told.
+        trimmed = tuple(each for each in cut.losses if each.deepest_m > bodies.config.visible_m)
+        if trimmed:
+            found.trimmed[names] = trimmed
         if hidden:
             found.hidden[names] = pair.at_rest_m
 
@@ -218,17 +223,6 @@ def _attempt(pair: PartPair, cut: Cut, poses: Sequence[FloatArray]) -> _CutPair:
         way += missed[:: -(-len(missed) // len(poses))]
         after = cut(*pair.before, way)
     return tried if after is tried.after else _CutPair.of(pair, after)
-
-
-def _keep(found: Separation, cut: _CutPair) -> None:
-    """Give two parts the hulls that a cut leaves of them, and tell what can be seen of it."""
-    pair = cut.pair
-    for part, hulls in zip(pair.parts, cut.after, strict=True):
-        pair.bodies.hulls[part] = hulls
-    visible_m = pair.bodies.config.visible_m
-    trimmed = tuple(each for each in cut.losses if each.deepest_m > visible_m)
-    if trimmed:
-        found.trimmed[pair.names] = trimmed
 
 
 def _came_near(bodies: Workpieces, names: Pair) -> bool:

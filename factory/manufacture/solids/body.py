@@ -95,16 +95,16 @@ def make_body(work: Workpiece, most: int) -> None:
     keep_clear(work, 0)
 
 
-def add_shelves(work: Workpiece) -> None:
-    """Add the shelves behind panels to the body."""
-    for part, boards in work.shelves.items():
-        work.add_boards(0, boards, work.panels[part])
-
-
 def _standing_points(work: Workpiece) -> FloatArray:
     """Return surface points of the body, off the panels and knobs that it holds [m], [n, 3]."""
     points = surface_points(work, 0)
-    return points[~_in_free(work, points) & clear_of_bumps(work, 0, points)]
+    standing = clear_of_bumps(work, 0, points)
+    for part, panel in work.panels.items():
+        local = points @ panel.side.frame.T
+        column = panel.reach(work.config.gap_m, panel.back + work.config.behind_m)
+        for box in (column, *work.hollows.get(part, ())):
+            standing &= ~box.holds(local, -1e-9)
+    return points[standing]
 
 
 def _cells(work: Workpiece, part: int, points: FloatArray) -> BoolArray:
@@ -114,14 +114,3 @@ def _cells(work: Workpiece, part: int, points: FloatArray) -> BoolArray:
         own, np.ones((3, 3, 3), dtype=bool)
     )
     return np.asarray(own | (thin & (work.owner <= 0)))
-
-
-def _in_free(work: Workpiece, points: FloatArray) -> BoolArray:
-    inside = np.zeros(len(points), dtype=bool)
-    for part, panel in work.panels.items():
-        frame = panel.side.frame
-        local = points @ frame.T
-        column = panel.reach(work.config.gap_m, panel.back + work.config.behind_m)
-        for box in (column, *work.hollows.get(part, ())):
-            inside |= box.holds(local, -1e-9)
-    return inside

@@ -22,7 +22,7 @@ from ...views.raster import Side
 from ...views.view import elevation
 from ..decompose.pieces import SolidPieces
 from ..poses import held_by
-from .body import add_shelves, hang_panels, make_body, make_rest, share_out
+from .body import hang_panels, make_body, make_rest, share_out
 from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
 from .clear import cleared
 from .frame import turned_hull, working_frame
@@ -118,7 +118,10 @@ def solids(
     for part in set(work.rest) - set(skin_parts(work.source)):
         # A body of its own, a rack of wire: what it is made of is known better than cells tell.
         work.hulls[part] = ()
-    _shown(work)
+    for part in work.panels:
+        panel_surfaces(work, part)
+    for part in work.bumps:
+        bump_surfaces(work, part)
     made = _rotated(meshed(work), turn.T)
     pieces = tuple(
         _piece(tuple(turned_hull(hull, turn.T) for hull in work.hulls[index]), len(part.faces))
@@ -194,15 +197,8 @@ def _made(work: Workpiece) -> None:
     hang_panels(work)
     make_rest(work, work.config.most_pieces // 2)
     make_body(work, work.config.most_pieces)
-    add_shelves(work)
-
-
-def _shown(work: Workpiece) -> None:
-    """Add every part's inner faces."""
-    for part in work.panels:
-        panel_surfaces(work, part)
-    for part in work.bumps:
-        bump_surfaces(work, part)
+    for part, shelves in work.shelves.items():
+        work.add_boards(0, shelves, work.panels[part])
 
 
 def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:
@@ -212,6 +208,4 @@ def _rotated(articulation: Articulation, turn: FloatArray) -> Articulation:
 def _piece(hulls: tuple[Hull, ...], faces: int) -> SolidPieces | None:
     if not faces:
         return SolidPieces((), "none")
-    if not hulls:
-        return None
-    return SolidPieces(hulls, "built")
+    return SolidPieces(hulls, "built") if hulls else None

@@ -81,15 +81,9 @@ def planes_of_panels(
 
 def surface_points(work: Workpiece, part: int) -> FloatArray:
     """Return the points of a part's surface, close enough for its pieces [m], shape [n, 3]."""
-    if part not in work.points:
-        work.points[part] = _surface_points(work, part)
-    return work.points[part]
-
-
-def _surface_points(work: Workpiece, part: int) -> FloatArray:
     corners = work.skin.of_part(part)
-    if not len(corners):
-        return np.zeros((0, 3))
+    if part in work.points or not len(corners):
+        return work.points.get(part, np.zeros((0, 3)))
     step = SPACING * work.lattice.step
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     parts = np.clip(np.ceil(longest / step).astype(np.int64), 1, 64)
@@ -100,7 +94,8 @@ def _surface_points(work: Workpiece, part: int) -> FloatArray:
         weights = np.array(grid) / count
         found.append(np.einsum("kc,ncd->nkd", weights, some).reshape(-1, 3))
     points = np.round(np.concatenate(found), 7)
-    return np.asarray(points[distinct_rows(points)[0]], dtype=np.float64)
+    work.points[part] = np.asarray(points[distinct_rows(points)[0]], dtype=np.float64)
+    return work.points[part]
 
 
 def carve_panel(work: Workpiece, part: int) -> None:
@@ -215,14 +210,18 @@ def hollow_behind(work: Workpiece, part: int) -> None:
     column = panel.within(wall, start, far)
     if column.empty:
         return
-    work.filled[part] = _filled_behind(work, panel, column)
+    cells = work.whole[work.cells_of(panel, column.between(start, start + 0.03))]
+    work.filled[part] = bool(cells.size and cells.mean() > FILLED)
     if work.filled[part]:
         room = _inner(work, (0, part), wall)
     else:
         block_insides(work, 0, surface_points(work, 0), work.whole)
         if not panel.slides:
             return
-        room = _empty(work, marked(work.lattice, surface_points(work, 0)))
+        # A drawer's box need not be shut in. Lines of matter without a surface are none: rays that
+        # an open mesh let through.
+        full = marked(work.lattice, surface_points(work, 0)) | ndimage.binary_opening(work.whole)
+        room = np.asarray(~full & (work.owner <= 0))
         room[work.cells_of(panel, column.between(start, start + BEHIND_BACK_M))] = True
     for taken in _taken(work, part):
         room[work.lattice.span(taken.grown(wall))] = False
@@ -251,12 +250,6 @@ def _taken(work: Workpiece, part: int) -> Iterator[Box]:
             yield Box.around(corners)
 
 
-def _filled_behind(work: Workpiece, panel: FlatPanel, column: Box) -> bool:
-    start = float(column.low[2])
-    cells = work.whole[work.cells_of(panel, column.between(start, start + 0.03))]
-    return bool(cells.size and cells.mean() > FILLED)
-
-
 def block_insides(work: Workpiece, part: int, points: FloatArray, solid: BoolArray) -> None:
     """Keep a part's pieces out of space that a surface and solid cells shut in on five sides.
 
@@ -267,32 +260,18 @@ def block_insides(work: Workpiece, part: int, points: FloatArray, solid: BoolArr
     work.block(part, ndimage.binary_erosion(empty), INSIDE)
 
 
-def _empty(work: Workpiece, walls: BoolArray) -> BoolArray:
-    """Return the cells without surface or matter: a drawer's box need not be shut in.
-
-    Lines of matter without a surface are none: rays that an open mesh let through.
-    """
-    matter = ndimage.binary_opening(work.whole)
-    return np.asarray(~walls & ~matter & (work.owner <= 0))
-
-
 def _give_box(work: Workpiece, panel: FlatPanel, room: Box) -> None:
+    """Give a drawer its box; it slides out no further than that is deep: nothing would hold it."""
     up = int(np.abs(panel.side.frame[:2, 2]).argmax())
     boards = drawer_box(room, panel.back, up)
     work.boards[panel.part] = boards
     work.add_boards(panel.part, boards, panel)
-    if boards:
-        _keep_in(work, panel.part, max(float(board.high[2]) for board in boards) - panel.back)
-
-
-def _keep_in(work: Workpiece, part: int, depth: float) -> None:
-    """Let no drawer slide out further than its box is deep [m]: nothing would hold it."""
-    joint = work.joints[part - 1]
-    if joint.upper <= depth:
-        return
-    held = replace(joint, upper=SLIDE * depth)
-    work.notes.append(
-        f"{work.name(part)!r} slides {held.upper:.3g} m out, not {joint.upper:.3g}: its box is "
-        f"{depth:.3g} m deep"
-    )
-    work.joints[part - 1] = held
+    depth = max((float(board.high[2]) for board in boards), default=np.inf) - panel.back
+    joint = work.joints[panel.part - 1]
+    if joint.upper > depth:
+        held = replace(joint, upper=SLIDE * depth)
+        work.notes.append(
+            f"{work.name(panel.part)!r} slides {held.upper:.3g} m out, not {joint.upper:.3g}: its "
+            f"box is {depth:.3g} m deep"
+        )
+        work.joints[panel.part - 1] = held

@@ -285,11 +285,10 @@ def _frames(view: View, part: int, low: FloatArray, high: FloatArray, back: floa
     inner = 0.05 * (high - low)
     frames = np.full(4, np.inf)
     for edge in range(4):
-        axis = edge // 2
+        axis, upper = divmod(edge, 2)
         start = low + inner
         end = high - inner
         gap = 0.5 * view.raster.pixel
-        upper = edge % 2
         start[axis] = high[axis] + gap if upper else low[axis] - step
         end[axis] = high[axis] + step if upper else low[axis] - gap
         window = view.raster.window(start, end)

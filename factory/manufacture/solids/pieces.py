@@ -90,7 +90,8 @@ def _node(matter: Matter, span: Span, points: FloatArray) -> _Node | None:
     if trimmed is None:
         return None
     corners = _corners(matter, trimmed)
-    box = _box(matter.lattice, trimmed)
+    ends = zip(matter.lattice.lines, trimmed, strict=True)
+    box = Box(*np.array([(line[part.start], line[part.stop]) for line, part in ends]).T)
     surface = points[box.holds(points, 1e-9)]
     outermost = _extreme(np.concatenate([corners, surface]))
     hull = hull_of(outermost)
@@ -125,11 +126,6 @@ def _trimmed(solid: BoolArray, span: Span) -> Span | None:
         start = span[axis].start
         trimmed[axis] = slice(start + int(filled_at[0]), start + int(filled_at[-1]) + 1)
     return tuple(trimmed)
-
-
-def _box(lattice: Lattice, span: Span) -> Box:
-    ends = zip(lattice.lines, span, strict=True)
-    return Box(*np.array([(line[part.start], line[part.stop]) for line, part in ends]).T)
 
 
 def _corners(matter: Matter, span: Span) -> FloatArray:

@@ -48,8 +48,7 @@ def recognize(
         view = views.get(side_facing(given.outward))
         if view is None:
             continue
-        opposite = views.get(side_facing(-given.outward))
-        panel = find_panel(articulation, index, view, opposite)
+        panel = find_panel(articulation, index, view, views.get(side_facing(-given.outward)))
         if panel is not None:
             panels[index] = panel
     panels = _apart(panels)

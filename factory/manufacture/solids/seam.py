@@ -61,12 +61,8 @@ class CutSkin:
 
     def joined(self, other: CutSkin) -> CutSkin:
         """Return these triangles and those."""
-        return CutSkin(
-            np.concatenate([self.corners, other.corners]),
-            np.concatenate([self.face, other.face]),
-            np.concatenate([self.weights, other.weights]),
-            np.concatenate([self.part, other.part]),
-        )
+        both = zip(vars(self).values(), vars(other).values(), strict=True)
+        return CutSkin(*(np.concatenate(each) for each in both))
 
 
 def cut(skin: CutSkin, normal: FloatArray, offset: float, which: BoolArray) -> CutSkin:

@@ -8,7 +8,7 @@ from ...articulation import Articulation, JointKind
 from ...geometry.components import connected_components
 from ...geometry.edges import shared_edges
 from ...geometry.posing import face_parts
-from ...mesh import BoolArray, FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, IntArray, Mesh
 from ...part import Proposer
 from ...views.crossings import Crossings, crossings
 from ...views.raster import Raster, Side, side_facing
@@ -36,8 +36,12 @@ def skin_parts(articulation: Articulation) -> tuple[int, ...]:
     its own, over the diagonal of the part's box. Half a door's outline is more than a diagonal;
     parts that are closed, however closely they touch, and sheets that merely lie on others, have 0.
     """
-    part = face_parts(articulation)
-    shared = _shared_border(articulation.mesh, part, len(articulation.parts))
+    vertices = articulation.mesh.vertices
+    edges, both = border(articulation.mesh, face_parts(articulation))
+    length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
+    shared = np.zeros(len(articulation.parts))
+    for column in range(2):
+        np.add.at(shared, both[:, column], length)
     return tuple(
         joint.child
         for joint in articulation.joints
@@ -81,15 +85,6 @@ def border(mesh: Mesh, part: IntArray) -> tuple[IntArray, IntArray]:
     both = part[shared.faces]
     apart: BoolArray = both[:, 0] != both[:, 1]
     return shared.vertices[apart], both[apart]
-
-
-def _shared_border(mesh: Mesh, part: IntArray, count: int) -> FloatArray:
-    edges, both = border(mesh, part)
-    length = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
-    shared = np.zeros(count)
-    for column in range(2):
-        np.add.at(shared, both[:, column], length)
-    return shared
 
 
 def plates(articulation: Articulation) -> dict[int, Side]:

@@ -64,9 +64,8 @@ def hung(
     """
     if not joint.turns or panel.slides:
         return joint, "given"
-    tried = [(joint, "given"), *_lines(panel, joint)]
     best = (np.inf, joint, "given")
-    for candidate, rule in tried:
+    for candidate, rule in [(joint, "given"), *_lines(panel, joint)]:
         cells = entered(lattice, [slab], motions(candidate, 16), -0.002) & standing
         volume = float(lattice.volumes[cells].sum())
         if volume < best[0] - GRAZED_M3:

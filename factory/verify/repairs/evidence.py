@@ -9,6 +9,7 @@ from functools import cached_property
 from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.measurements import MeasuredJoint, MeasuredPenetration, penetrations
 
+from ...articulation import Joint
 from ...asset import Asset
 from ...config import RepairConfig
 from ...manufacture.plan import Spare
@@ -46,6 +47,10 @@ class RepairEvidence:
         """Yield the findings of one code, errors and warnings."""
         return (each for each in self.verdict.report.findings if each.code == code)
 
+    def wrong_parts(self, code: str) -> frozenset[str]:
+        """Return the parts that errors of one code are about."""
+        return frozenset(part for each in self.errors if each.code == code for part in each.parts)
+
     @cached_property
     def measured(self) -> tuple[MeasuredPenetration, ...]:
         """Return how deep parts get into each other, by file."""
@@ -78,6 +83,8 @@ def ordered(one: str, other: str) -> Pair:
     return (min(one, other), max(one, other))
 
 
-def record_change(kind: RepairKind, joint: str, before: float, after: float, unit: str) -> Repair:
-    """Return the repair that changed one number of one joint."""
-    return Repair(kind, joints=(joint,), before=before, after=after, unit=unit)
+def record_change(
+    kind: RepairKind, joint: Joint, before: float, after: float, unit: str = ""
+) -> Repair:
+    """Return the repair that changed one number of one joint, by default in the joint's unit."""
+    return Repair(kind, joints=(joint.name,), before=before, after=after, unit=unit or joint.unit)

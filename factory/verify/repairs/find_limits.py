@@ -17,7 +17,7 @@ from ...manufacture.separate.along import LEAST_M
 from ...manufacture.separate.sweep import free_until
 from ...mesh import FloatArray
 from .evidence import RepairEvidence, record_change
-from .mend import PLANED_M
+from .mend import PLANED_M, Mended, with_mended
 from .shorten import FREE_M
 
 
@@ -31,8 +31,7 @@ def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     asset = evidence.asset
     if "sweep_penetration" not in evidence.codes:
         return None
-    mended = dict(plan.mended)
-    repairs = list(plan.repairs)
+    found = []
     mimics = {j.name: j.mimic for j in asset.articulation.joints if j.mimic is not None}
     coupled = mimics.keys() | {mimic.leader for mimic in mimics.values()}
     least = evidence.config.least_range_share * np.pi / 2.0
@@ -45,12 +44,11 @@ def find_limits(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         low, drawn, high = _sizes(asset.articulation, joint, (-np.pi / 2.0, 0.0, np.pi / 2.0))
         if max(low, high) <= (1.0 + CLEAR_DIFFERENCE) * drawn:
             continue
-        found = opening(asset.articulation, _free_about_the_drawn_pose(asset, joint))
-        if found.range >= least:
-            mended[joint.name] = found
-            kind = RepairKind.LIMITS_FOUND
-            repairs.append(record_change(kind, joint.name, found.lower, found.upper, joint.unit))
-    return None if mended == plan.mended else replace(plan, mended=mended, repairs=tuple(repairs))
+        ended = opening(asset.articulation, _free_about_the_drawn_pose(asset, joint))
+        if ended.range >= least:
+            told = record_change(RepairKind.LIMITS_FOUND, ended, ended.lower, ended.upper)
+            found.append(Mended(ended, told))
+    return with_mended(plan, found)
 
 
 def _free_about_the_drawn_pose(asset: Asset, joint: Joint) -> Joint:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
 from .evidence import RepairEvidence, ordered
@@ -18,20 +16,16 @@ def separate_hulls(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         if contact.depth_mm > -evidence.config.near_mm
     }
     new = frozenset(near) - plan.separate
-    if not new:
-        return None
     cut = Repair(RepairKind.HULLS_CUT_APART, pairs=tuple(sorted(new)))
-    return replace(plan, separate=plan.separate | new, repairs=(*plan.repairs, cut))
+    return plan.repaired(cut, separate=plan.separate | new) if new else None
 
 
 def exclude_knuckles(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Exclude what still overlaps at a hinge's knuckle from contact, as other engines do anyway."""
     found = {ordered(*f.parts) for f in evidence.found("hinge_overlap") if len(f.parts) == 2}
     new = frozenset(found) - plan.exclude
-    if not new:
-        return None
     excluded = Repair(RepairKind.CONTACT_EXCLUDED, pairs=tuple(sorted(new)))
-    return replace(plan, exclude=plan.exclude | new, repairs=(*plan.repairs, excluded))
+    return plan.repaired(excluded, exclude=plan.exclude | new) if new else None
 
 
 def fit_closely(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -45,7 +39,7 @@ def fit_closely(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     if not any(joined.intersection(each.parts or joined) for each in evidence.errors):
         return None
     left = Repair(RepairKind.HULLS_NOT_JOINED, parts=tuple(sorted(joined)))
-    return replace(plan, closely=True, repairs=(*plan.repairs, left))
+    return plan.repaired(left, closely=True)
 
 
 def build_fronts(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -55,13 +49,7 @@ def build_fronts(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     if evidence.codes.isdisjoint({"rest_penetration", "sweep_penetration", "interior_filled"}):
         return None
     built = Repair(RepairKind.FRONTS_BUILT, parts=tuple(sorted(evidence.spare.fronts)))
-    return replace(
-        plan,
-        build_fronts=True,
-        separate=frozenset(),
-        exclude=frozenset(),
-        repairs=(*plan.repairs, built),
-    )
+    return plan.repaired(built, build_fronts=True, separate=frozenset(), exclude=frozenset())
 
 
 def hollow_out(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -69,11 +57,6 @@ def hollow_out(evidence: RepairEvidence, plan: Plan) -> Plan | None:
 
     Other hulls are cut apart anew: thin walls need less room than what filled them.
     """
-    filled = {
-        part for each in evidence.errors if each.code == "interior_filled" for part in each.parts
-    }
-    new = frozenset(filled) - plan.hollow
-    if not new:
-        return None
+    new = evidence.wrong_parts("interior_filled") - plan.hollow
     left = Repair(RepairKind.LEFT_HOLLOW, parts=tuple(sorted(new)))
-    return replace(plan, hollow=plan.hollow | new, repairs=(*plan.repairs, left))
+    return plan.repaired(left, hollow=plan.hollow | new) if new else None

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from asset_factory.sim_checks import Finding
 
 from ...manufacture.plan import Plan
@@ -49,21 +47,20 @@ def _named(finding: Finding, evidence: RepairEvidence) -> list[str]:
 
 def _without(plan: Plan, going: dict[str, Finding], evidence: RepairEvidence) -> Plan | None:
     guesses = evidence.spare.guesses
-    given_up = plan.given_up | {guesses[part] for part in going}
-    if given_up == plan.given_up:
-        return None
-    gone = {part for part, joint in guesses.items() if joint in given_up}
     repairs = [
         _given_up(guesses[part], part, finding)
         for part, finding in going.items()
         if guesses[part] not in plan.given_up
     ]
-    return replace(
-        plan,
-        separate=frozenset(pair for pair in plan.separate if gone.isdisjoint(pair)),
-        exclude=frozenset(pair for pair in plan.exclude if gone.isdisjoint(pair)),
+    if not repairs:
+        return None
+    given_up = plan.given_up.union(*(repair.joints for repair in repairs))
+    gone = {part for part, joint in guesses.items() if joint in given_up}
+    return plan.repaired(
+        *repairs,
+        separate=frozenset(filter(gone.isdisjoint, plan.separate)),
+        exclude=frozenset(filter(gone.isdisjoint, plan.exclude)),
         given_up=given_up,
-        repairs=(*plan.repairs, *repairs),
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -61,27 +61,22 @@ def rehang_doors(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     if "sweep_penetration" not in evidence.codes:
         return None
     new = (evidence.jammed().keys() & evidence.spare.hinges) - plan.rehung
-    if not new:
-        return None
     moved = Repair(RepairKind.GUESSED_HINGE_MOVED, joints=tuple(sorted(new)))
-    return replace(plan, rehung=plan.rehung | new, repairs=(*plan.repairs, moved))
+    return plan.repaired(moved, rehung=plan.rehung | new) if new else None
 
 
 def square_axes(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     """Turn hinges that are askew to the box that they turn along its nearest edge, once each."""
     articulation = evidence.asset.articulation
-    mended = dict(plan.mended)
-    repairs = list(plan.repairs)
-    for name in sorted({each.joint or "" for each in evidence.found("axis_oblique")}):
+    found = []
+    askew = {each.joint or "" for each in evidence.found("axis_oblique")}
+    for name in sorted(askew - plan.mended.keys()):
         joint = articulation.joint(name)
         part = articulation.part_mesh(joint.child)
         edge = edge_meant(part.vertices, part.faces, joint.axis)
-        if name in mended or edge is None:
-            continue
-        mended[name] = replace(joint, axis=edge)
-        kind = RepairKind.AXIS_SQUARED
-        repairs.append(record_change(kind, name, _degrees(edge, joint.axis), 0.0, "deg"))
-    return None if mended == plan.mended else replace(plan, mended=mended, repairs=tuple(repairs))
+        if edge is not None:
+            found.append(_turned_to(RepairKind.AXIS_SQUARED, joint, edge))
+    return with_mended(plan, found)
 
 
 def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -90,13 +85,9 @@ def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
     A joint whose closed end lies in something begins where it is free, no further than as shown.
     """
     asset = evidence.asset
-    if "rest_penetration" not in evidence.codes:
-        return None
-    stuck = {
-        part for each in evidence.errors if each.code == "rest_penetration" for part in each.parts
-    }
+    stuck = evidence.wrong_parts("rest_penetration")
     lower = dict(plan.lower)
-    repairs = list(plan.repairs)
+    repairs = []
     for joint in asset.articulation.movable_joints:
         child = asset.articulation.parts[joint.child].name
         if joint.name in plan.lower or child not in stuck or not joint.lower < 0.0:
@@ -105,8 +96,8 @@ def pull_in(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         if begins is not None:
             lower[joint.name] = begins
             kind = RepairKind.CLOSED_END_PULLED_IN
-            repairs.append(record_change(kind, joint.name, joint.lower, begins, joint.unit))
-    return None if lower == plan.lower else replace(plan, lower=lower, repairs=tuple(repairs))
+            repairs.append(record_change(kind, joint, joint.lower, begins))
+    return plan.repaired(*repairs, lower=lower) if repairs else None
 
 
 def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -152,7 +143,8 @@ def mend_joints(evidence: RepairEvidence, plan: Plan) -> Plan | None:
             change = _freed_early(asset, [*small, *others], least)
         if change is not None:
             found[joint.name] = change
-    return _with(plan, found, shares) if found else None
+    told = {name: replace(one.repair, free_share=shares[name]) for name, one in found.items()}
+    return with_mended(plan, [replace(one, repair=told[name]) for name, one in found.items()])
 
 
 def _free_from(asset: Asset, joint: Joint, least_share: float) -> float | None:
@@ -167,15 +159,15 @@ def _free_from(asset: Asset, joint: Joint, least_share: float) -> float | None:
     return None
 
 
-def _with(plan: Plan, found: Mapping[str, Mended], shares: Mapping[str, float]) -> Plan:
-    """Return the plan with the joints that were mended, and those ended besides."""
-    repairs = [replace(one.repair, free_share=shares[name]) for name, one in found.items()]
-    ended = {name: one for name, one in found.items() if one.ended is not None}
-    return replace(
-        plan,
-        mended={**plan.mended, **{name: one.joint for name, one in found.items()}},
-        upper={**plan.upper, **{name: one.joint.upper for name, one in ended.items()}},
-        repairs=(*plan.repairs, *repairs, *(one.ended for one in ended.values() if one.ended)),
+def with_mended(plan: Plan, found: Sequence[Mended]) -> Plan | None:
+    """Return the plan with the joints that were mended, and ended besides, if there are any."""
+    if not found:
+        return None
+    return plan.repaired(
+        *(one.repair for one in found),
+        *(one.ended for one in found if one.ended),
+        mended={**plan.mended, **{one.joint.name: one.joint for one in found}},
+        upper={**plan.upper, **{one.joint.name: one.joint.upper for one in found if one.ended}},
     )
 
 
@@ -201,7 +193,7 @@ def _freed_early(asset: Asset, changes: Iterable[Mended], least_share: float) ->
             shorter = replace(joint, upper=joint.lower + share * joint.range)
             if shorter.upper >= 0.0 and swept_m(asset, shorter, FREE_M) <= FREE_M:
                 kind = RepairKind.RANGE_SHORTENED
-                ended = record_change(kind, joint.name, joint.upper, shorter.upper, joint.unit)
+                ended = record_change(kind, joint, joint.upper, shorter.upper)
                 return replace(change, joint=shorter, ended=ended)
     return None
 
@@ -212,22 +204,23 @@ def _changes(articulation: Articulation, joint: Joint, share: float) -> Iterator
     base = joint
     if is_askew(joint.axis):
         longest = int(np.abs(joint.axis).argmax())
-        base = replace(joint, axis=np.eye(3)[longest] * np.sign(joint.axis[longest]))
-        kind = RepairKind.AXIS_STRAIGHTENED
-        off = _degrees(base.axis, joint.axis)
-        yield Mended(base, record_change(kind, joint.name, off, 0.0, "deg"))
+        axis = np.eye(3)[longest] * np.sign(joint.axis[longest])
+        straight = _turned_to(RepairKind.AXIS_STRAIGHTENED, joint, axis)
+        base = straight.joint
+        yield straight
     for kind, at_edge in TO_EDGE.items():
         hung = at_edge(articulation, base)
-        if hung is not None and _is_near(articulation, base, hung):
-            yield Mended(hung, _moved(kind, joint, hung))
+        if hung is not None:
+            yield from _moved_to(articulation, kind, joint, hung)
     if share < BLOCKED_SHARE and joint.lower == 0.0:
         turned = replace(base, axis=-base.axis)
         yield Mended(turned, Repair(RepairKind.OPENING_REVERSED, joints=(joint.name,)))
 
 
-def _degrees(one: FloatArray, other: FloatArray) -> float:
-    """Return the angle between two unit vectors [deg]."""
-    return float(np.degrees(np.arccos(min(1.0, float(one @ other)))))
+def _turned_to(kind: RepairKind, joint: Joint, axis: FloatArray) -> Mended:
+    """Return a joint about another axis, and by how much that turned it [deg]."""
+    off = float(np.degrees(np.arccos(min(1.0, float(axis @ joint.axis)))))
+    return Mended(replace(joint, axis=axis), record_change(kind, joint, off, 0.0, "deg"))
 
 
 def _at_lines(articulation: Articulation, joint: Joint, lines: Iterable[Joint]) -> Iterator[Mended]:
@@ -235,13 +228,12 @@ def _at_lines(articulation: Articulation, joint: Joint, lines: Iterable[Joint]) 
     for line in lines:
         cosine = float(line.axis @ joint.axis)
         hinges = joint.kind is JointKind.REVOLUTE is line.kind
-        if not hinges or line.parent != joint.parent:
+        if not hinges or line.parent != joint.parent or abs(cosine) < STRAIGHT:
             continue
         along = line.axis * float(line.axis @ (joint.origin - line.origin))
         axis = line.axis * np.sign(cosine)
         hung = replace(joint, axis=axis, origin=line.origin + along)
-        if _is_near(articulation, joint, hung) and abs(cosine) >= STRAIGHT:
-            yield Mended(hung, _moved(RepairKind.HINGE_TO_LINE, joint, hung))
+        yield from _moved_to(articulation, RepairKind.HINGE_TO_LINE, joint, hung)
 
 
 def _turned_as(
@@ -254,13 +246,10 @@ def _turned_as(
         yield Mended(turned, Repair(RepairKind.REVERSED_TOO, joints=(joint.name,)))
 
 
-def _moved(kind: RepairKind, joint: Joint, hung: Joint) -> Repair:
-    """Return the repair that moves a hinge."""
-    moved = 1000.0 * float(np.linalg.norm(hung.origin - joint.origin))
-    return record_change(kind, joint.name, moved, 0.0, "mm")
-
-
-def _is_near(articulation: Articulation, joint: Joint, hung: Joint) -> bool:
-    """Tell whether a hinge is moved no further than its part's size lets it."""
+def _moved_to(
+    articulation: Articulation, kind: RepairKind, joint: Joint, hung: Joint
+) -> Iterator[Mended]:
+    """Yield a hinge that is hung elsewhere, if no further off than its part's size lets it be."""
     moved = float(np.linalg.norm(hung.origin - joint.origin))
-    return moved <= MOVED_SHARE * articulation.part_mesh(joint.child).diagonal
+    if moved <= MOVED_SHARE * articulation.part_mesh(joint.child).diagonal:
+        yield Mended(hung, record_change(kind, joint, 1000.0 * moved, 0.0, "mm"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ...articulation import Joint
 from ...asset import Asset
 from ...manufacture.plan import Plan
 from ...manufacture.repair import Repair, RepairKind
@@ -24,28 +25,27 @@ def shorten_or_freeze(evidence: RepairEvidence, plan: Plan) -> Plan | None:
         return None
     upper = dict(plan.upper)
     frozen = set(plan.frozen)
-    repairs = list(plan.repairs)
+    repairs = []
 
-    for name, (joint, until) in evidence.blocked().items():
-        free = _free_end(evidence.asset, name, until)
+    for name, (measured, until) in evidence.blocked().items():
+        joint = evidence.asset.articulation.joint(name)
+        free = _free_end(evidence.asset, joint, until)
         end = until if free is None else free
-        share = (end - joint.lower) / (joint.upper - joint.lower)
+        share = (end - measured.lower) / (measured.upper - measured.lower)
         # What is never clear of anything jams wherever it ends; it goes if it can be spared.
         ends = free is not None or name not in evidence.spare.joints
         long_enough = share >= evidence.config.least_range_share
         # Nor may it end before the pose as modelled.
         if name not in plan.upper and ends and end >= 0.0 and long_enough:
             upper[name] = end
-            kind = RepairKind.RANGE_SHORTENED
-            repairs.append(record_change(kind, name, joint.upper, end, joint.unit))
+            repairs.append(record_change(RepairKind.RANGE_SHORTENED, joint, measured.upper, end))
         elif name in evidence.spare.joints:
             frozen.add(name)
             repairs.append(Repair(RepairKind.JOINT_FROZEN, joints=(name,), free_share=share))
         else:
             return None
 
-    changed = replace(plan, upper=upper, frozen=frozenset(frozen), repairs=tuple(repairs))
-    return changed if changed != plan else None
+    return plan.repaired(*repairs, upper=upper, frozen=frozenset(frozen)) if repairs else None
 
 
 def freeze_small(evidence: RepairEvidence, plan: Plan) -> Plan | None:
@@ -69,16 +69,11 @@ def freeze_small(evidence: RepairEvidence, plan: Plan) -> Plan | None:
                 RepairKind.JOINT_FROZEN, joints=(name,), code=finding.code, why=finding.message
             )
             frozen.setdefault(name, told)
-    if not frozen:
-        return None
-    return replace(
-        plan, frozen=plan.frozen | frozen.keys(), repairs=(*plan.repairs, *frozen.values())
-    )
+    return plan.repaired(*frozen.values(), frozen=plan.frozen | frozen.keys()) if frozen else None
 
 
-def _free_end(asset: Asset, name: str, clear_until: float) -> float | None:
+def _free_end(asset: Asset, joint: Joint, clear_until: float) -> float | None:
     """Return where a joint still touches nothing, before it fails; ``None`` if that is nowhere."""
-    joint = asset.articulation.joint(name)
     for share in SHORTER:
         shorter = replace(joint, upper=joint.lower + share * (clear_until - joint.lower))
         # The pose as modelled is never left out.
