@@ -214,15 +214,20 @@ def level_yaw(triangles: FloatArray) -> float:
     The area-weighted circular mean of four times the heading of upright faces: four, since walls
     meet at right angles. Zero when no heading dominates.
     """
-    normals = doubled_normals(triangles)
-    area = np.linalg.norm(normals, axis=1)
-    upright = np.abs(normals[:, 2]) < 0.2 * area
-    heading = np.arctan2(normals[upright, 1], normals[upright, 0])
-    mean = np.sum(area[upright] * np.exp(4j * heading))
-    if not upright.any() or abs(mean) < 0.5 * area[upright].sum():
+    heading, area = headings_of(triangles)
+    mean = np.sum(area * np.exp(4j * heading))
+    if not len(area) or abs(mean) < 0.5 * area.sum():
         return 0.0
     yaw = float(np.angle(mean)) / 4.0
     return yaw if abs(yaw) > np.radians(0.5) else 0.0
+
+
+def headings_of(triangles: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return where upright faces look [rad], and twice the area of each [m2], shape [n] both."""
+    normals = doubled_normals(triangles)
+    area = np.linalg.norm(normals, axis=1)
+    upright = np.abs(normals[:, 2]) < 0.2 * area
+    return np.arctan2(normals[upright, 1], normals[upright, 0]), area[upright]
 
 
 def level_frame(triangles: FloatArray) -> FloatArray:
