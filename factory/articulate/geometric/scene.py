@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ...geometry.edges import label_linked
-from ...geometry.triangles import doubled_normals, ends_of
+from ...geometry.triangles import FOLLOWING, doubled_normals, ends_of
 from ...mesh import BoolArray, FloatArray, IntArray
 
 FRONT = 1
@@ -177,14 +177,8 @@ class Scene:
         hit = hit[~np.isin(self.labels[hit], ignored)]
         corners = self.triangles[hit]
         plane = corners[:, :, [a, b]] - origin[[a, b]]
-        weights = np.stack(
-            [
-                _cross(plane[:, 1], plane[:, 2]),
-                _cross(plane[:, 2], plane[:, 0]),
-                _cross(plane[:, 0], plane[:, 1]),
-            ],
-            axis=1,
-        )
+        opposite = plane[:, FOLLOWING]
+        weights = _cross(opposite, opposite[:, FOLLOWING])
         total = weights.sum(axis=1)
         inside = ((weights >= 0).all(axis=1) | (weights <= 0).all(axis=1)) & (np.abs(total) > 0)
         if not inside.any():
@@ -199,7 +193,7 @@ class Scene:
 
 
 def _cross(p: FloatArray, q: FloatArray) -> FloatArray:
-    return np.asarray(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0])
+    return np.asarray(p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0])
 
 
 def quarter_turn(turns: int) -> FloatArray:
