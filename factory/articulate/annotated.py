@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from asset_factory.sim_checks.description import Mimic
+from asset_factory.sim_checks.description import ABSURD, Mimic, sensible
 
 from ..articulation import RESERVED_PART_NAME, Articulation, Joint, JointKind, Part
 from ..config import BuildConfig
 from ..errors import InputRejected, InvalidArticulation
+from ..geometry.posing import UP
 from ..intake.annotation import AnnotatedJoint, Annotation
 from ..intake.importers.prediction import read_prediction
 from ..intake.intake import Intake
@@ -26,8 +27,6 @@ from .welding import unlabelled_to_root, welded, without_empty_leaves
 
 #: Annotations of this source may speak of several trees; a description may not.
 FORESTS = ("pred.npz",)
-#: Limits [rad] or [input length units] and places [m] beyond are no object's.
-ABSURD = 1e6
 #: Shorter axes have no direction.
 MIN_AXIS = 1e-9
 #: Letters of a part's or joint's name that are kept.
@@ -188,18 +187,10 @@ class AnnotatedArticulator:
         kind, lower, upper, notes = sound_limits(
             name, joint.kind, _limit(joint.lower), _limit(joint.upper)
         )
-        axis = (
-            self._direction(joint.axis, name)
-            if kind is not JointKind.FIXED
-            else np.array([0.0, 0.0, 1.0])
-        )
+        axis = UP if kind is JointKind.FIXED else self._direction(joint.axis, name)
         length = self.scale if kind is JointKind.PRISMATIC else 1.0
-        damping, friction = (_usable(value) for value in (joint.damping, joint.friction))
-        for what, said, used in (
-            ("damping", joint.damping, damping),
-            ("friction", joint.friction, friction),
-        ):
-            if said is not None and used is None:
+        for what, said in (("damping", joint.damping), ("friction", joint.friction)):
+            if said is not None and _usable(said) is None:
                 notes.append(
                     f"joint {name!r}: {what} of {said} is ignored; "
                     "want a finite number of at least 0"
@@ -213,8 +204,8 @@ class AnnotatedArticulator:
             origin=self._place(joint.origin, name),
             lower=lower * length,
             upper=upper * length,
-            damping=damping,
-            friction=friction,
+            damping=_usable(joint.damping),
+            friction=_usable(joint.friction),
         )
         return made, notes
 
@@ -230,8 +221,7 @@ class AnnotatedArticulator:
 
     def _place(self, origin: FloatArray, name: str) -> FloatArray:
         place = self.transform[:3, :3] @ origin + self.transform[:3, 3]
-        # NaN compares as false.
-        if not (np.abs(place) <= ABSURD).all():
+        if not sensible(place):
             raise InputRejected(
                 "bad_axis",
                 f"joint {name!r}: its axis lies at {place.tolist()} m; want up to {ABSURD:g}",
@@ -291,9 +281,9 @@ def _coupled(annotated: list[AnnotatedJoint], joints: list[Joint], scale: float)
 
     result = []
     for each, joint in zip(annotated, joints, strict=True):
-        leader = made.get(each.mimic.leader) if each.mimic is not None else None
         mimic = each.mimic
         if mimic is not None:
+            leader = made.get(mimic.leader)
             rate = 1.0 if leader is None else unit(joint) / unit(leader)
             name = "" if leader is None else leader.name
             mimic = Mimic(name, mimic.multiplier * rate, mimic.offset * unit(joint))
@@ -321,11 +311,6 @@ def _finished(draft: Draft, articulator: str) -> Articulation:
     order = [draft.root, *(joint.child for joint in draft.joints)]
     position = {part: index for index, part in enumerate(order)}
     names = _unique([draft.names[part] for part in order], "part")
-    renamed = [
-        (draft.names[part], name)
-        for part, name in zip(order, names, strict=True)
-        if draft.names[part] != name
-    ]
     parts = tuple(
         Part(name, np.flatnonzero(draft.face_part == part))
         for part, name in zip(order, names, strict=True)
@@ -340,7 +325,11 @@ def _finished(draft: Draft, articulator: str) -> Articulation:
         )
         for joint in draft.joints
     )
-    called = [f"{old!r} is {new!r}" for old, new in renamed]
+    called = [
+        f"{old!r} is {new!r}"
+        for old, new in zip((draft.names[part] for part in order), names, strict=True)
+        if old != new
+    ]
     notes = (*draft.notes, *([f"parts renamed: {', '.join(called)}"] if called else []))
     return Articulation(draft.mesh, parts, joints, articulator, notes)
 

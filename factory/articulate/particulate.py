@@ -176,12 +176,8 @@ def _sample_notes(found: Consensus) -> list[str]:
         return []
     least = min(found.part_agreement)
     weakest = _part_name(found.chosen, found.part_agreement.index(least))
-    return [
-        (
-            f"{found.samples} samples were read; "
-            f"the least agreed part is {weakest!r}, shared by {least:.2f}"
-        )
-    ]
+    said = f"the least agreed part is {weakest!r}, shared by {least:.2f}"
+    return [f"{found.samples} samples were read; {said}"]
 
 
 def articulator_for(intake: Intake, config: BuildConfig) -> ParticulateArticulator:

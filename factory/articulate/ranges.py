@@ -123,19 +123,17 @@ def with_zero_inside(draft: Draft, values: dict[str, float]) -> Draft:
 
 def without_still_joints(draft: Draft) -> Draft:
     """Return the joints without a range become fixed."""
-    joints = []
-    notes = []
-    for joint in draft.joints:
-        still = joint.movable and joint.range <= NO_RANGE
-        if still:
-            notes.append(
-                f"joint {joint.name!r} has a range of {joint.range:.3g} {joint.unit}: "
-                "taken as fixed"
-            )
-        joints.append(
-            replace(joint, kind=JointKind.FIXED, lower=0.0, upper=0.0) if still else joint
+    still = {j.name: j for j in draft.joints if j.movable and j.range <= NO_RANGE}
+    joints = tuple(
+        replace(j, kind=JointKind.FIXED, lower=0.0, upper=0.0) if j.name in still else j
+        for j in draft.joints
+    )
+    return replace(draft, joints=joints).noting(
+        *(
+            f"joint {name!r} has a range of {joint.range:.3g} {joint.unit}: taken as fixed"
+            for name, joint in still.items()
         )
-    return replace(draft, joints=tuple(joints)).noting(*notes) if notes else draft
+    )
 
 
 def closed_at_lower(draft: Draft, posed: frozenset[str] = frozenset()) -> Draft:

@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..articulation import rotation_about
-from ..geometry.triangles import doubled_normals
 from ..mesh import FloatArray, Mesh
+from .geometric.scene import headings_of
 
-#: Faces that lean less than this look sideways (sine of what their normals rise).
-LEANING = 0.2
 #: Directions this near are one [degrees].
 SPREAD = 4
 #: Less of a turn is left as it is [degrees].
@@ -24,12 +22,8 @@ def straightening(mesh: Mesh) -> FloatArray | None:
 
     By at most an eighth of a turn; ``None`` for objects that are straight or round.
     """
-    corners = mesh.vertices[mesh.faces]
-    normals = doubled_normals(corners)
-    area = np.linalg.norm(normals, axis=1)
-    sideways = np.abs(normals[:, 2]) < LEANING * area
-    area = area[sideways]
-    angle = np.degrees(np.arctan2(normals[sideways, 1], normals[sideways, 0])) % _QUARTER
+    heading, area = headings_of(mesh.vertices[mesh.faces])
+    angle = np.degrees(heading) % _QUARTER
     most = np.bincount(angle.astype(np.int64) % _QUARTER, area, _QUARTER)
     near = np.sum([np.roll(most, by) for by in range(-SPREAD, SPREAD + 1)], axis=0)
     if not near.max() > LEAST_SHARE * area.sum():

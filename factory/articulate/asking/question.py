@@ -64,13 +64,9 @@ class Question:
 
 def question_of(mesh: Mesh, name: str) -> Question:
     """Return the question about a mesh [m], z up, of a file of that name."""
-    return Question(sheet_of(mesh), _instruction_for(name))
-
-
-def _instruction_for(name: str) -> str:
-    """Return the instruction for a mesh file's name."""
     shown = "".join(letter if letter.isprintable() else " " for letter in name)[:80]
-    return _TEXT.format(name=shown, kinds=", ".join(StatedKind), hinges=", ".join(Hinge))
+    text = _TEXT.format(name=shown, kinds=", ".join(StatedKind), hinges=", ".join(Hinge))
+    return Question(sheet_of(mesh), text)
 
 
 def question_about(source: Path, config: BuildConfig) -> Question:

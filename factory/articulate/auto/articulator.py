@@ -49,16 +49,13 @@ class AutoArticulator:
         config: how many views, and how sure is sure enough.
     """
 
+    name = "auto"
+
     network: Network
     weights: tuple[Weights, ...]
     trust: Trust
     particulate: ParticulateConfig
     config: AutoConfig
-
-    @property
-    def name(self) -> str:
-        """Return ``auto``."""
-        return "auto"
 
     def articulate(self, mesh: Mesh) -> Articulation:
         """Return what of ``mesh`` [m], z up, moves with some certainty; the rest is one rigid part.

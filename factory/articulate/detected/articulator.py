@@ -321,11 +321,12 @@ def _hinged_at(guess: Articulation, joint: Joint, side: Side) -> bool:
 def _pulls(cells: CellParts, beside: Sequence[DetectedPart]) -> list[str]:
     """Return the joints of knobs on panels that come beside a guess: these are pulled by them."""
     guess = cells.articulation
+    panels = [f for part in beside for f in part.found if f.sort is not Sort.LID]
     return [
         joint.name
         for joint in guess.joints
         if guess.parts[joint.child].kind in CARRIED
-        and any(cells.lies_in(joint.child, f) for part in beside for f in part.found)
+        and any(cells.lies_in(joint.child, f) for f in panels)
     ]
 
 

@@ -140,10 +140,7 @@ def _lid(lids: Sequence[Found], sizes: FloatArray) -> StatedPart:
     agreed = float(np.linalg.norm(direction)) > AGREED * float(np.abs(told).sum())
     hinge = Hinge(side_facing(direction)) if agreed else None
     upright = [each for each in lids if each.side is not Side.TOP]
-    if not upright:
-        above = max(lids, key=lambda each: each.score)
-        return StatedPart(StatedKind.LID, above.side, _box(above, sizes), hinge)
-    best = max(upright, key=lambda each: each.score)
+    best = max(upright or lids, key=lambda each: each.score)
     return StatedPart(StatedKind.LID, best.side, _box(best, sizes), hinge)
 
 

@@ -72,27 +72,20 @@ class CellParts:
         seen = (self.owner[view] >= 0) & box_cells(found.box)
         return bool((cells[view] & seen).sum() > SAME_PLACE * max(seen.sum(), 1))
 
-    def lies_in(self, part: int, found: Found) -> bool:
-        """Tell whether a panel is seen all around a part."""
-        if found.sort is Sort.LID:
-            return False
+    def lies_in(self, part: int, found: Found, share: float = 0.5) -> bool:
+        """Tell whether another is seen all around a part, or around a share of it."""
         shown = self.shown(part)[SIDES.index(found.side)]
-        return bool((shown & box_cells(found.box)).sum() > shown.sum() / 2.0)
+        return bool((shown & box_cells(found.box)).sum() > share * max(shown.sum(), 1))
 
     def has_moving(self, found: Found) -> bool:
         """Tell whether parts that move are where another is seen; knobs on panels are not asked."""
-        if self._fills(self.owner > 0, found):
-            return True
-        view = SIDES.index(found.side)
-        box = box_cells(found.box)
-        for joint in self.articulation.joints:
-            kind = self.articulation.parts[joint.child].kind
-            if kind in CARRIED and found.sort is not Sort.LID:
-                continue
-            shown = self.shown(joint.child)[view]
-            if (shown & box).sum() > SAME_PLACE * max(shown.sum(), 1):
-                return True
-        return False
+        asked = [
+            joint.child
+            for joint in self.articulation.joints
+            if found.sort is Sort.LID or self.articulation.parts[joint.child].kind not in CARRIED
+        ]
+        around = any(self.lies_in(part, found, SAME_PLACE) for part in asked)
+        return around or self._fills(self.owner > 0, found)
 
 
 def by_rules(part: Part) -> bool:

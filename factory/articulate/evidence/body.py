@@ -90,14 +90,8 @@ class Partition:
 
     def subtree(self, part: int) -> IntArray:
         """Return the part and all that hangs on it, directly or not."""
-        inside = np.zeros(len(self.parents), dtype=bool)
-        inside[part] = True
-        for _ in range(len(self.parents)):
-            grown = inside | ((self.parents >= 0) & inside[self.parents])
-            if (grown == inside).all():
-                break
-            inside = grown
-        return np.flatnonzero(inside)
+        parts = range(len(self.parents))
+        return np.array([each for each in parts if each == part or part in self.above(each)])
 
 
 @dataclass(frozen=True)

@@ -91,16 +91,16 @@ def find_candidates(body: Body, guess: Guess) -> Candidates:
         lines += [(row, where, LineSource.GUESSED, 0.0) for row in (said, nearest)]
         slides.append((said, center, LineSource.GUESSED, 0.0))
     lines = _without_twins(lines, SAME_PLACE * body.diagonal)
-    both = [(False, line) for line in lines] + [
-        (True, line) for line in _without_twins(slides, np.inf)
-    ]
-    axis = np.array([sign * line[0] for _, line in both for sign in (1.0, -1.0)])
+    slides = _without_twins(slides, np.inf)
+    axes, places, sources, radii = zip(*lines, *slides, strict=True)
+    axis = np.repeat(axes, 2, axis=0)
+    axis[1::2] *= -1.0
     return Candidates(
-        slides=np.repeat(np.array([slide for slide, _ in both], dtype=bool), 2),
+        slides=np.repeat([False, True], [2 * len(lines), 2 * len(slides)]),
         axis=axis / np.linalg.norm(axis, axis=1, keepdims=True),
-        origin=np.repeat(np.array([line[1] for _, line in both]), 2, axis=0),
-        source=np.repeat(np.array([line[2] for _, line in both], dtype=np.int64), 2),
-        radius=np.repeat(np.array([line[3] for _, line in both], dtype=np.float64), 2),
+        origin=np.repeat(places, 2, axis=0),
+        source=np.repeat(np.array(sources, dtype=np.int64), 2),
+        radius=np.repeat(np.array(radii, dtype=np.float64), 2),
     )
 
 
@@ -162,14 +162,9 @@ def _round_lines(body: Body) -> list[Line]:
             for k in range(3):
                 found = _circle(points, frame[(k + 1) % 3], frame[(k + 2) % 3])
                 if found is not None:
-                    lines.append(
-                        (
-                            frame[k],
-                            found[0] + float(points.mean(axis=0) @ frame[k]) * frame[k],
-                            LineSource.ROUND,
-                            found[1],
-                        )
-                    )
+                    center, radius = found
+                    place = center + float(points.mean(axis=0) @ frame[k]) * frame[k]
+                    lines.append((frame[k], place, LineSource.ROUND, radius))
     return lines
 
 

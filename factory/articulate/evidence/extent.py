@@ -8,13 +8,13 @@ import numpy as np
 
 from ...articulation import JointKind
 from ...mesh import FloatArray
+from ..geometric.movers import DOOR_LIMIT
 from .body import Body
 from .candidates import Candidates
 from .guess import Guess
 from .travel import displaced
 
-#: Where nobody says how far: a quarter of a turn [rad], and a share of the way of what slides.
-QUARTER = np.pi / 2.0
+#: Where nobody says how far, what slides goes by this share of its way.
 USUAL_SLIDE = 0.7
 #: Nothing slides farther than this share of its way, whoever says so.
 FARTHEST_SLIDE = 1.5
@@ -96,7 +96,7 @@ def _slide(body: Body, axis: FloatArray, said: float | None) -> float:
 def _turn(said: float | None) -> float:
     """Return how far a part should turn [rad], as somebody says or as usual."""
     if not said:
-        return QUARTER
+        return float(DOOR_LIMIT)
     return max(round(STEPS * said / np.pi), 1) * np.pi / STEPS
 
 

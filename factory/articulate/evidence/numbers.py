@@ -137,9 +137,8 @@ def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     whole = body.partition.mesh.diagonal
     values["small_round"] = float(np.exp(-size / (SMALL * whole))) * values["is_round"]
     values["free"] = _free_at_first(look, some)
-    values["corner"] = ((some.source == LineSource.EDGE) & (values["one_sided"] > 0.97)).astype(
-        np.float64
-    )
+    edge = (some.source == LineSource.EDGE).astype(np.float64)
+    values["corner"] = edge * (values["one_sided"] > 0.97)
     return values
 
 

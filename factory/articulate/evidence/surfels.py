@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...geometry.triangles import doubled_normals
 from ...mesh import BoolArray, FloatArray, IntArray
+from ..geometric.sweep import points_within
 
 
 @dataclass(frozen=True)
@@ -59,8 +61,7 @@ def spread(triangles: FloatArray, count: int) -> Surfels:
 
 def spread_owned(triangles: FloatArray, count: int) -> tuple[Surfels, IntArray]:
     """Spread points as :func:`spread` does, with the triangle of each, shape [n]."""
-    sides = triangles[:, 1:] - triangles[:, :1]
-    normals = np.cross(sides[:, 0], sides[:, 1])
+    normals = doubled_normals(triangles)
     double_area = np.sqrt(np.einsum("ij,ij->i", normals, normals))
     reached = np.cumsum(double_area)
     if not len(reached) or not reached[-1] > 0.0:
@@ -68,8 +69,5 @@ def spread_owned(triangles: FloatArray, count: int) -> tuple[Surfels, IntArray]:
     owner = np.searchsorted(reached, (np.arange(count) + 0.5) / count * reached[-1])
     owner = np.minimum(owner, len(triangles) - 1)
     u, v = np.mod(0.5 + np.arange(1, count + 1)[:, None] * SPREAD, 1.0).T
-    over = u + v > 1.0
-    u = np.where(over, 1.0 - u, u)
-    v = np.where(over, 1.0 - v, v)
-    points = triangles[owner, 0] + u[:, None] * sides[owner, 0] + v[:, None] * sides[owner, 1]
+    points = points_within(triangles[owner], u, v)
     return Surfels(points, normals[owner] / np.maximum(double_area[owner], 1e-300)[:, None]), owner

@@ -133,8 +133,7 @@ def _walls_around(scene: Scene, panel: FrontSlab) -> int:
     """Count the sides where something stands around a one-piece drawer."""
     middle = scene.middle[panel.slabs[0]]
     back = scene.distances(middle, [(FRONT, 1)], panel.pieces)
-    around = _around(scene, middle, panel.pieces)
-    return int(np.isfinite([*around, *back]).sum())
+    return int(np.isfinite([*_around(scene, middle, panel.pieces), *back]).sum())
 
 
 def _around(scene: Scene, start: FloatArray, ignored: IntArray) -> FloatArray:

@@ -48,25 +48,24 @@ def find_fronts(scene: Scene) -> tuple[Mover, ...]:
 
 def _is_sure(scene: Scene, front: FrontFace) -> bool:
     """Return a drawer's box, or a handle on something that closes a space."""
-    if is_crowded(scene, front.panel):
+    panel = front.panel
+    handle = panel.handle
+    if is_crowded(scene, panel):
         return False
-    if front.panel.is_box:
-        return front.walls >= 3 and (front.panel.handle is not None or front.walls >= 4)
+    if panel.is_box:
+        return front.walls >= 3 and (handle is not None or front.walls >= 4)
     if front.has_box:
-        small = front.panel.area <= 0.8 * scene.front_area
-        return front.panel.handle is not None or bool(small and front.walls >= 4)
-    if front.panel.handle is None:
+        small = panel.area <= 0.8 * scene.front_area
+        return handle is not None or bool(small and front.walls >= 4)
+    if handle is None or _is_control_panel(scene, panel, handle):
         return False
-    if _is_control_panel(scene, front.panel) or _has_carrying_grip(scene, front.panel):
+    if _has_carrying_grip(scene, panel, handle):
         return False
-    deep = scene.size[FRONT] >= 2.0 * front.panel.depth
-    wanted = 4 if _covers_front_with_side_handle(scene, front.panel) else 5
+    deep = scene.size[FRONT] >= 2.0 * panel.depth
+    # Of a lone door one wall may be missing, as below a sink or before a wall.
+    alone = panel.has_side_handle and panel.area >= 0.6 * scene.front_area
+    wanted = 4 if alone else 5
     return bool(deep and (front.solid or (front.walls >= wanted and front.roomy)))
-
-
-def _covers_front_with_side_handle(scene: Scene, panel: FrontSlab) -> bool:
-    """Return a lone door: one wall behind it may be missing, as below a sink or before a wall."""
-    return bool(panel.has_side_handle and panel.area >= 0.6 * scene.front_area)
 
 
 def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace]) -> bool:
@@ -77,33 +76,29 @@ def _has_handled_peer(scene: Scene, front: FrontFace, candidates: list[FrontFace
         if c.panel.handle is not None
         and c.walls >= 4
         and c.roomy
-        and not _is_control_panel(scene, c.panel)
+        and not _is_control_panel(scene, c.panel, c.panel.handle)
     ]
     return front in open_backed and any(
         c is not front and _beside(c.panel, front.panel, scene) for c in open_backed
     )
 
 
-def _is_control_panel(scene: Scene, panel: FrontSlab) -> bool:
+def _is_control_panel(scene: Scene, panel: FrontSlab, handle: FloatArray) -> bool:
     """Tell whether many small things, and no bar, are on the panel: knobs and buttons."""
-    if panel.handle is None:
-        return False
     mounted = np.array(panel.mounted, dtype=np.int64)
     width, _, height = scene.extents[mounted].T
     buttons = int((np.maximum(width, height) <= 0.2 * max(panel.width, panel.height)).sum())
-    bar = float(((panel.handle[1] - panel.handle[0])[[SIDEWAYS, UP]]).max())
+    bar = float((handle[1] - handle[0])[[SIDEWAYS, UP]].max())
     return buttons >= MANY_BUTTONS and bar < 0.4 * max(panel.width, panel.height)
 
 
-def _has_carrying_grip(scene: Scene, panel: FrontSlab) -> bool:
+def _has_carrying_grip(scene: Scene, panel: FrontSlab, handle: FloatArray) -> bool:
     """Return a grip in the middle of a panel that is no drawer: a crate's side.
 
     The panel is all of the front, or too narrow for a drawer.
     """
-    if panel.handle is None:
-        return False
     all_front = panel.area >= 0.65 * scene.front_area
-    offset = np.abs(panel.handle.mean(axis=0) - panel.center)
+    offset = np.abs(handle.mean(axis=0) - panel.center)
     central = bool(offset[SIDEWAYS] <= 0.1 * panel.width and offset[UP] <= 0.15 * panel.height)
     return central and (all_front or panel.width < WIDE * panel.height)
 

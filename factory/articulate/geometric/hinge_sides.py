@@ -2,26 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ...mesh import FloatArray
 from ...part import OpensBy
 from .behind import FrontFace
 from .scene import SIDEWAYS, UP, Scene
-from .slab import FrontSlab
 
 WIDE = 1.3
 """Width over height from which a front looks like a drawer's."""
 OFF_CENTER = 0.15
 """A handle further than this share of the panel from its middle is at one side."""
-
-
-def handle_side(panel: FrontSlab) -> int:
-    """Return -1 for a handle at the left, 1 at the right, 0 in the middle or for none."""
-    if panel.handle is None:
-        return 0
-    offset = (panel.handle[:, SIDEWAYS].mean() - panel.center[SIDEWAYS]) / panel.width
-    return int(np.sign(offset)) if abs(offset) > OFF_CENTER else 0
 
 
 def hinge_side(
@@ -31,14 +20,14 @@ def hinge_side(
     panel = front.panel
     if front.has_box:
         return OpensBy.OUT, ()
-    side = handle_side(panel)
-    if side:
-        return (OpensBy.LEFT if side > 0 else OpensBy.RIGHT), ()
     if panel.handle is None:
         low = panel.width >= 1.6 * panel.height and panel.height <= 0.35 * scene.size[UP]
         if low:
             return OpensBy.OUT, ("has no handle; assumed to be a drawer, since it is wide and low",)
         return _side_by_neighbours(front, fronts)
+    offset = (panel.handle[:, SIDEWAYS].mean() - panel.center[SIDEWAYS]) / panel.width
+    if abs(offset) > OFF_CENTER:
+        return (OpensBy.LEFT if offset > 0.0 else OpensBy.RIGHT), ()
     return _by_centred_handle(scene, front, fronts, panel.handle)
 
 

@@ -47,9 +47,8 @@ def _are_a_pair(scene: Scene, leaves: IntArray) -> bool:
     a, b = leaves
     gap = float(scene.low[b, SIDEWAYS] - scene.high[a, SIDEWAYS])
     level = float(np.abs(scene.low[a] - scene.low[b])[[FRONT, UP]].sum())
-    same = float(np.abs(scene.extents[a] - scene.extents[b]).max()) <= 0.05 * float(
-        scene.extents[a].max()
-    )
+    off = float(np.abs(scene.extents[a] - scene.extents[b]).max())
+    same = off <= 0.05 * float(scene.extents[a].max())
     return bool(same and level <= 2.0 * scene.touch and -scene.touch <= gap <= 4.0 * scene.touch)
 
 

@@ -88,11 +88,8 @@ def _plate(scene: Scene, piece: int, stack: IntArray) -> int:
     _, first = scene.first_hit(start, FRONT, 1, small[small != piece])
     start[FRONT] = scene.high[piece, FRONT] - 0.1 * scene.extents[piece, FRONT]
     distance, plate = scene.first_hit(start, FRONT, 1, stack)
-    return (
-        plate
-        if first in stack and distance <= scene.touch + 0.1 * scene.extents[piece, FRONT]
-        else -1
-    )
+    sits = distance <= scene.touch + 0.1 * scene.extents[piece, FRONT]
+    return plate if first in stack and sits else -1
 
 
 def _has_company(scene: Scene, knob: int, plates: dict[int, int], small: IntArray) -> bool:

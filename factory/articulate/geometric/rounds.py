@@ -54,10 +54,7 @@ def _tops_a_body(scene: Scene, cap: int, group: IntArray) -> bool:
     sides = scene.extents[rest][:, PLAN]
     as_wide = (sides.min(axis=1) >= 0.75 * width) & (sides.max(axis=1) <= 1.6 * width)
     body = rest[(aside <= 0.05 * width) & near & below & as_wide & _is_square(scene)[rest]]
-    if (
-        not len(body)
-        or scene.extents[rest][:, PLAN].max() > 1.05 * scene.extents[body][:, PLAN].max()
-    ):
+    if not len(body) or sides.max() > 1.05 * scene.extents[body][:, PLAN].max():
         return False
     # What stands beside the cap (a spout, a handle) stays; what passes through it would hold it.
     through = scene.high[rest, UP] > scene.high[cap, UP] + scene.touch
@@ -116,10 +113,10 @@ def _is_enclosed(scene: Scene, plate: int, pieces: IntArray) -> bool:
     """Tell whether something stands on all six sides of a plate."""
     start = scene.middle[plate].copy()
     start[UP] = scene.high[pieces, UP].max() + scene.touch
-    around = scene.distances(start, [(axis, sign) for axis in PLAN for sign in (-1, 1)], pieces)
-    level = scene.distances(start, [(UP, 1), (UP, -1)], pieces)
-    far = around.min() >= 0.5 * scene.extents[plate, SIDEWAYS]
-    return bool(far and np.isfinite(around).all() and np.isfinite(level).all())
+    ways = [(axis, sign) for axis in (*PLAN, UP) for sign in (-1, 1)]
+    free = scene.distances(start, ways, pieces)
+    far = free[:4].min() >= 0.5 * scene.extents[plate, SIDEWAYS]
+    return bool(far and np.isfinite(free).all())
 
 
 def find_wheels(scene: Scene, taken: IntArray) -> tuple[Mover, ...]:

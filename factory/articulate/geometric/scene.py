@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from ...geometry.edges import label_linked
-from ...geometry.triangles import doubled_normals, ends_of
+from ...geometry.triangles import FOLLOWING, doubled_normals, ends_of
 from ...mesh import BoolArray, FloatArray, IntArray
 
 FRONT = 1
@@ -177,14 +177,8 @@ class Scene:
         hit = hit[~np.isin(self.labels[hit], ignored)]
         corners = self.triangles[hit]
         plane = corners[:, :, [a, b]] - origin[[a, b]]
-        weights = np.stack(
-            [
-                _cross(plane[:, 1], plane[:, 2]),
-                _cross(plane[:, 2], plane[:, 0]),
-                _cross(plane[:, 0], plane[:, 1]),
-            ],
-            axis=1,
-        )
+        opposite = plane[:, FOLLOWING]
+        weights = _cross(opposite, opposite[:, FOLLOWING])
         total = weights.sum(axis=1)
         inside = ((weights >= 0).all(axis=1) | (weights <= 0).all(axis=1)) & (np.abs(total) > 0)
         if not inside.any():
@@ -199,7 +193,7 @@ class Scene:
 
 
 def _cross(p: FloatArray, q: FloatArray) -> FloatArray:
-    return np.asarray(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0])
+    return np.asarray(p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0])
 
 
 def quarter_turn(turns: int) -> FloatArray:
@@ -214,15 +208,20 @@ def level_yaw(triangles: FloatArray) -> float:
     The area-weighted circular mean of four times the heading of upright faces: four, since walls
     meet at right angles. Zero when no heading dominates.
     """
-    normals = doubled_normals(triangles)
-    area = np.linalg.norm(normals, axis=1)
-    upright = np.abs(normals[:, 2]) < 0.2 * area
-    heading = np.arctan2(normals[upright, 1], normals[upright, 0])
-    mean = np.sum(area[upright] * np.exp(4j * heading))
-    if not upright.any() or abs(mean) < 0.5 * area[upright].sum():
+    heading, area = headings_of(triangles)
+    mean = np.sum(area * np.exp(4j * heading))
+    if not len(area) or abs(mean) < 0.5 * area.sum():
         return 0.0
     yaw = float(np.angle(mean)) / 4.0
     return yaw if abs(yaw) > np.radians(0.5) else 0.0
+
+
+def headings_of(triangles: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return where upright faces look [rad], and twice the area of each [m2], shape [n] both."""
+    normals = doubled_normals(triangles)
+    area = np.linalg.norm(normals, axis=1)
+    upright = np.abs(normals[:, 2]) < 0.2 * area
+    return np.arctan2(normals[upright, 1], normals[upright, 0]), area[upright]
 
 
 def level_frame(triangles: FloatArray) -> FloatArray:

@@ -19,21 +19,30 @@ def surface_points(scene: Scene, most: int = 20000) -> tuple[FloatArray, IntArra
         Positions [m], shape [point_count, 3], and the piece of each, shape [point_count].
     """
     triangles = scene.triangles
-    sides = triangles[:, 1:] - triangles[:, :1]
     area = np.linalg.norm(doubled_normals(triangles), axis=1)
     count = np.floor(area / max(float(area.sum()), 1e-300) * most).astype(np.int64)
     owner = np.repeat(np.arange(len(triangles)), count)
     rng = np.random.default_rng(0)
-    u = rng.random(len(owner))
-    v = rng.random(len(owner))
-    over = u + v > 1.0
-    u = np.where(over, 1.0 - u, u)
-    v = np.where(over, 1.0 - v, v)
-    inner = triangles[owner, 0] + u[:, None] * sides[owner, 0] + v[:, None] * sides[owner, 1]
+    inner = points_within(triangles[owner], *rng.random((2, len(owner))))
     stride = max(1, len(triangles) * 3 // most)
     corners = triangles.reshape(-1, 3)[::stride]
     corner_owner = np.repeat(scene.labels, 3)[::stride]
     return np.concatenate([corners, inner]), np.concatenate([corner_owner, scene.labels[owner]])
+
+
+def points_within(corners: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
+    """Return a point within each triangle [m], shape [n, 3]; even if the shares are.
+
+    Args:
+        corners: positions [m], shape [n, 3, 3].
+        u: shares of its side to the second corner, 0 to 1, shape [n].
+        v: likewise, to the third.
+    """
+    over = u + v > 1.0
+    u = np.where(over, 1.0 - u, u)[:, None]
+    v = np.where(over, 1.0 - v, v)[:, None]
+    first = corners[:, 0]
+    return first + u * (corners[:, 1] - first) + v * (corners[:, 2] - first)
 
 
 def free_turn(

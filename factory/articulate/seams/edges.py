@@ -63,14 +63,9 @@ def thickness_behind(
     pair = _agreeing(found, fronts[side])
     if pair is not None:
         return pair
-    seen = [_best(each) for each in found if len(each)]
-    thickness, cover = max(seen, key=lambda each: each[1], default=(usual, 0.0))
+    seen = np.concatenate([*found, [[usual, 0.0]]])
+    thickness, cover = seen[seen[:, 1].argmax()].tolist()
     return thickness if len(beside) == 1 or cover >= ALONE else usual
-
-
-def _best(seams: FloatArray) -> tuple[float, float]:
-    behind, cover = seams[seams[:, 1].argmax()]
-    return float(behind), float(cover)
 
 
 def _agreeing(found: Sequence[FloatArray], front: Front) -> float | None:

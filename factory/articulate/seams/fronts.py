@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ...mesh import FloatArray
-from ...views.raster import Side
+from ...views.raster import Side, side_facing
 from ...views.view import Views
 from .controls import with_strips
 from .evidence import seams_of
@@ -17,12 +17,7 @@ from .rectangles import SHORTEST, Lines, Rectangle, lines_of, rectangles_of
 from .relief import Relief, relief_of
 
 AROUND = (Side.FRONT, Side.RIGHT, Side.BACK, Side.LEFT)
-OPPOSITE = {
-    Side.FRONT: Side.BACK,
-    Side.BACK: Side.FRONT,
-    Side.LEFT: Side.RIGHT,
-    Side.RIGHT: Side.LEFT,
-}
+OPPOSITE = {side: side_facing(side.frame[2]) for side in Side if side in AROUND}
 
 
 @dataclass(frozen=True)

@@ -41,17 +41,11 @@ class Lines:
     relief: FloatArray
     known: FloatArray
 
-    def covered(self, line: IntArray, start: IntArray, stop: IntArray) -> FloatArray:
-        """Return the share of a line's piece with evidence; arrays broadcast."""
-        return self._share(self.sums, line, start, stop)
-
-    def in_relief(self, line: IntArray, start: IntArray, stop: IntArray) -> FloatArray:
-        """Return the same share, by the shape alone."""
-        return self._share(self.relief, line, start, stop)
-
-    def _share(
-        self, sums: FloatArray, line: IntArray, start: IntArray, stop: IntArray
+    def covered(
+        self, line: IntArray, start: IntArray, stop: IntArray, *, shape: bool = False
     ) -> FloatArray:
+        """Return the share of a line's piece with evidence, or the shape's; arrays broadcast."""
+        sums = self.relief if shape else self.sums
         inset = np.asarray((stop - start) * CORNER, dtype=np.int64)
         first = start + inset
         last = stop - inset
@@ -187,17 +181,8 @@ def _sides(
     level: Lines, upright: Lines, rows: IntArray, columns: IntArray, *, shape: bool
 ) -> FloatArray:
     """Cover of bottom, top, left and right, shape [4, row_pairs, column_pairs]."""
-    along_row = level.in_relief if shape else level.covered
-    along_column = upright.in_relief if shape else upright.covered
-    left = upright.at[columns[None, :, 0]]
-    right = upright.at[columns[None, :, 1]]
-    bottom = level.at[rows[:, None, 0]]
-    top = level.at[rows[:, None, 1]]
-    return np.stack(
-        [
-            along_row(rows[:, None, 0], left, right),
-            along_row(rows[:, None, 1], left, right),
-            along_column(columns[None, :, 0], bottom, top),
-            along_column(columns[None, :, 1], bottom, top),
-        ]
-    )
+    lying = rows.T[:, :, None]
+    standing = columns.T[:, None, :]
+    across = level.covered(lying, *upright.at[standing], shape=shape)
+    along = upright.covered(standing, *level.at[lying], shape=shape)
+    return np.concatenate([across, along])

@@ -131,9 +131,6 @@ def _cap(part: StatedBox) -> OpeningPart:
     middle = (low[0] + high[0]) / 2.0
     nearest = float(part.front.face.height[part.rectangle.window].max())
     depth = raster.near + (high[0] - low[0]) / 2.0 - nearest * raster.pixel
-    region = Region(
-        np.stack([-up, right, -right]),
-        np.array([-low[1], high[0], -low[0]]),
-    )
+    region = Region(np.stack([-up, right, -right]), np.array([-low[1], high[0], -low[0]]))
     origin = middle * right + low[1] * up + depth * away
     return OpeningPart(part.kind, region, Motion.endless(UP, origin))

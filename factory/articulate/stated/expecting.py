@@ -21,21 +21,18 @@ from .placing import Placed
 
 def proposals_on(cut: CutMesh, guess: Articulation) -> list[Proposal]:
     """Return the parts of a guess as proposals on a mesh that was cut out of the guess's."""
-    made = []
-    for joint in guess.joints:
-        part = guess.parts[joint.child]
-        made.append(
-            Proposal(
-                part.kind,
-                np.isin(cut.source, part.faces),
-                Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper),
-                proposer=Proposer.RULES if part.source is None else part.source.proposer,
-                panel=part.panel,
-                existence=part.confidence,
-                probability=joint.confidence,
-            )
+    return [
+        Proposal(
+            part.kind,
+            np.isin(cut.source, part.faces),
+            Motion(joint.kind, joint.axis, joint.origin, joint.lower, joint.upper),
+            proposer=Proposer.RULES if part.source is None else part.source.proposer,
+            panel=part.panel,
+            existence=part.confidence,
+            probability=joint.confidence,
         )
-    return made
+        for joint, part in zip(guess.joints, guess.parts[1:], strict=True)
+    ]
 
 
 def count_expected(parts: Sequence[StatedPart]) -> Counter[PartKind]:

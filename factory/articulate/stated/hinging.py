@@ -8,10 +8,9 @@ import numpy as np
 
 from ...mesh import FloatArray
 from ...part import OpensBy
+from ..geometric.hinge_sides import OFF_CENTER
 from .boxed import StatedBox
 
-#: A handle this far from the middle of its panel, as a share of the width, is at one side.
-AT_SIDE = 0.15
 #: Two panels are aligned if their lines differ by no more than this [pixels].
 ALIGNED = 6.0
 #: How much a panel's place on its side counts, at most; a panel beside it counts 1.
@@ -38,7 +37,7 @@ def upright_edge(part: StatedBox, panels: Sequence[StatedBox]) -> OpensBy:
     for_left = PLACE * (1.0 - 2.0 * place)
     for other in panels:
         off = _handle_off_middle(other)
-        if off is not None and abs(off[1]) > AT_SIDE:
+        if off is not None and abs(off[1]) > OFF_CENTER:
             row, column = np.abs(other.rectangle.low - own.low) <= ALIGNED
             for_left += float(np.sign(off[1])) * (float(column) - float(row))
     return OpensBy.LEFT if for_left >= 0.0 else OpensBy.RIGHT

@@ -64,9 +64,7 @@ def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
         }
         if views:
             fronts = seen.above if above else seen.around
-            seams = [
-                _boxed(mesh, fronts, parts[place], place, view) for place, view in views.items()
-            ]
+            seams = [_boxed(seen, parts[place], place, view) for place, view in views.items()]
             outlines = [_outlined(seen, each) for each in seams]
             _refuse_shared(outlines)
             for cut, whole in zip(seams, outlines, strict=True):
@@ -93,16 +91,10 @@ def _all_openings(
     return [way for each in said for way in _openings(fronts, each, boxed)]
 
 
-def _boxed(
-    mesh: Mesh,
-    fronts: Mapping[Side, Front],
-    part: StatedPart,
-    place: int,
-    view: StatedView,
-) -> StatedBox:
+def _boxed(seen: SeenMesh, part: StatedPart, place: int, view: StatedView) -> StatedBox:
     """Return a part with the rectangle of seams that its box means."""
-    front = fronts[Side.FRONT if view.side is Side.TOP else view.side]
-    frame = StatedFrame.of(mesh, view.side)
+    front = seen.above[Side.FRONT] if view.side is Side.TOP else seen.around[view.side]
+    frame = StatedFrame.of(seen.mesh, view.side)
     return boxed_in(front, part, place, snap(front, frame, view.box))
 
 

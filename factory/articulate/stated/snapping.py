@@ -106,4 +106,4 @@ def _in_relief(lines: Lines, at: int, along: IntArray) -> float:
     index = np.flatnonzero(lines.at == at)
     if not len(index) or along[1] <= along[0]:
         return 0.0
-    return float(lines.in_relief(index, along[0], along[1])[0])
+    return float(lines.covered(index, along[0], along[1], shape=True)[0])
