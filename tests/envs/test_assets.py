@@ -23,8 +23,7 @@ def edited(registry, asset, change):
 
 
 def test_every_asset_is_read_in_order_of_id_with_its_joints(tmp_path):
-    registry = write_registry(tmp_path, oven(), cabinet(), valve())
-    read = read_registry(registry)
+    read = read_registry(write_registry(tmp_path, oven(), cabinet(), valve()))
     assert list(read) == ["cabinet", "oven", "valve"]
     assert [joint.name for joint in read["cabinet"].openable] == ["hinge", "slide"]
     assert read["cabinet"].urdf.is_file()

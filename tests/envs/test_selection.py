@@ -63,10 +63,8 @@ def test_a_filter_keeps_what_passes_it(assets, wanted, left):
         ),
         (
             Wanted(asset="oven", joint_types=("prismatic",)),
-            (
-                "asset 'oven': no prismatic joint to move; there are 'revolute' joints; "
-                "assets with one: 'cabinet'"
-            ),
+            "asset 'oven': no prismatic joint to move; there are 'revolute' joints; "
+            "assets with one: 'cabinet'",
         ),
         (
             Wanted(joint="lid"),
@@ -93,11 +91,8 @@ def test_an_assets_split_never_changes_and_about_a_fifth_is_for_testing():
     share = sum(split_of(name) == "test" for name in ids) / len(ids)
     assert share == pytest.approx(TEST_SHARE, abs=0.03)
     # Written down: another rule would move assets that somebody has trained on.
-    assert [split_of(name) for name in ids[:6]] == EXPECTED
-
-
-#: Of asset-0 to asset-5.
-EXPECTED = ["train", "test", "train", "train", "test", "train"]
+    expected = ["train", "test", "train", "train", "test", "train"]
+    assert [split_of(name) for name in ids[:6]] == expected
 
 
 def test_the_two_splits_share_nothing_and_leave_nothing_out(assets):

@@ -37,9 +37,8 @@ def targets(tmp_path):
         Articulation(["door"], ["part_0", "part_1"], 3),
         Articulation(["hinge", "slide"], ["part_0", "part_1", "part_2"], 5),
     ]
-    allowed = [["hinge", "slide"], ["door"], ["slide"]]
     each = [assets["cabinet"], assets["oven"], assets["cabinet"]]
-    made = Targets(each, articulations, allowed, px)
+    made = Targets(each, articulations, [["hinge", "slide"], ["door"], ["slide"]], px)
     made._on_gpu = True
     made.find_bodies()
     made.choose(torch.arange(3), torch.tensor([0, 0, 1]))
@@ -70,9 +69,8 @@ def test_choosing_in_some_environments_leaves_the_others(targets):
 
 
 def test_shares_and_joint_values_are_inverse(targets):
-    chosen = torch.tensor([0, 2])
     share = torch.tensor([0.5, 1.0])
-    values = targets.opened(torch.zeros(2, 2), chosen, share)
+    values = targets.opened(torch.zeros(2, 2), torch.tensor([0, 2]), share)
     assert torch.allclose(values, torch.tensor([[0.0, 0.8], [0.0, 0.3]]))
     padded = torch.stack([values[0], torch.zeros(2), values[1]])
     assert torch.allclose(targets.share(padded), torch.tensor([0.5, 0.0, 1.0]))

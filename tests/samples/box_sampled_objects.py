@@ -5,8 +5,8 @@ import numpy as np
 from asset_factory.learn.samples.sampled_object import SampledObject, write_sampled
 
 
-def box_sampled(seed, points=600):
-    """A box with one to three doors or drawers."""
+def box_sampled(seed):
+    """A box with one to three doors or drawers, as 600 points."""
     rng = np.random.default_rng(seed)
     movers = int(rng.integers(1, 4))
     size = rng.uniform(0.4, 1.0, 3)
@@ -16,14 +16,15 @@ def box_sampled(seed, points=600):
         low = np.array([0.0, -0.05, size[2] * number / movers])
         boxes.append((low, np.array([size[0], 0.0, size[2] * (number + 0.9) / movers])))
         turns.append(bool(rng.random() < 0.5))
-    surfaces = [_surface(rng, points // len(boxes), low, high) for low, high in boxes]
-    ids = np.repeat(np.arange(len(boxes)), points // len(boxes))
+    surfaces = (_surface(rng, 600 // len(boxes), low, high) for low, high in boxes)
+    points, normals = zip(*surfaces, strict=True)
+    ids = np.repeat(np.arange(len(boxes)), 600 // len(boxes))
     turning = np.array(turns)[:, None]
     sliding = ~turning & (np.arange(len(boxes)) > 0)[:, None]
     return SampledObject(
         name=f"box-{seed}",
-        points=np.concatenate([surface[0] for surface in surfaces]),
-        normals=np.concatenate([surface[1] for surface in surfaces]),
+        points=np.concatenate(points),
+        normals=np.concatenate(normals),
         part_ids=ids,
         sharp=rng.random(len(ids)) < 0.5,
         components=ids,
@@ -38,11 +39,10 @@ def box_sampled(seed, points=600):
     )
 
 
-def write_boxes(folder, count, first=0):
+def write_boxes(folder, count):
     """A folder of sampled objects in files."""
     folder.mkdir(parents=True, exist_ok=True)
-    for seed in range(first, first + count):
-        sampled = box_sampled(seed)
+    for sampled in map(box_sampled, range(count)):
         write_sampled(folder / f"{sampled.name}.npz", sampled)
     return folder
 

@@ -65,10 +65,9 @@ def joint(
     **more: Any,
 ) -> JointLine:
     """``at`` is the child's frame in the parent's."""
-    origin = frame_at(*at)
     along = np.asarray(axis, dtype=float)
     lower, upper = limits or (None, None)
-    return JointLine(name, kind, parent, child, origin, along, lower, upper, **more)
+    return JointLine(name, kind, parent, child, frame_at(*at), along, lower, upper, **more)
 
 
 def described(links: Sequence[Link], joints: Sequence[JointLine]) -> Description:
@@ -88,8 +87,7 @@ def sliding(
     **more: Any,
 ) -> tuple[Link, JointLine]:
     """A link of boxes, and the slide of the same name that holds it, from 0 to ``upper`` [m]."""
-    limits = (0.0, upper)
-    line = joint(name, "prismatic", parent, name, (0.0, 0.0, 0.0), axis, limits, **more)
+    line = joint(name, "prismatic", parent, name, (0.0, 0.0, 0.0), axis, (0.0, upper), **more)
     return body(name, boxes), line
 
 
@@ -205,6 +203,17 @@ def write_drawer(path: Path, gap: float) -> Path:
     boxes = {"shell": ((0, 0, 0), size), "drawer": ((0, 0.2 + gap, 0), size)}
     path.parent.mkdir(parents=True, exist_ok=True)
     return write_urdf(path.parent, boxes, SLIDE).rename(path)
+
+
+def joint_text(
+    child: str, axis: str, upper: float, parent: str = "base", kind: str = "prismatic"
+) -> str:
+    """What holds a link on its parent in a URDF, from 0 to ``upper``."""
+    limits = f'lower="0" upper="{upper}" effort="1" velocity="1"'
+    return (
+        f'<joint name="{child}_joint" type="{kind}"><parent link="{parent}"/>'
+        f'<child link="{child}"/><axis xyz="{axis}"/><limit {limits}/></joint>'
+    )
 
 
 def write_urdf(folder: Path, boxes: Mapping[str, Box], joints: str) -> Path:

@@ -16,15 +16,13 @@ CONFIG = MotionConfig()
 
 
 class Sliders(World):
-    """Blocks on rails: mass [kg], closing weight, friction, a wall or a push, all [N]."""
+    """Blocks on rails of 0.3 m: mass [kg], closing weight, friction, a wall or a push, all [N]."""
 
     time_step = CONFIG.time_step_s
 
-    def __init__(
-        self, masses: list[float], upper: float = 0.3, weight: float = 0.0, friction: float = 0.0
-    ) -> None:
+    def __init__(self, masses: list[float], weight: float = 0.0, friction: float = 0.0) -> None:
         self.joints = tuple(
-            LoadedJoint(f"j{i}", "prismatic", 0.0, upper, 0.0, friction) for i in range(len(masses))
+            LoadedJoint(f"j{i}", "prismatic", 0.0, 0.3, 0.0, friction) for i in range(len(masses))
         )
         links = tuple(LoadedLink(f"block{i}", mass, 1, None) for i, mass in enumerate(masses))
         post = LoadedLink("post", 0.0, 1, None, static=True)

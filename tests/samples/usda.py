@@ -10,11 +10,11 @@ CUBE = (
 CORNERS = [(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]
 
 
-def mesh(name: str, size: tuple[float, float, float], inside: str = "", schemas: str = "") -> str:
+def mesh(name: str, size: tuple[float, float, float], inside: str = "") -> str:
     points = ", ".join(
         str(tuple(c * s for c, s in zip(corner, size, strict=True))) for corner in CORNERS
     )
-    return f'def Mesh "{name}" ({schemas})\n{{\n{CUBE}point3f[] points = [{points}]\n{inside}\n}}\n'
+    return f'def Mesh "{name}" ()\n{{\n{CUBE}point3f[] points = [{points}]\n{inside}\n}}\n'
 
 
 def body(name: str, at: tuple[float, float, float], inside: str, scale: float = 1.0) -> str:

@@ -68,15 +68,13 @@ def test_a_number_that_is_not_finite_gives_a_verdict_in_every_engine_too(exhibit
 
 @named(GOOD)
 def test_what_is_sound_passes_on_paper_and_in_every_engine(exhibit, tmp_path, judge):
-    report = judge.check(exhibit.build(tmp_path), ENGINES)
-    assert report.errors == ()
+    assert judge.check(exhibit.build(tmp_path), ENGINES).errors == ()
 
 
 @named(blind_spots())
 def test_a_known_blind_spot_is_still_one(exhibit, tmp_path, judge):
     """When the judge learns to see one, it moves to the other exhibits."""
-    passed = judge.check(exhibit.build(tmp_path), ENGINES).passed
-    assert passed == (exhibit.code is not None)
+    assert judge.check(exhibit.build(tmp_path), ENGINES).passed == (exhibit.code is not None)
 
 
 @pytest.mark.parametrize("name", ["fronts_overlap.urdf", "knuckle.mjcf"])

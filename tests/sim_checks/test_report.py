@@ -10,7 +10,7 @@ from asset_factory.sim_checks import Finding, Report, Severity, Status
 from asset_factory.sim_checks.checks.cause import Cause
 
 #: How to read a report.
-PAGE = Path(__file__).parents[2] / "docs" / "reports.md"
+PAGE = (Path(__file__).parents[2] / "docs" / "reports.md").read_text(encoding="utf-8")
 
 HARD = Finding(
     "rest_penetration", Severity.ERROR, "5 mm", parts=("a", "b"), value=5.0, unit="mm", limit=2.0
@@ -50,16 +50,11 @@ def test_a_number_that_json_has_no_word_for_is_refused():
         Report("a.urdf", measurements={"x": float("nan")}).to_json()
 
 
-@pytest.fixture
-def page():
-    return PAGE.read_text(encoding="utf-8")
-
-
-def test_the_pages_example_is_a_report_with_every_key(page):
-    example = json.loads(re.search(r"```json\n(.*?)```", page, re.DOTALL)[1])
+def test_the_pages_example_is_a_report_with_every_key():
+    example = json.loads(re.search(r"```json\n(.*?)```", PAGE, re.DOTALL)[1])
     assert Report.from_dict(example).to_dict() == example
 
 
-def test_the_page_names_every_cause(page):
-    rows = re.findall(r"^\| `([a-z_]+)` \|", page, re.MULTILINE)
+def test_the_page_names_every_cause():
+    rows = re.findall(r"^\| `([a-z_]+)` \|", PAGE, re.MULTILINE)
     assert {str(cause) for cause in Cause} <= set(rows)

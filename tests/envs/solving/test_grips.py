@@ -38,8 +38,7 @@ def world(tmp_path_factory):
 
 
 def test_fingertips_are_pressed_on_the_lid_and_not_on_the_base_below(world):
-    poses = world.object_poses(np.zeros(1))
-    found = drags(world, poses)
+    found = drags(world, world.object_poses(np.zeros(1)))
     front = [grip for grip in found if grip.hand[1, 2] > 0.8]
     assert front
     hands = np.array([grip.hand for grip in front])

@@ -52,7 +52,6 @@ def test_a_hand_gets_where_the_arm_can_bring_it():
 
 
 def test_joints_that_are_not_free_stay():
-    chain = arm(6, 1)
     start = np.full((1, 6), 0.2)
-    found, _ = reach(chain, 6, np.eye(4), np.eye(4)[None], start, (1, 2, 4), 10)
+    found, _ = reach(arm(6, 1), 6, np.eye(4), np.eye(4)[None], start, (1, 2, 4), 10)
     assert found[0, [0, 3, 5]] == pytest.approx([0.2, 0.2, 0.2])

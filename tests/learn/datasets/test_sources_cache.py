@@ -178,8 +178,7 @@ def test_registered_assets_are_objects(tmp_path):
                 registry.add(entry, REPORT, staging / name)
         else:
             registry.add(entry, BAD_REPORT)
-    prepared = bring(tmp_path, "registry")
-    assert list(prepared.read) == ["cabinet-1"]
+    assert list(bring(tmp_path, "registry").read) == ["cabinet-1"]
 
 
 def test_command_keeps_sampled_objects_where_the_docs_say():

@@ -80,10 +80,9 @@ def chest():
 def test_labels_beside_a_mesh(tmp_path, named):
     folder = tmp_path / "chest_1"
     folder.mkdir()
-    frame = np.eye(4)
     write_obj(folder / "chest.obj", chest().mesh)
     labels = {"sidecar": "truth.npz", "stem": "chest.pred.npz", "alone": "pred.npz"}[named]
-    write_annotation(chest(), frame, folder / labels)
+    write_annotation(chest(), np.eye(4), folder / labels)
     if named == "sidecar":
         write_sidecar(folder / "chest.toml", {"scale": 1.0, "annotation": labels})
     (item,) = find_predictions(tmp_path)

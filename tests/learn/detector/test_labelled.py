@@ -15,8 +15,6 @@ from asset_factory.learn.detector import labelled, sweethome3d
 from asset_factory.learn.detector.labelled import EITHER, LabelledPart, labelled_objects
 from asset_factory.learn.detector.real import real_objects
 
-SQUARE = (0.1, 0.2, 0.6, 0.9)
-
 
 def test_every_label_of_the_package_can_be_learned_from():
     assert len(labelled_objects()) > 400
@@ -46,7 +44,7 @@ def test_every_label_of_the_package_can_be_learned_from():
 )
 def test_a_hinge_is_where_its_side_shows_it_or_at_either_edge(side, sort, hinge, way):
     wanted = EITHER if way is None else WAYS.index(way)
-    assert LabelledPart(side, sort, SQUARE, hinge).way == wanted
+    assert LabelledPart(side, sort, (0.1, 0.2, 0.6, 0.9), hinge).way == wanted
 
 
 @pytest.fixture

@@ -56,17 +56,15 @@ def cloud_from(arrays, side):
         own = []
         # Turning first: the slide is along an axis that does not turn along.
         if get("is_part_prismatic")[part]:
-            lower, upper = get("prismatic_range")[part]
+            ends = get("prismatic_range")[part]
             axis = get("prismatic_axis")[part]
-            own.append(
-                Joint(f"slide{part}", JointKind.PRISMATIC, 0, 0, axis, np.zeros(3), lower, upper)
-            )
+            own.append(Joint(f"slide{part}", JointKind.PRISMATIC, 0, 0, axis, np.zeros(3), *ends))
         if get("is_part_revolute")[part]:
             line = get("revolute_plucker")[part]
             axis = line[:3] / np.linalg.norm(line[:3])
-            lower, upper = get("revolute_range")[part]
+            ends = get("revolute_range")[part]
             origin = point_on_line(line[:3], line[3:])
-            own.append(Joint(f"turn{part}", JointKind.REVOLUTE, 0, 0, axis, origin, lower, upper))
+            own.append(Joint(f"turn{part}", JointKind.REVOLUTE, 0, 0, axis, origin, *ends))
         joints.append(tuple(own))
     return ScoredCloud(get("points"), get("part_ids"), tuple(parents), tuple(joints))
 
@@ -128,9 +126,8 @@ def test_the_papers_wording_is_met(example):
 def test_parts_are_matched_as_the_release_does(example):
     true, predicted, said, _ = example
     pairs = {i: int(true.present[j]) for i, j in matched(true, predicted).pairs}
-    stated = said["mapping_pred_index_to_gt_index"]
     ours = [pairs[i] for i in range(len(predicted.present)) if i in pairs]
-    assert ours == [int(true.present[j]) for j in stated if j >= 0]
+    assert ours == [int(true.present[j]) for j in said["mapping_pred_index_to_gt_index"] if j >= 0]
     assert half_diagonal(predicted) == pytest.approx(said["pc_penalty"], rel=1e-6)
 
 

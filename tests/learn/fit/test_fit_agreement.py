@@ -50,8 +50,7 @@ def test_where_nobody_knows_what_opens_nothing_counts():
     # Boxes that the detector believes may reach beyond the picture.
     unknown[:, BOX] = (-CANVAS, -CANVAS, 2 * CANVAS, 2 * CANVAS)
     unknown[:, IGNORED] = 1.0
-    rated = rated_as(unknown, RigidArticulator())
-    assert rated == {name: [] for name in SIGNS}
+    assert rated_as(unknown, RigidArticulator()) == {name: [] for name in SIGNS}
 
 
 def test_what_is_fitted_believes_what_was_right():

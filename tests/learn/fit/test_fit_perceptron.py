@@ -23,13 +23,11 @@ def test_a_network_learns_what_no_line_divides():
 
 
 def test_weights_past_the_hidden_layer_are_fitted_too():
-    rng = np.random.default_rng(2)
-    rows = rng.normal(size=(300, 4))
+    rows = np.random.default_rng(2).normal(size=(300, 4))
     truth = rows @ np.array([[1.0], [-2.0], [0.0], [0.5]])
-    wanted = torch.from_numpy(truth)
 
     def loss(scores):
-        return ((scores - wanted) ** 2).mean()
+        return ((scores - torch.from_numpy(truth)) ** 2).mean()
 
     linear = fit_perceptron(rows, loss, FitSettings(0, {"direct": Weighing(0.0, 0.0)}, 200))
     assert linear.direct == pytest.approx(np.array([[1.0], [-2.0], [0.0], [0.5]]), abs=1e-3)

@@ -154,16 +154,14 @@ def test_what_sits_on_a_door_moves_with_it(category, part):
 
 def test_a_desk_lamp_is_a_chain_and_a_castor_carries_its_wheel():
     lamp = make_object("desk_lamp", 0)
-    shade = lamp.joint("shade_joint")
-    assert lamp.parts[shade.parent].name.startswith("arm_")
+    assert lamp.parts[lamp.joint("shade_joint").parent].name.startswith("arm_")
     chairs = [make_object("office_chair", seed) for seed in range(8)]
     on_castors = [chair for chair in chairs if len(chair.joints) > 8]
     assert on_castors
     for chair in on_castors:
         for joint in chair.joints:
             if joint.name.startswith("castor") and joint.name.endswith("_wheel_joint"):
-                fork = chair.parts[joint.parent].name
-                assert joint.name == f"{fork}_wheel_joint"
+                assert joint.name == f"{chair.parts[joint.parent].name}_wheel_joint"
                 assert abs(joint.axis[2]) < 1e-12
 
 
@@ -204,8 +202,7 @@ def test_an_unknown_category_names_the_known_ones():
 
 
 def test_the_texture_is_a_valid_png_of_the_stated_size():
-    texture = wood(3, size=32).texture
-    with Image.open(io.BytesIO(texture.data)) as image:
+    with Image.open(io.BytesIO(wood(3, size=32).texture.data)) as image:
         image.load()
         assert (image.format, image.mode, image.size) == ("PNG", "RGB", (32, 32))
 

@@ -94,8 +94,7 @@ def test_a_mirrored_door_still_opens_outwards():
     plain = replace(EXACT, closed_share=1.0)
     for share in (0.0, 1.0):
         sample = draw(fridge, np.random.default_rng(1), replace(plain, mirrored_share=share))
-        doors = np.flatnonzero(sample.motion == MotionClass.REVOLUTE)
-        for door in doors:
+        for door in np.flatnonzero(sample.motion == MotionClass.REVOLUTE):
             mine = sample.part_ids == door
             foot = sample.closest_points[mine]
             turn = rotation_about(sample.revolute_direction[door].astype(float), 0.5)

@@ -182,8 +182,7 @@ def test_a_generator_makes_each_object_once_and_uses_it_as_often_as_asked(config
 
 def test_a_split_names_the_files_and_the_digest_tells_them(config, tmp_path):
     (tmp_path / "split.txt").write_text("box-1\nbox-3.npz\n")
-    source = replace(config.data[0], split=str(tmp_path / "split.txt"))
-    some = find_pools([source], tmp_path)
+    some = find_pools([replace(config.data[0], split=str(tmp_path / "split.txt"))], tmp_path)
     assert [path.name for path in some[0].paths] == ["box-1.npz", "box-3.npz"]
     assert digest(some) != digest(find_pools(config.data, tmp_path))
 

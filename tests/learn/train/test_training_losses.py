@@ -87,8 +87,7 @@ def test_the_losses_and_the_matcher_are_the_originals(fixtures, seed):
         "closest_points": wanted["gt_closest_point_on_axis"],
     }
     batch = Batch(**taught_by).to("cpu")
-    settings = LossSettings(dice=1.0)
-    found = found_losses(network, batch, settings)
+    found = found_losses(network, batch, LossSettings(dice=1.0))
     for name, original in ORIGINAL.items():
         loss = wanted[f"loss_matched_{original}"]
         np.testing.assert_allclose(found[name].item(), loss, rtol=1e-4, err_msg=name)
@@ -197,9 +196,8 @@ def test_an_upright_axis_is_the_same_joint_turned_about():
 
 
 def test_a_network_that_says_axes_by_moments_is_taught_those_of_the_annotated_axes():
-    shape = replace(SHAPE, axis_form=AxisForm.PLUCKER)
     torch.manual_seed(0)
-    network = PartArticulationTransformer(shape)
+    network = PartArticulationTransformer(replace(SHAPE, axis_form=AxisForm.PLUCKER))
     batch = boxes(6)
     settings = LossSettings()
     assert Counts(*count(batch, targets_of(batch, settings), settings)).closest_points > 0

@@ -31,8 +31,6 @@ from asset_factory.learn.train.matching import match
 from asset_factory.learn.train.recipes import load_train_config, parse_train_config
 from asset_factory.learn.train.trainer import Trainer
 
-SAME = ("curves.csv", "validation.csv", "model.safetensors")
-
 
 @pytest.fixture(scope="module")
 def path(tmp_path_factory):
@@ -51,7 +49,7 @@ def output(path):
 
 
 def assert_same_files(folder, output):
-    for name in SAME:
+    for name in ("curves.csv", "validation.csv", "model.safetensors"):
         assert (folder / name).read_bytes() == (output / name).read_bytes(), name
 
 
@@ -150,9 +148,8 @@ def test_weights_of_another_network_are_refused_with_what_differs(output):
     network = torch.nn.Sequential(torch.nn.Linear(2, 2))
     with pytest.raises(ConfigError, match=r"Missing key.*0\.weight.*Unexpected key.*\[\.\.\.\]"):
         fill(network, read_weights(output / "last.pt"), output / "last.pt")
-    weights = {"0.weight": torch.zeros(3, 2), "0.bias": torch.zeros(2)}
     with pytest.raises(ConfigError, match=r"0\.weight: .* shape torch.Size\(\[3, 2\]\)"):
-        fill(network, weights, output)
+        fill(network, {"0.weight": torch.zeros(3, 2), "0.bias": torch.zeros(2)}, output)
 
 
 def test_without_an_output_the_recipe_is_printed_to_edit(capsys):

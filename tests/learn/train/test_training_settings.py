@@ -59,10 +59,7 @@ def test_components_bring_their_channels():
         (f"[draw]\nscale = 1.0\n{DATA}", "draw: scale must be tuple"),
         (f"[draw]\nclosed_share = 5\n{DATA}", "draw.closed_share must be float <= 1.0, not 5.0"),
         (f"[draw]\nshift = inf\n{DATA}", "draw.shift must be float <= .*, not inf"),
-        (
-            f'[optimiser]\nbetas = ["a", "b"]\n{DATA}',
-            "betas\\[0\\] must be float, not 'a'",
-        ),
+        (f'[optimiser]\nbetas = ["a", "b"]\n{DATA}', "betas\\[0\\] must be float, not 'a'"),
         (f"[optimiser]\nema = 1.5\n{DATA}", "optimiser.ema must be float <= 1.0"),
         (f"[schedule]\nrate = nan\n{DATA}", "schedule.rate must be"),
         (f"{DATA}weight = inf\n", "data\\[0\\].weight must be"),

@@ -33,7 +33,6 @@ PRESS = ".//joint[@name='press']"
 SOFT = restated(mjcf(button()), PRESS, frictionloss="1", damping="0.04")
 STATED = edited(urdf(button()), ("<limit ", '<dynamics friction="1" damping="0.04"/><limit '))
 STIFF = restated(SOFT, PRESS, solimpfriction="0.9999 0.9999 0.001")
-HEAVY = with_body(fridge(), "shell", mass=1.0)
 LIGHT = with_body(cabinet(), "carcass", mass=1.0)
 (BLOCK,) = kiosk().bodies[0].pieces
 POINT = np.vstack([BLOCK[BLOCK[:, 2] > 0.1], [0.0, 0.2, 0.0]])
@@ -54,7 +53,7 @@ BROKEN = (
     Exhibit("button_that_creeps.mjcf", SOFT, "creeps", "error", ("mujoco",)),
     Exhibit("button_of_a_urdf.urdf", STATED, "creeps", "warning", ("mujoco",)),
     # Assets on the floor that would not stay there.
-    Exhibit("top_heavy.urdf", urdf(HEAVY), "topples", "warning"),
+    Exhibit("top_heavy.urdf", urdf(with_body(fridge(), "shell", mass=1.0)), "topples", "warning"),
     Exhibit("too_light_to_pull.urdf", urdf(LIGHT), "topples_when_pulled", "warning"),
     Exhibit("on_a_point.urdf", POINTED, "no_stable_footing", "warning"),
 )

@@ -1,5 +1,7 @@
 """Files that cannot be read, or must not be."""
 
+from functools import partial
+
 from .exhibits import edited, filed, listed, mjcf, restated, urdf
 from .good_things import kiosk
 
@@ -10,7 +12,6 @@ SHAPE = f'<mesh filename="{HULL}"/>'
 DOOR = ".//body[@name='door']/inertial"
 LID = ".//body[@name='lid']"
 LID_ORIGIN = ".//joint[@name='flap']/origin"
-NEEDLE = "0.9 0.01 0.01 0 0 0"
 ENDLESS = '<cylinder radius="0.1" length="inf"/>'
 #: Nine levels of ten: a billion words, were anyone to expand them.
 BOMB = (
@@ -45,12 +46,6 @@ def in_mjcf(old, new):
     return edited(MJCF, (old, new))
 
 
-def _empty(folder):
-    path = folder / "text.urdf"
-    path.write_text('<robot name="nothing"/>')
-    return path
-
-
 def _padded(folder):
     path = URDF(folder)
     with path.open("r+b") as file:
@@ -62,11 +57,8 @@ def _garbage(name):
     return filed(in_urdf(HULL, name), {name: b"neither a mesh nor a text \0\1\2"})
 
 
-def _beside(build, files):
-    """Writes in a subfolder, so that files may lie outside."""
-    return filed(build, files, home="home")
-
-
+#: Writes in a subfolder, so that files may lie outside.
+_beside = partial(filed, home="home")
 INNER = in_mjcf("<worldbody>", '<include file="inner.xml"/><worldbody>')
 TEXTURE = in_mjcf("<asset>", '<asset><texture name="t" type="2d" file="../secret.png"/>')
 ATTACHED = in_mjcf("<asset>", '<asset><model name="m" file="../secret.xml"/>')
@@ -85,7 +77,7 @@ BROKEN = listed(
     ("cut_off.urdf", "invalid_xml", in_urdf("</robot>", "")),
     ("cut_off.mjcf", "invalid_xml", in_mjcf("</mujoco>", "")),
     ("other_format.urdf", "unknown_format", edited(URDF, ("robot", "sdf"), count=-1)),
-    ("empty_robot.urdf", "no_links", _empty),
+    ("empty_robot.urdf", "no_links", filed(URDF, {"kiosk.urdf": '<robot name="nothing"/>'})),
     ("link_without_name.urdf", "missing_name", in_urdf('<link name="door">', "<link>")),
     ("joint_without_child.urdf", "missing_element", in_urdf('<child link="door"/>', "")),
     ("no_geometry.urdf", "missing_geometry", in_urdf(SHAPE, "")),
@@ -104,7 +96,7 @@ BROKEN = listed(
     ("face_out_of_range.urdf", "unreadable_mesh", filed(URDF, {HULL: TRIANGLE + "f 1 2 9\n"})),
     ("empty_mesh.urdf", "empty_mesh", filed(URDF, {HULL: "# nothing\n"})),
     ("mesh_nan.urdf", "not_finite", filed(URDF, {HULL: TRIANGLE + LOST_CORNER})),
-    ("needle_inertia.mjcf", "unreadable", restated(MJCF, DOOR, fullinertia=NEEDLE)),
+    ("needle_inertia.mjcf", "unreadable", restated(MJCF, DOOR, fullinertia="0.9 0.01 0.01 0 0 0")),
     ("negative_mass.mjcf", "unreadable", in_mjcf('mass="2.5"', 'mass="-2.5"')),
     ("axis_zero.mjcf", "unreadable", in_mjcf('axis="0.0 -1.0 0.0"', 'axis="0 0 0"')),
     ("limits_swapped.mjcf", "unreadable", in_mjcf('range="0.0 0.3"', 'range="0.3 0.0"')),

@@ -3,10 +3,13 @@
 import numpy as np
 import trimesh
 
+from asset_factory.learn.objects.kit.axes import Y
+from asset_factory.learn.objects.kit.shapes import prism
+
 from .broken_files import HULL, MJCF, SHAPE, URDF, in_urdf
 from .exhibits import both, edited, filed, listed, restated, reworked, urdf
 from .good_things import cabinet, kiosk
-from .things import box, shifted, with_body, with_move, words
+from .things import box, obj, with_body, with_move
 
 LID = '<link name="lid">'
 DOOR_MASS = ".//link[@name='door']/inertial/mass"
@@ -14,7 +17,6 @@ DOOR_TENSOR = ".//link[@name='door']/inertial/inertia"
 SLIDE = ".//joint[@name='slide']"
 LIMIT = f"{SLIDE}/limit"
 HINGE = ".//joint[@name='hinge']"
-HINGE_AXIS = f"{HINGE}/axis"
 DOOR_CENTER = ".//link[@name='door']/inertial/origin"
 DOOR_BODY = ".//body[@name='door']/inertial"
 #: 15 % of the door's diagonal before it.
@@ -32,8 +34,7 @@ DOOR_FRAME = np.array([-0.3, -0.004, 0.5])
 
 def _touched(*pieces, seen=None):
     """The kiosk with other hulls of its door, and other looks."""
-    looks = (DOOR if seen is None else seen,)
-    return with_body(kiosk(), "door", pieces=pieces, looks=looks)
+    return with_body(kiosk(), "door", pieces=pieces, looks=(DOOR if seen is None else seen,))
 
 
 def _wedge(corners, share):
@@ -71,7 +72,7 @@ def _mimic(leader, more=""):
 
 def _imported(height):
     door = kiosk().bodies[2].pieces
-    below = tuple(shifted(piece, 0.0, -height, 0.0) for piece in door)
+    below = tuple(np.add(piece, (0.0, -height, 0.0)) for piece in door)
     return with_body(kiosk(), "door", pieces=below, looks=door)
 
 
@@ -81,26 +82,10 @@ def _filled_drawer():
     return with_body(thing, "drawer", pieces=(np.vstack(tub[:-1]), tub[-1]), looks=tub)
 
 
-def _flat(corners):
-    return "".join(f"v {words(corner)}\n" for corner in corners) + "f 1 2 4\nf 1 4 3\nf 5 6 8\n"
-
-
-#: A door with a deep notch in its upper edge: closed, and not convex.
-def _notched():
-    outline = np.array([[0.0, -0.198], [0.6, -0.198], [0.6, 0.198], [0.3, -0.1], [0.0, 0.198]])
-    return np.array([[x, y, z] for y in (-0.018, 0.0) for x, z in outline])
-
-
-NOTCH_FACES = np.array(
-    [[0, 1, 3], [1, 2, 3], [0, 3, 4], [5, 8, 6], [6, 8, 7], [5, 9, 8]]
-    + [
-        face
-        for i, j in ((0, 1), (1, 2), (2, 3), (3, 4), (4, 0))
-        for face in ([i, i + 5, j + 5], [i, j + 5, j])
-    ]
-)
-
-
+#: A door with a deep notch in its upper edge: closed, and not convex. Its ends are fans about the
+#: notch, the first corner.
+NOTCH = [(0.3, -0.1), (0.0, 0.198), (0.0, -0.198), (0.6, -0.198), (0.6, 0.198)]
+NOTCHED = prism(NOTCH, (-0.018, 0.0), Y)
 SECOND = '<joint name="more" type="fixed"><parent link="drawer"/><child link="door"/></joint>'
 LOOP = '<link name="a"/><link name="b"/>' + "".join(
     f'<joint name="{a}{b}" type="fixed"><parent link="{a}"/><child link="{b}"/></joint>'
@@ -114,18 +99,17 @@ FIXED = (('"prismatic"', '"fixed"'), ('"revolute"', '"fixed"'))
 DOOR = kiosk().bodies[2].pieces[0]
 MIDDLE = (DOOR.min(axis=0) + DOOR.max(axis=0)) / 2.0
 SCALED = f'{SHAPE[:-2]} scale="1e3 1e3 1e3"/>'
-FLAT = DOOR * [1.0, 0.0, 1.0] + [0.0, -0.013, 0.0] - DOOR_FRAME
+FLAT = obj(
+    DOOR * [1.0, 0.0, 1.0] + [0.0, -0.013, 0.0] - DOOR_FRAME,
+    np.array([[0, 1, 3], [0, 3, 2], [4, 5, 7]]),
+)
 SHORT = box((0.0, -0.013, 0.45), (0.6, 0.018, 0.29))
 SHEET = box((0.0, -0.013, 0.5), (0.6, 0.006, 0.396))
-KNIFE = _wedge(SHEET, 0.5)
 THICK = box((0.0, -0.064, 0.5), (0.6, 0.12, 0.396))
 THIN = box((0.0, -0.013, 0.5), (0.6, 0.002, 0.396))
 CRUMBS = tuple(box((x, -0.013, 0.5), (0.008, 0.018, 0.396)) for x in np.linspace(-0.296, 0.296, 65))
 BALL = trimesh.creation.icosphere(subdivisions=3, radius=0.05).vertices
-KNOB = shifted(BALL, 0.2, -0.08, 0.5)
-BOWL = "".join(f"v {words(v)}\n" for v in _notched()) + "".join(
-    "f {} {} {}\n".format(*(f + 1)) for f in NOTCH_FACES
-)
+ROUND = with_body(kiosk(), "door", pieces=(DOOR, np.add(BALL, (0.2, -0.08, 0.5))))
 ERRORS = listed(
     ("two_roots.urdf", "not_a_tree", in_urdf(LID, f'<link name="loose"/>{LID}')),
     ("two_parents.urdf", "not_a_tree", in_urdf("</robot>", f"{SECOND}</robot>")),
@@ -135,7 +119,7 @@ ERRORS = listed(
     ("joints_named_alike.urdf", "duplicate_name", in_urdf('"hinge" type', '"slide" type')),
     ("planar_joint.urdf", "unknown_joint_type", in_urdf('"prismatic"', '"planar"')),
     ("box_inside_out.urdf", "invalid_size", in_urdf(SHAPE, '<box size="-1 1 1"/>')),
-    ("hinge_axis_of_length_2.urdf", "axis_not_unit", restated(URDF, HINGE_AXIS, xyz="0 0 -2")),
+    ("hinge_axis_of_length_2.urdf", "axis_not_unit", restated(URDF, f"{HINGE}/axis", xyz="0 0 -2")),
     ("axis_zero.urdf", "zero_axis", restated(URDF, f"{SLIDE}/axis", xyz="0 0 0")),
     ("no_limits.urdf", "missing_limits", edited(URDF, (STATED, ""))),
     ("limits_infinite.urdf", "limits_not_finite", restated(URDF, LIMIT, upper="inf")),
@@ -163,10 +147,10 @@ ERRORS = listed(
     ("center_105_mm_out.mjcf", "center_outside", restated(MJCF, DOOR_BODY, pos=OUTSIDE)),
     ("door_without_inertia.urdf", "missing_inertia", _bare(URDF, ".//link[@name='door']")),
     ("collision_in_millimetres.urdf", "collision_scale", in_urdf(SHAPE, SCALED)),
-    ("flat_collision.urdf", "degenerate_collision", filed(URDF, {HULL: _flat(FLAT)})),
+    ("flat_collision.urdf", "degenerate_collision", filed(URDF, {HULL: FLAT})),
     ("collision_too_short.urdf", "collision_gap", urdf(_touched(SHORT))),
     ("collision_shrunk.urdf", "collision_gap", urdf(_touched(0.3 * DOOR + 0.7 * MIDDLE))),
-    ("collision_knife_edge.urdf", "collision_gap", urdf(_touched(KNIFE, seen=SHEET))),
+    ("collision_knife_edge.urdf", "collision_gap", urdf(_touched(_wedge(SHEET, 0.5), seen=SHEET))),
     engines=HELD,
 )
 #: Reported, and no reason to reject.
@@ -183,12 +167,8 @@ WARNINGS = listed(
     ("no_inertia_of_the_base.urdf", "missing_inertia", _bare(URDF, "link[@name='carcass']")),
     ("sheet_metal.urdf", "oblong_hull", urdf(_touched(THIN, seen=THIN))),
     ("crumbs.urdf", "many_hulls", urdf(_touched(*CRUMBS))),
-    (
-        "round_knob.urdf",
-        "many_hull_vertices",
-        urdf(with_body(kiosk(), "door", pieces=(DOOR, KNOB))),
-    ),
-    ("notched_mesh.urdf", "nonconvex_collision", filed(URDF, {HULL: BOWL})),
+    ("round_knob.urdf", "many_hull_vertices", urdf(ROUND)),
+    ("notched_mesh.urdf", "nonconvex_collision", filed(URDF, {HULL: obj(*NOTCHED)})),
     ("collision_too_thick.urdf", "collision_gap", urdf(_touched(THICK))),
     severity="warning",
 )

@@ -4,7 +4,7 @@ import numpy as np
 
 from .exhibits import ENGINES, Exhibit, both, edited, mjcf, urdf
 from .good_things import BOARD, GAP, cabinet, oven
-from .things import Body, Move, Thing, at, box, shifted, with_body, with_move
+from .things import Body, Move, Thing, at, box, with_body, with_move
 
 
 def screw_in_the_way(at_value: float = 0.2017, width: float = 0.002) -> Thing:
@@ -51,13 +51,10 @@ def deadlock() -> Thing:
 
 def crossing() -> Thing:
     """Two drawers in two faces of a corner cabinet that meet only when both are open."""
-    base = box((0.0, 0.0, -0.2), (1.0, 1.0, 0.02))
-    left = box((-0.4, 0.1, 0.0), (0.2, 0.2, 0.1))
-    right = box((0.1, -0.4, 0.0), (0.2, 0.2, 0.1))
     bodies = (
-        Body("base", (base,), at(0, 0, 0), 10.0),
-        Body("left", (left,), at(-0.4, 0.1, 0.0), 1.0),
-        Body("right", (right,), at(0.1, -0.4, 0.0), 1.0),
+        Body("base", (box((0.0, 0.0, -0.2), (1.0, 1.0, 0.02)),), at(0, 0, 0), 10.0),
+        Body("left", (box((-0.4, 0.1, 0.0), (0.2, 0.2, 0.1)),), at(-0.4, 0.1, 0.0), 1.0),
+        Body("right", (box((0.1, -0.4, 0.0), (0.2, 0.2, 0.1)),), at(0.1, -0.4, 0.0), 1.0),
     )
     moves = (
         Move("left_slide", "prismatic", "base", "left", (1.0, 0.0, 0.0), 0.0, 0.45),
@@ -95,16 +92,14 @@ def knuckle(length: float) -> Thing:
 
 def _longer(tub: tuple[np.ndarray, ...], more: float) -> tuple[np.ndarray, ...]:
     """The drawer with its back moved further in [m]."""
-    return tuple(np.where(piece > 0.3, shifted(piece, 0.0, more, 0.0), piece) for piece in tub)
+    return tuple(np.where(piece > 0.3, np.add(piece, (0.0, more, 0.0)), piece) for piece in tub)
 
 
 def _shifted(thing: Thing, index: int, by: tuple[float, float, float]) -> Thing:
     """The thing with one body elsewhere, frame and all [m]."""
     body = thing.bodies[index]
-    frame = body.frame.copy()
-    frame[:3, 3] += by
-    pieces = tuple(piece + np.array(by) for piece in body.pieces)
-    return with_body(thing, body.name, pieces=pieces, frame=frame)
+    pieces = tuple(np.add(piece, by) for piece in body.pieces)
+    return with_body(thing, body.name, pieces=pieces, frame=at(*by) @ body.frame)
 
 
 CABINET = cabinet()
@@ -113,7 +108,6 @@ WIDE = (*(piece * [0.574 / 0.556, 1.0, 1.0] for piece in TUB[:-1]), TUB[-1])
 LOW = DOOR + np.where(DOOR[:, 2:] < 0.4, [[0.0, 0.0, -0.012]], [[0.0, 0.0, 0.0]])
 LONG = with_body(CABINET, "drawer", pieces=_longer(TUB, 0.013 + 2 * GAP))
 FILLED = with_body(CABINET, "carcass", pieces=(np.vstack(SHELL),), looks=SHELL)
-FAR = with_body(CABINET, "door", frame=at(-0.3, -2.0, 0.5))
 EXCLUDE = '<contact><exclude body1="drawer" body2="carcass"/></contact></mujoco>'
 WIDER = with_body(CABINET, "drawer", pieces=tuple(piece * [1.03, 1.0, 1.0] for piece in TUB))
 EXCLUDED = edited(mjcf(WIDER), ("</mujoco>", EXCLUDE))
@@ -141,7 +135,7 @@ BROKEN = (
     Exhibit("each_bars_the_other.urdf", urdf(deadlock()), SWEEP, engines=ALL_JAM),
     Exhibit("each_bars_the_other.mjcf", mjcf(deadlock()), SWEEP, engines={"mujoco": "jammed"}),
     # Nothing ever meets anything, because it moves where nothing is, or not at all.
-    *both("hinge_far_away", FAR, "axis_remote"),
+    *both("hinge_far_away", with_body(CABINET, "door", frame=at(-0.3, -2.0, 0.5)), "axis_remote"),
     *both("hinge_askew", with_move(CABINET, "hinge", axis=ASKEW), "axis_oblique"),
     *both("lid_next_door", _shifted(CABINET, 3, (30.0, 0.0, 0.0)), "part_remote"),
     *both("lid_in_the_air", _shifted(CABINET, 3, (0.0, 0.0, 0.3)), "part_detached"),

@@ -9,8 +9,6 @@ from typing import Literal
 from .things import Thing, write_mjcf, write_urdf
 
 ENGINES = ("sapien", "mujoco", "pybullet")
-#: Everybody who has a word: the checks without a simulator, and each engine.
-DETECTORS = ("static", *ENGINES)
 #: Writes a file into an empty folder and returns the description's path.
 Builder = Callable[[Path], Path]
 Severity = Literal["error", "warning", "note"]

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .things import Body, FloatArray, Move, Thing, at, box, shifted
+from .things import Body, FloatArray, Move, Thing, at, box
 
 #: Thickness of every board, and the gap between neighbours [m].
 BOARD = 0.018
@@ -47,10 +47,8 @@ def cabinet() -> Thing:
     bottom = BOARD + GAP
     top = middle - BOARD / 2 - GAP
     tub = drawer(inside - 2 * GAP, bottom, top, d - BOARD - GAP, (w, middle - GAP))
-    tub = (
-        *(shifted(piece, 0.0, -GAP, 0.0) for piece in tub[:-1]),
-        shifted(tub[-1], 0.0, -GAP, -0.003),
-    )
+    *walls, front = (np.add(piece, (0.0, -GAP, 0.0)) for piece in tub)
+    tub = (*walls, np.add(front, (0.0, 0.0, -0.003)))
     door = box((0.0, -GAP - BOARD / 2, (middle + h) / 2), (w, BOARD, h - middle - GAP))
     lid = box((0.0, d / 2, h + GAP + BOARD / 2), (w, d, BOARD))
     bodies = (
@@ -70,16 +68,12 @@ def cabinet() -> Thing:
 def kiosk() -> Thing:
     """The simplest thing with the cabinet's names: a block, two panels before it, one on top."""
     front = -GAP - BOARD / 2
+    lid = box((0.0, 0.2, 0.7 + GAP + BOARD / 2), (0.6, 0.4, BOARD))
     bodies = (
         Body("carcass", (box((0.0, 0.2, 0.35), (0.6, 0.4, 0.7)),), at(0, 0, 0), 20.0),
         Body("drawer", (box((0.0, front, 0.15), (0.6, BOARD, 0.29)),), at(0, -GAP, 0.15), 3.0),
         Body("door", (box((0.0, front, 0.5), (0.6, BOARD, 0.396)),), at(-0.3, -GAP, 0.5), 2.5),
-        Body(
-            "lid",
-            (box((0.0, 0.2, 0.7 + GAP + BOARD / 2), (0.6, 0.4, BOARD)),),
-            at(0, 0.4, 0.7 + GAP),
-            2.5,
-        ),
+        Body("lid", (lid,), at(0, 0.4, 0.7 + GAP), 2.5),
     )
     return Thing("kiosk", bodies, cabinet().moves)
 
@@ -114,7 +108,7 @@ def oven() -> Thing:
     door = box((0.0, -GAP - 0.02, 0.3), (w - 0.04, 0.04, 0.48))
     rack = box((0.0, 0.25, 0.25), (w - 2 * BOARD - 2 * GAP, 0.44, 0.01))
     bodies = (
-        Body("shell", (*carcass((w, d, h)),), at(0, 0, 0), 30.0),
+        Body("shell", carcass((w, d, h)), at(0, 0, 0), 30.0),
         Body("door", (door,), at(0, -GAP, 0.06), 5.0),
         Body("rack", (rack,), at(0, 0.03, 0.25), 1.5),
     )
@@ -127,10 +121,9 @@ def oven() -> Thing:
 
 def laptop(gap: float = GAP) -> Thing:
     """A thin slab on another, a gap between them [m], hinged at the rear edge, closed at 0."""
-    base = box((0.0, 0.11, 0.01), (0.32, 0.22, 0.02))
     screen = box((0.0, 0.11, 0.02 + gap + 0.004), (0.32, 0.22, 0.008))
     bodies = (
-        Body("base", (base,), at(0, 0, 0), 1.2),
+        Body("base", (box((0.0, 0.11, 0.01), (0.32, 0.22, 0.02)),), at(0, 0, 0), 1.2),
         Body("screen", (screen,), at(0, 0.22, 0.02 + gap), 0.5),
     )
     return Thing(
@@ -140,13 +133,11 @@ def laptop(gap: float = GAP) -> Thing:
 
 def nested() -> Thing:
     """A small drawer that slides out of the inner side of a swinging door."""
-    shell = carcass((0.6, 0.4, 0.7))
     door = box((0.0, -GAP - BOARD / 2, 0.35), (0.6, BOARD, 0.7))
-    tray = box((0.0, 0.06, 0.35), (0.3, 0.1, 0.1))
     bodies = (
-        Body("carcass", shell, at(0, 0, 0), 20.0),
+        Body("carcass", carcass((0.6, 0.4, 0.7)), at(0, 0, 0), 20.0),
         Body("door", (door,), at(-0.3, -GAP, 0.35), 2.5),
-        Body("tray", (tray,), at(0.0, 0.06, 0.35), 0.5),
+        Body("tray", (box((0.0, 0.06, 0.35), (0.3, 0.1, 0.1)),), at(0.0, 0.06, 0.35), 0.5),
     )
     moves = (
         Move("hinge", "revolute", "carcass", "door", (0.0, 0.0, -1.0), 0.0, 1.57),

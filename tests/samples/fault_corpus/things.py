@@ -12,7 +12,7 @@ import numpy as np
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from asset_factory.sim_checks.description import FloatArray, Mimic
+from asset_factory.sim_checks.description import FloatArray, IntArray, Mimic
 from asset_factory.sim_checks.geometry.placing import placed, rigid
 from asset_factory.sim_checks.read import primitives
 
@@ -63,11 +63,6 @@ def box(center: Sequence[float], size: Sequence[float]) -> FloatArray:
     """Corners of a box [m], shape [8, 3]."""
     corners, _ = primitives.box(np.asarray(size, dtype=float))
     return corners + np.asarray(center, dtype=float)
-
-
-def shifted(corners: FloatArray, x: float, y: float, z: float) -> FloatArray:
-    """Points moved [m]."""
-    return corners + np.array([x, y, z])
 
 
 def at(*origin: float) -> FloatArray:
@@ -228,9 +223,7 @@ def _write(body: Body, folder: Path, *, looks: bool = False) -> list[str]:
     for index, corners in enumerate(pieces):
         hull = trimesh.convex.convex_hull(_local(body, corners))
         file = f"{body.name}_{'seen' if looks else 'hull'}_{index}.obj"
-        lines = [f"v {words(vertex)}" for vertex in hull.vertices]
-        lines += ["f {} {} {}".format(*(face + 1)) for face in hull.faces]
-        (folder / file).write_text("\n".join([*lines, ""]))
+        (folder / file).write_text(obj(hull.vertices, hull.faces))
         files.append(file)
     return files
 
@@ -251,6 +244,12 @@ def _local(body: Body, corners: FloatArray) -> FloatArray:
 
 def _body(thing: Thing, name: str) -> Body:
     return next(body for body in thing.bodies if body.name == name)
+
+
+def obj(vertices: FloatArray, faces: IntArray) -> str:
+    """A mesh as the text of an OBJ file."""
+    corners = "".join(f"v {words(vertex)}\n" for vertex in vertices)
+    return corners + "".join("f {} {} {}\n".format(*(face + 1)) for face in faces)
 
 
 def words(values: object) -> str:

@@ -116,8 +116,7 @@ def test_a_joints_visible_clearance_stands_beside_its_hulls():
         replace(shape, vertices=shape.vertices * [(0.279 / 0.28), 1.0, 1.0])
         for shape in slim.links[1].visuals[:2]
     )
-    result = penetrating(with_link(slim, "drawer", visuals=visuals))
-    slide = rows(result)["slide"]
+    slide = rows(penetrating(with_link(slim, "drawer", visuals=visuals)))["slide"]
     assert slide["clearance_mm"] == pytest.approx(2.0, abs=0.05)
     assert slide["visual_clearance_mm"] == pytest.approx(3.0, abs=0.05)
 

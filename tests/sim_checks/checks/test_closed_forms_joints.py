@@ -48,8 +48,7 @@ def codes(result):
 def doorway(still, door, axis):
     """A door hinged about an axis through the world's origin, and what stands beside it."""
     bodies = (Body("wall", (still,), at(0, 0, 0), 5.0), Body("door", (door,), at(0, 0, 0), 2.0))
-    hinge = Move("hinge", "revolute", "wall", "door", axis, 0.0, 1.5)
-    return Thing("doorway", bodies, (hinge,))
+    return Thing("doorway", bodies, (Move("hinge", "revolute", "wall", "door", axis, 0.0, 1.5),))
 
 
 def tray(side, top, back, travel=0.3):
@@ -213,9 +212,8 @@ def test_neither_place_nor_pose_nor_size_changes_the_verdict(thing, seed, shift,
     other = moved(thing, pose, scale)
     other = replace(other, bodies=tuple(_reframed(body, generator) for body in other.bodies))
     lengths = ("rest_m", "excess_m", "clearance_m", "hinge_radius_m")
-    grown = replace(WIDE, **{name: scale * getattr(WIDE, name) for name in lengths})
     before = judged(thing, WIDE)
-    after = judged(other, grown)
+    after = judged(other, replace(WIDE, **{name: scale * getattr(WIDE, name) for name in lengths}))
     assert codes(before) == codes(after)
     slack = 2 * SURE * max(1.0, 1.0 / scale)
     assert numbers(after) / scale == pytest.approx(numbers(before), abs=slack, rel=0.03)

@@ -160,7 +160,6 @@ def test_pybullet_holds_what_little_more_friction_than_weight_should(tmp_path):
     path = edited(urdf(button()), rubbing)(tmp_path)
     observation = observe("pybullet", path, CONFIG, ())
     assert [item.moved for item in observation.holds] == pytest.approx([0.0] * 3, abs=1e-6)
-    engine = simulator("pybullet")
-    result = check_creep(read_description(path), engine, observation, CheckConfig())
+    result = check_creep(read_description(path), simulator("pybullet"), observation, CheckConfig())
     assert result.findings == ()
     assert [row["load"] for row in result.measurements["hold"]] == pytest.approx([WEIGHT] * 3)

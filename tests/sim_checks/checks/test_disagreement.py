@@ -151,12 +151,9 @@ def test_dropped_friction_is_the_reason_where_nothing_is_in_the_way():
 
 
 def test_a_joint_that_follows_in_one_engine_and_not_in_another():
-    pushed = motion(others_moved=0.6, pushed="leaf")
-    measurements = {
-        "sapien": said(motion(), coupled=("leaf",)),
-        "mujoco": said(motion(), coupled=("leaf",)),
-        "pybullet": said(pushed),
-    }
+    coupled = said(motion(), coupled=("leaf",))
+    pushed = said(motion(others_moved=0.6, pushed="leaf"))
+    measurements = {"sapien": coupled, "mujoco": coupled, "pybullet": pushed}
     found = only(no("others_moved", "pybullet"), measurements)
     assert found.question == "leaves_others"
     obeyed = "the file couples joints, which SAPIEN and MuJoCo obeyed and PyBullet did not"

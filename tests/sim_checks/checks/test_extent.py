@@ -4,6 +4,7 @@ A file beyond them is not judged, says what was not looked at, and never passes.
 """
 
 from dataclasses import replace
+from unittest.mock import patch
 
 import pytest
 from box_world import cabinet, chain, keyboard, write_drawer
@@ -49,8 +50,7 @@ def test_a_chain_moves_half_the_square_of_its_links():
 
 def test_too_many_looks_are_no_verdict():
     description = cabinet()
-    judged = check_penetration(description, PenetrationConfig())
-    assert not judged.findings
+    assert not check_penetration(description, PenetrationConfig()).findings
     (found,) = check_penetration(description, PenetrationConfig(), most_looks=3).findings
     assert found.code == "too_large_to_judge"
     assert (found.value, found.limit) == (4, 3)
@@ -67,9 +67,8 @@ def test_a_simulator_is_not_asked_for_more_than_it_can_drive():
 
 def test_what_is_too_large_never_passes(tmp_path):
     path = write_drawer(tmp_path / "drawer.urdf", 0.004)
-    small = replace(CheckConfig(), work=replace(PLENTY, hulls=1))
     assert examine_here(path, CheckConfig()).description is not None
-    report = run_checks(path, ("mujoco",), small)
+    report = run_checks(path, ("mujoco",), replace(CheckConfig(), work=replace(PLENTY, hulls=1)))
     assert [finding.code for finding in report.findings] == ["too_large_to_judge"]
     assert report.status is Status.UNJUDGED
 
@@ -77,19 +76,10 @@ def test_what_is_too_large_never_passes(tmp_path):
 POSING = (kinematics, "joint_motion")
 
 
-def counted(monkeypatch, owner, name, check, description, config):
-    calls = 0
-    original = getattr(owner, name)
-
-    def call(*args, **named):
-        nonlocal calls
-        calls += 1
-        return original(*args, **named)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(owner, name, call)
+def counted(owner, name, check, description, config):
+    with patch.object(owner, name, autospec=True, side_effect=getattr(owner, name)) as call:
         check(description, config)
-    return calls
+    return call.call_count
 
 
 @pytest.mark.parametrize(
@@ -103,8 +93,6 @@ def counted(monkeypatch, owner, name, check, description, config):
         (*POSING, check_standing, StandingConfig(), keyboard),
     ],
 )
-def test_twice_the_links_take_twice_the_work(owner, name, check, config, make, monkeypatch):
-    small, large = (
-        counted(monkeypatch, owner, name, check, make(count), config) for count in (12, 24)
-    )
+def test_twice_the_links_take_twice_the_work(owner, name, check, config, make):
+    small, large = (counted(owner, name, check, make(count), config) for count in (12, 24))
     assert 0 < large <= 2.5 * small

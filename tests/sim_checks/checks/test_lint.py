@@ -21,8 +21,8 @@ def found(description):
     return {each.code: each.severity for each in linted(description)}
 
 
-def inertia(mass=2.0, moments=(0.01, 0.01, 0.01), at=-0.2):
-    return {"inertia": LinkInertia(mass, np.array([0.0, at, 0.2]), np.diag(moments))}
+def inertia(mass=2.0, moments=(0.01, 0.01, 0.01)):
+    return {"inertia": LinkInertia(mass, np.array([0.0, -0.2, 0.2]), np.diag(moments))}
 
 
 DRAWER = cabinet().links[1].collisions
@@ -95,15 +95,13 @@ def test_what_lies_beyond_a_knife_s_edge_is_not_covered(wedges, covered):
     panel = body("panel", [((0.0, 0.0, 0.0), (0.6, 0.006, 0.4))])
     panel = replace(panel, collisions=tuple(wedge(*ends) for ends in wedges))
     result = check_lint(described([panel], []), LintConfig())
-    told = result.measurements["links"][0]["covered"]
-    assert told == pytest.approx(covered, abs=0.05)
+    assert result.measurements["links"][0]["covered"] == pytest.approx(covered, abs=0.05)
     codes = {finding.code for finding in result.findings if finding.severity is HARD}
     assert codes == ({"collision_gap"} if covered < 0.9 else set())
 
 
 def test_the_ratio_of_hull_to_mesh_volume_is_told():
-    hollow = with_link(cabinet(), "drawer", collisions=(HOLLOW,))
-    (finding,) = linted(hollow, "nonconvex_collision")
+    (finding,) = linted(with_link(cabinet(), "drawer", collisions=(HOLLOW,)), "nonconvex_collision")
     assert finding.value == pytest.approx(4.5, abs=1.5)
 
 

@@ -15,8 +15,7 @@ DIAGONAL = 1.3
 
 
 def block(mass=50.0, center=(0.0, 0.0, 0.0), **changes):
-    tensor = mass * np.diag([1.6, 1.53, 0.25]) / 12.0
-    inertia = LinkInertia(mass, np.array(center), tensor)
+    inertia = LinkInertia(mass, np.array(center), mass * np.diag([1.6, 1.53, 0.25]) / 12.0)
     return replace(body("block", [((0.0, 0.0, 0.0), SIZE)]), **{"inertia": inertia, **changes})
 
 

@@ -56,8 +56,7 @@ HANDLE = (
 
 def seen_and_touched(seen, touched):
     visuals, collisions = (body("part", boxes).visuals for boxes in (seen, touched))
-    meshes = tuple(replace(shape, kind="mesh") for shape in visuals)
-    return Link("part", None, collisions, meshes)
+    return Link("part", None, collisions, tuple(replace(shape, kind="mesh") for shape in visuals))
 
 
 def thin_tube():
@@ -75,8 +74,7 @@ def dense_balls(highest):
         replace(s, faces=s.faces[s.vertices[s.faces][:, :, 2].max(axis=1) < highest])
         for s in (shape, replace(shape, vertices=0.9 * shape.vertices))
     )
-    cube = (box_shape((0.0, 0.0, -0.125), (0.6, 0.6, 0.35)),)
-    return Link("ball", None, cube, shells)
+    return Link("ball", None, (box_shape((0.0, 0.0, -0.125), (0.6, 0.6, 0.35)),), shells)
 
 
 def told(link, down=DOWN):

@@ -1,10 +1,9 @@
 """Ranges, axes, drives and resistance of a size that no such object has."""
 
 import math
-from dataclasses import replace
 
 import pytest
-from box_world import body, cabinet, described, joint, linted, with_joint
+from box_world import body, built, cabinet, linted, turning, with_joint
 
 from asset_factory.sim_checks.report import Report, Severity
 
@@ -60,29 +59,22 @@ def test_a_range_is_told_with_the_longest_that_is_fair(name, upper, limit):
 
 def hinged(distance):
     """A 0.4 x 0.3 x 0.02 m flap beside a cube, hinged at its edge or ``distance`` [m] off both."""
-    links = [
-        body("base", [((0.3, 0.0, 0.0), (0.2, 0.2, 0.2))]),
-        body("flap", [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))], (0.0, distance + 0.15, 0.0)),
-    ]
-    hinge = joint("hinge", "revolute", "base", "flap", (0, distance + 0.15, 0), (1, 0, 0), (0, 1))
-    return described(links, [hinge])
+    base = body("base", [((0.3, 0.0, 0.0), (0.2, 0.2, 0.2))])
+    flap = [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))]
+    return built(turning("flap", flap, (0.0, distance + 0.15, 0.0), (1, 0, 0), 1.0), base=base)
 
 
 def arm():
     """What reaches 3 m from its hinge on the base."""
-    links = [body("base", [((0, 0, 0), [0.2] * 3)]), body("tip", [((3, 0, 0), [0.1] * 3)])]
-    hinge = joint("hinge", "revolute", "base", "tip", (0, 0, 0), (0, 0, 1), (0.0, 1.0))
-    return described(links, [hinge])
+    tip = turning("tip", [((3, 0, 0), [0.1] * 3)], (0.0, 0.0, 0.0), (0, 0, 1), 1.0)
+    return built(tip, base=body("base", [((0, 0, 0), [0.2] * 3)]))
 
 
 def lamp(gap):
     """A 0.2 m cube that turns on the spot, ``gap`` [m] beside a 0.4 x 0.3 x 0.02 m shelf."""
-    links = [
-        body("shelf", [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))]),
-        body("lamp", [((gap + 0.1, 0.0, 0.0), (0.2, 0.2, 0.2))], (gap, 0.0, 0.0)),
-    ]
-    turn = joint("turn", "revolute", "shelf", "lamp", (gap, 0.0, 0.0), (0, 0, 1), (0.0, 1.0))
-    return described(links, [turn])
+    cube = [((gap + 0.1, 0.0, 0.0), (0.2, 0.2, 0.2))]
+    shelf = body("base", [((-0.2, 0.0, 0.0), (0.4, 0.3, 0.02))])
+    return built(turning("lamp", cube, (gap, 0.0, 0.0), (0, 0, 1), 1.0), base=shelf)
 
 
 REACH = 0.5
@@ -94,12 +86,9 @@ STIFF = 240.0 * 2.0 * (REACH**2 / 3.0 + 1e-6 / 12.0)
 
 def door(**resistance):
     """A thin door 0.5 m wide that turns by 1.5 rad, hinged at its edge."""
-    links = [
-        body("frame", [((-0.1, 0.0, 0.0), (0.1, 0.1, 1.0))]),
-        body("door", [((REACH / 2, 0.0, 0.0), (REACH, 1e-3, 1.0))]),
-    ]
-    hinge = joint("hinge", "revolute", "frame", "door", (0.0, 0.0, 0.0), (0, 0, 1), (0.0, 1.5))
-    return described(links, [replace(hinge, **resistance)])
+    panel = [((REACH / 2, 0.0, 0.0), (REACH, 1e-3, 1.0))]
+    leaf = turning("door", panel, (0.0, 0.0, 0.0), (0, 0, 1), 1.5, **resistance)
+    return built(leaf, base=body("base", [((-0.1, 0.0, 0.0), (0.1, 0.1, 1.0))]))
 
 
 @pytest.mark.parametrize(
@@ -112,7 +101,7 @@ def door(**resistance):
         (hinged(1.1), "axis_remote", ERROR, 1.1),
         (arm(), "axis_remote", None, None),
         # A slide has no axis that could be far.
-        (with_joint(hinged(2.0), "hinge", kind="prismatic"), "axis_remote", None, None),
+        (with_joint(hinged(2.0), "flap", kind="prismatic"), "axis_remote", None, None),
         (lamp(0.0), "part_remote", None, None),
         (lamp(0.49), "part_remote", None, None),
         (lamp(0.51), "part_remote", ERROR, 0.51),

@@ -85,8 +85,7 @@ def shifted(by, *links):
 
 
 def on_the_ground(observation):
-    ground = LoadedLink("world", 0.0, 0, None, static=True)
-    links = (ground, *observation.model.links)
+    links = (LoadedLink("world", 0.0, 0, None, static=True), *observation.model.links)
     return replace(observation, model=replace(observation.model, links=links))
 
 
@@ -170,14 +169,12 @@ def test_a_mass_for_a_link_that_states_none_is_invented(tmp_path):
 
 
 def test_an_axis_that_is_turned_round_is_told_in_degrees(description):
-    turned = held("hinge", axis=(0.0, 0.0, -1.0))(faithful(description))
-    (finding,) = found(description, turned)
+    (finding,) = found(description, held("hinge", axis=(0.0, 0.0, -1.0))(faithful(description)))
     assert (finding.code, finding.value, finding.unit) == ("axis_mismatch", 180.0, "deg")
 
 
 def test_the_mass_of_a_base_that_never_moves_is_compared_where_it_is_held(description):
-    lighter = held("carcass", mass=1.0, static=True)(faithful(description))
-    (finding,) = found(description, lighter)
+    (finding,) = found(description, held("carcass", mass=1.0, static=True)(faithful(description)))
     assert (finding.code, finding.severity) == ("mass_mismatch", Severity.WARNING)
 
 

@@ -39,8 +39,7 @@ def test_a_follower_goes_by_its_leader_and_a_chain_by_its_head(value, multiplier
 
 
 def test_a_follower_s_own_value_counts_where_it_is_given():
-    description = three(b=Mimic("a", 2.0), c=Mimic("b"))
-    assert places(description, {"a": 0.1, "b": 0.7}) == [0.1, 0.7, 0.7]
+    assert places(three(b=Mimic("a", 2.0), c=Mimic("b")), {"a": 0.1, "b": 0.7}) == [0.1, 0.7, 0.7]
 
 
 def test_only_free_joints_are_chosen_and_each_knows_who_follows_it():
@@ -66,8 +65,7 @@ def test_only_free_joints_are_chosen_and_each_knows_who_follows_it():
     ],
 )
 def test_a_leader_goes_as_far_as_its_followers_can(mimic, expected):
-    tree = build_tree(three(b=mimic))
-    found = tree.ranges.get("a")
+    found = build_tree(three(b=mimic)).ranges.get("a")
     assert found == (None if expected is None else pytest.approx(expected))
 
 
@@ -82,8 +80,7 @@ def test_a_follower_that_turns_far_enough_does_not_stop_its_leader(changes):
 
 def test_followers_that_agree_with_their_leader_but_not_with_each_other_hold_it_fast():
     description = three(b=Mimic("a", 1.0, 0.6), c=Mimic("a", 1.0, -0.6))
-    tree = build_tree(description)
-    assert tree.ranges.get("a") is None
+    assert build_tree(description).ranges.get("a") is None
     found = linted(description, "mimic")
     assert [(f.joint, str(f.severity), f.code) for f in found] == [
         (name, "error", "mimic_limits") for name in ("b", "c")

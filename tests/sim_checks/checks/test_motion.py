@@ -220,8 +220,7 @@ def test_of_joints_that_move_together_one_that_opens_speaks_for_all():
 
 
 def test_what_only_contact_moves_is_seen_at_rest():
-    calm = Sliders([2.0], weight=20.0)
-    assert rest(calm, CONFIG)[0].drift == 0.0
+    assert rest(Sliders([2.0], weight=20.0), CONFIG)[0].drift == 0.0
     pushed = Sliders([2.0])
     pushed.push = 0.05
     # 0.5 a t^2, and the work of the push
@@ -269,8 +268,7 @@ def test_a_block_opens_by_itself_where_its_weight_opens_it(weight, opened):
 def test_energy_from_nowhere_is_seen_in_a_fall_and_after_letting_go():
     world = Sliders([2.0], weight=0.5)
     world.push = 1.0
-    fallen = fall(world, CONFIG)
-    assert fallen.energy == pytest.approx(1.0 * 0.3, rel=0.05)
+    assert fall(world, CONFIG).energy == pytest.approx(1.0 * 0.3, rel=0.05)
     world.place(np.zeros(1))
     gain = let_go(world, CONFIG)
     # 0.5 m (a t)^2

@@ -71,22 +71,16 @@ def test_what_waits_for_a_door_that_never_opens_is_stuck_too():
     post = body("base", [((0, 0, -1), (4, 4, 0.1)), ((0.5, -0.05, 0.0), (0.05, 0.04, 2))])
     result, joints = checked(built(DRAWER, DOOR, base=post))
     assert hard(result) == [("sweep_penetration", "drawer"), ("sweep_penetration", "door")]
-    assert {name: row["waits_for"] for name, row in joints.items()} == {
-        "drawer": ["door"],
-        "door": [],
-    }
+    waiting = {name: row["waits_for"] for name, row in joints.items()}
+    assert waiting == {"drawer": ["door"], "door": []}
     assert "door would have to make way" in result.findings[0].message
 
 
 def test_doors_that_open_only_one_at_a_time_do_not_free_what_needs_both():
     """Each opens alone, but both end in one place: what is behind the two stays shut."""
     left = gate("left", (-0.15, -0.05, 0.0), (0.28, 0.04, 0.4), (0.0, 0.0, 1.0))
-    boxes = [
-        ((0.15, -0.05, 0), (0.28, 0.04, 0.4)),
-        ((-0.45, -0.05, 1), (0.1, 0.04, 0.1)),
-    ]
-    right = sliding("right", boxes, (1.0, 0.0, 0.0), 0.3)
-    result, joints = checked(built(DRAWER, left, right))
+    boxes = [((0.15, -0.05, 0), (0.28, 0.04, 0.4)), ((-0.45, -0.05, 1), (0.1, 0.04, 0.1))]
+    result, joints = checked(built(DRAWER, left, sliding("right", boxes, (1.0, 0.0, 0.0), 0.3)))
     assert set(hard(result)) == {("sweep_penetration", "drawer")}
     assert [joints[name]["needs_open"] for name in ("left", "right")] == [[], []]
     assert joints["drawer"]["clear_until"] == pytest.approx(0.03, abs=0.005)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from box_world import write_urdf
+from box_world import joint_text, write_urdf
 from engines import skipped_if_missing
 
 from asset_factory.sim_checks.config import MotionConfig
@@ -48,14 +48,9 @@ APART = {
 }
 
 
-def write_world(folder, kind):
-    places, joints = WORLDS[kind]
-    text = "".join(
-        f'<joint name="{child}_joint" type="{word}"><parent link="{parent}"/>'
-        f'<child link="{child}"/>'
-        '<axis xyz="1 0 0"/><limit lower="0" upper="0.5" effort="1" velocity="1"/></joint>'
-        for word, parent, child in joints
-    )
+def write_world(folder, name):
+    places, joints = WORLDS[name]
+    text = "".join(joint_text(child, "1 0 0", 0.5, parent, kind) for kind, parent, child in joints)
     return write_urdf(folder, {name: ((x, 0.0, 0.0), CUBE) for name, x in places.items()}, text)
 
 
@@ -107,24 +102,22 @@ def test_what_an_mjcf_exempts_is_named_and_does_not_touch(tmp_path, exemption):
     assert rules.words()["excluded"] == [["a", "b"]]
 
 
-def test_what_an_srdf_exempts_is_named_and_does_not_touch_in_sapien(tmp_path):
-    pytest.importorskip("sapien")
-    path = write_world(tmp_path, "siblings")
-    path.with_suffix(".srdf").write_text(
-        '<robot name="boxes"><disable_collisions link1="a" link2="b" reason="Default"/></robot>'
-    )
-    pressing, rules = look(path, "sapien")
-    assert (pressing, rules.excluded) == (set(), (("a", "b"),))
+BARE = '<disable_collisions link1="b" link2="a"/><disable_collisions link1="a" link2="gone"/>'
 
 
-@pytest.mark.parametrize("engine", ["mujoco", "pybullet"])
-def test_what_an_srdf_exempts_does_not_touch_in_engines_that_read_none(tmp_path, engine):
+@pytest.mark.parametrize(
+    ("engine", "exempt"),
+    [
+        # It reads the file itself, wants reasons and knows of no link that is gone.
+        ("sapien", '<disable_collisions link1="a" link2="b" reason="Default"/>'),
+        ("mujoco", BARE),
+        ("pybullet", BARE),
+    ],
+)
+def test_what_an_srdf_exempts_is_named_and_does_not_touch(tmp_path, engine, exempt):
     pytest.importorskip(engine)
     path = write_world(tmp_path, "siblings")
     assert look(path, engine)[0] == {("a", "b")}
-    path.with_suffix(".srdf").write_text(
-        '<robot name="boxes"><disable_collisions link1="b" link2="a"/>'
-        '<disable_collisions link1="a" link2="gone"/></robot>'
-    )
+    path.with_suffix(".srdf").write_text(f'<robot name="boxes">{exempt}</robot>')
     pressing, rules = look(path, engine)
     assert (pressing, rules.excluded) == (set(), (("a", "b"),))

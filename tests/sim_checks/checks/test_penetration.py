@@ -28,8 +28,7 @@ def test_each_defect_is_caught_by_its_own_code(defect, code, name, parts, depth)
 
 
 def test_two_joints_are_looked_at_with_both_open():
-    ranges = {"a": (0.0, 1.0), "b": (-1.0, 2.0)}
-    assert combination_values(ranges, 0) == [{"a": 1.0, "b": 2.0}]
+    assert combination_values({"a": (0.0, 1.0), "b": (-1.0, 2.0)}, 0) == [{"a": 1.0, "b": 2.0}]
 
 
 def test_three_joints_that_run_parts_into_each_other_only_together_are_told():
@@ -53,10 +52,9 @@ def test_an_excluded_pair_excuses_no_other_pair_of_its_links():
 
 
 def test_links_joined_rigidly_are_one_body():
-    base = body("base", [((0.0, 0.0, 0.0), UNIT)])
-    plinth = body("plinth", [((0.0, 0.0, -0.4), UNIT)])
+    links = [body(name, [((0.0, 0.0, z), UNIT)]) for name, z in (("base", 0.0), ("plinth", -0.4))]
     weld = joint("weld", "fixed", "base", "plinth", (0, 0, 0), (1.0, 0.0, 0.0), None)
-    result = penetrating(described([base, plinth], [weld]))
+    result = penetrating(described(links, [weld]))
     assert result.findings == ()
     assert result.measurements["parts"] == [["base", "plinth"]]
 

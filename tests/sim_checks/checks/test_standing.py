@@ -147,8 +147,7 @@ def test_a_follower_leans_out_with_its_leader():
         sliding(name, [((0.0, 0.0, z), (0.5, 0.4, 0.2))], (0, -1, 0), 0.4, mimic=mimic)
         for name, z, mimic in (("lower", 0.4, None), ("upper", 0.65, Mimic("lower")))
     )
-    result = judged(of_masses({"lower": 5.0, "upper": 5.0}, lower, upper))
-    (row,) = result.measurements["joints"]
+    (row,) = judged(of_masses({"lower": 5.0, "upper": 5.0}, lower, upper)).measurements["joints"]
     assert row["margin_mm"] == pytest.approx(200.0 - 1000.0 * 10.0 * 0.4 / 20.0, abs=1e-3)
 
 
@@ -183,58 +182,46 @@ def test_what_has_no_masses_or_is_no_tree_gets_no_verdict():
     assert judged(replace(whole, joints=())) == CheckResult()
 
 
-def free_based(carcass_mass, door_mass, angle):
-    def geom(box, at, mass):
-        place = np.subtract(box[0], at)
-        size = np.asarray(box[1]) / 2.0
-        return f'<geom type="box" mass="{mass}" pos="{words(place)}" size="{words(size)}"/>'
+def geom(box, mass, origin=(0.0, 0.0, 0.0)):
+    """A box of MuJoCo's, in a body that lies at ``origin``."""
+    place = words(np.subtract(box[0], origin))
+    return f'<geom type="box" mass="{mass}" pos="{place}" size="{words(np.divide(box[1], 2.0))}"/>'
 
-    return f"""<mujoco><option timestep="0.002" impratio="10" cone="elliptic"/><worldbody>
-      <geom type="plane" size="5 5 0.1"/><body name="carcass"><freejoint/>
-      {geom(CARCASS, (0, 0, 0), carcass_mass)}
-      <body name="door" pos="{words(HINGE)}" axisangle="0 0 -1 {math.degrees(angle)}">
-        {geom(DOOR, HINGE, door_mass)}</body></body></worldbody>
-      <contact><exclude body1="carcass" body2="door"/></contact></mujoco>"""
+
+def falls(inside, pull=0.0):
+    """Whether MuJoCo sees a body topple on a floor, its front pulled harder and harder [N]."""
+    mujoco = pytest.importorskip("mujoco")
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><option timestep="0.001" impratio="10" cone="elliptic"/><worldbody>'
+        '<geom type="plane" size="5 5 0.1" friction="5 0.1 0.1"/>'
+        f'<body name="box"><freejoint/>{inside}</body></worldbody></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    hand = np.array([0.0, -0.4, 0.5])
+    for step in range(3000):
+        force = np.array([0.0, -pull * min(1.0, step / 1000), 0.0])
+        data.qfrc_applied[:] = 0.0
+        mujoco.mj_applyFT(
+            model, data, force, np.zeros(3), hand, model.body("box").id, data.qfrc_applied
+        )
+        mujoco.mj_step(model, data)
+    return float(data.body("box").xmat[8]) < math.cos(math.radians(2.0))
 
 
 @pytest.mark.parametrize("door_mass", [4.0, 6.0, 7.0, 10.0])
 def test_mujoco_with_a_free_base_falls_exactly_where_the_closed_form_says(door_mass):
-    mujoco = pytest.importorskip("mujoco")
     result = judged(with_door(door_mass))
     (row,) = result.measurements["joints"]
-    model = mujoco.MjModel.from_xml_string(free_based(10.0, door_mass, row["worst_at"]))
-    data = mujoco.MjData(model)
-    for _ in range(1500):
-        mujoco.mj_step(model, data)
+    place = f'pos="{words(HINGE)}" axisangle="0 0 -1 {math.degrees(row["worst_at"])}"'
     # The open door, 5 cm above the floor, catches the fall after some 4 degrees.
-    fell = float(data.body("carcass").xmat[8]) < math.cos(math.radians(2.0))
+    fell = falls(f"{geom(CARCASS, 10.0)}<body {place}>{geom(DOOR, door_mass, HINGE)}</body>")
     # The door that just holds: 10 kg * 0.2 m = 6.66 kg * 0.3002 m.
     assert fell == (row["margin_mm"] < 0.0) == (door_mass > 6.66)
     assert (("topples", "door") in codes(result)) == (row["margin_mm"] < 5.0)
 
 
-@pytest.mark.parametrize(("share", "falls"), [(0.97, False), (1.03, True)])
-def test_mujoco_is_pulled_over_by_exactly_the_tipping_force(share, falls):
-    mujoco = pytest.importorskip("mujoco")
-    drawer = ((0.0, 0.0, 0.4), (0.5, 0.4, 0.2))
-    (row,) = judged(with_drawer(3.0, 0.2, drawer)).measurements["joints"]
-    geoms = "".join(
-        f'<geom type="box" mass="{mass}" pos="{words(np.add(center, move))}" '
-        f'size="{words(np.divide(size, 2.0))}"/>'
-        for (center, size), mass, move in ((CARCASS, 10.0, (0, 0, 0)), (drawer, 3.0, (0, -0.2, 0)))
-    )
-    model = mujoco.MjModel.from_xml_string(
-        '<mujoco><option timestep="0.001" impratio="10" cone="elliptic"/><worldbody>'
-        '<geom type="plane" size="5 5 0.1" friction="5 0.1 0.1"/>'
-        f'<body name="box"><freejoint/>{geoms}</body></worldbody></mujoco>'
-    )
-    data = mujoco.MjData(model)
-    hand = np.array([0.0, -0.4, 0.5])
-    for step in range(3000):
-        pull = np.array([0.0, -share * row["tipping_force_n"] * min(1.0, step / 1000), 0.0])
-        data.qfrc_applied[:] = 0.0
-        mujoco.mj_applyFT(
-            model, data, pull, np.zeros(3), hand, model.body("box").id, data.qfrc_applied
-        )
-        mujoco.mj_step(model, data)
-    assert (float(data.body("box").xmat[8]) < math.cos(math.radians(2.0))) == falls
+@pytest.mark.parametrize(("share", "fallen"), [(0.97, False), (1.03, True)])
+def test_mujoco_is_pulled_over_by_exactly_the_tipping_force(share, fallen):
+    (row,) = judged(with_drawer(3.0, 0.2)).measurements["joints"]
+    out = geom(((0.0, -0.2, 0.4), (0.5, 0.4, 0.2)), 3.0)
+    assert falls(geom(CARCASS, 10.0) + out, share * row["tipping_force_n"]) == fallen

@@ -16,10 +16,8 @@ from asset_factory.sim_checks.read.primitives import box, ellipsoid
 
 @pytest.mark.parametrize("seed", range(5))
 def test_touching_boxes_anywhere_neither_crash_nor_overlap(seed):
-    generator = np.random.default_rng(seed)
-    size = generator.uniform(0.01, 1.0, size=3)
-    first = Collider(box_hull((0, 0, 0), size))
-    second = Collider(box_hull((size[0], 0, 0), size))
+    size = np.random.default_rng(seed).uniform(0.01, 1.0, size=3)
+    first, second = (Collider(box_hull((x, 0, 0), size)) for x in (0, size[0]))
     assert first.stand(second).depth == pytest.approx(0.0, abs=1e-9)
 
 
@@ -31,8 +29,7 @@ def test_long_crossed_rods_are_as_far_apart_as_they_are(angle, gap):
     half = np.array([[x, y, z] for x in (-1.5, 1.5) for y, z in across])
     turned = rotation_about(np.array([0.0, 0.0, 1.0]), angle)
     for seed in range(5):
-        generator = np.random.default_rng(seed)
-        axis, place = generator.normal(size=(2, 3))
+        axis, place = np.random.default_rng(seed).normal(size=(2, 3))
         view = rotation_about(axis / np.linalg.norm(axis), 1.0 + seed)
         below = convex_hull(half @ view.T + place)
         above = convex_hull((half @ turned.T + [0.0, 0.0, 0.02 + gap]) @ view.T + place)

@@ -119,9 +119,8 @@ def test_what_one_link_sees_of_another_is_what_the_kinematics_say(first, second,
     description = arm((first, second))
     tree = build_tree(description)
     solids = Solids(description, tree, LookBudget())
-    leader = tree.free[0]
     poses = solids.place({"j0": start})
-    groups = solids.groups(leader)
+    groups = solids.groups(tree.free[0])
     there = tree.link_poses({"j0": start + 0.8})
     heads = [tree.parts[group.parts[0]][0] for group in groups]
     for mover, m in zip(groups, heads, strict=True):
@@ -192,10 +191,8 @@ def test_no_pose_on_the_way_is_worse_than_what_is_found(seed):
     solids = Solids(description, tree, LookBudget())
     assert (tree.closed, tree.opened) == ({"j1": -1.0}, {"j1": 1.5})
     solids.place(tree.closed)
-    near = solids.standings(CONFIG.clearance_m)
-    rest = RestingSolids(solids, CONFIG, near, solids.diagonal())
-    course = JointCourse(tree.free[0], rest, rest.lower).run()
-    found = {pair.parts: pair for pair in course.pairs}
+    rest = RestingSolids(solids, CONFIG, solids.standings(CONFIG.clearance_m), solids.diagonal())
+    found = {pair.parts: pair for pair in JointCourse(tree.free[0], rest, rest.lower).run().pairs}
     for at in np.linspace(-1.0, 1.5, 100):
         solids.place({"j1": at})
         for pair, overlap in solids.standings(0.0).items():

@@ -42,8 +42,7 @@ def test_the_same_points_give_the_same_hull_again_and_others_another():
 
 
 def test_points_within_do_not_count_as_corners():
-    points = np.vstack([box(np.array([3.0, 3.0, 3.0]))[0], ball(10_000)])
-    assert convex_hull(points).corners == 8
+    assert convex_hull(np.vstack([box(np.array([3.0, 3.0, 3.0]))[0], ball(10_000)])).corners == 8
 
 
 @pytest.mark.parametrize(

@@ -95,8 +95,7 @@ def test_a_gap_is_the_distance_and_a_depth_the_way_out_whatever_the_mesh(seed, d
 
 
 def test_wider_gaps_are_not_measured():
-    one = boxes(((0.0, 0.0, 0.0), (0.2, 0.2, 0.2)))
-    other = boxes(((0.3, 0.0, 0.0), (0.2, 0.2, 0.2)))
+    one, other = (boxes(((x, 0.0, 0.0), (0.2, 0.2, 0.2))) for x in (0.0, 0.3))
     assert stand(one, other, met(FIRST, SECOND)) == MARGIN
 
 
@@ -129,8 +128,7 @@ def test_what_lies_wholly_inside_a_solid_is_deep_and_inside_an_open_box_is_not()
 def test_a_pin_flush_with_its_block_is_buried():
     pin = ((0.1, 0.0, 0.0), (0.2, 0.02, 0.02))
     block = ((0.0, 0.0, 0.0), (0.4, 0.2, 0.2))
-    found = stand(boxes(pin), boxes(block), met(box_hull(*pin), box_hull(*block)))
-    assert found < -0.05
+    assert stand(boxes(pin), boxes(block), met(box_hull(*pin), box_hull(*block))) < -0.05
 
 
 def test_only_faces_near_the_meeting_are_looked_at():

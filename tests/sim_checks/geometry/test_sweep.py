@@ -68,9 +68,8 @@ def test_no_sampled_pose_is_worse_than_the_bound_and_the_worst_is_real(seed, tur
     generator = np.random.default_rng(seed)
     axis = generator.normal(size=3)
     axis /= np.linalg.norm(axis)
-    longest = 6.0 if turning else 3.0
     line = JointAxis(turning, generator.normal(size=3), axis)
-    path = line.path(generator.uniform(0.5, longest))
+    path = line.path(generator.uniform(0.5, 6.0 if turning else 3.0))
     moving = convex_hull(generator.normal(size=(10, 3)) * 0.3)
     standing = convex_hull(generator.normal(size=(10, 3)) * 0.3 + generator.normal(size=3))
     found = worst(path, moving, standing, floor=0.1)

@@ -37,19 +37,15 @@ if __name__ == "__main__":
 """
 
 
-def threads_of_children(folder, **given):
-    script = folder / "asks.py"
-    script.write_text(SCRIPT)
-    environment = {name: value for name, value in os.environ.items() if name not in VARIABLES}
-    command = [sys.executable, script]
-    told = subprocess.check_output(command, env={**environment, **given}, text=True, timeout=120)
-    return [int(count) for count in told.split()]
-
-
 # On one processor OpenBLAS has one thread whatever it is told.
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="takes two processors")
 @pytest.mark.parametrize(("given", "threads"), [({}, 1), ({"OPENBLAS_NUM_THREADS": "2"}, 2)])
 def test_children_and_theirs_compute_with_one_thread_or_as_many_as_the_user_set(
     tmp_path, given, threads
 ):
-    assert threads_of_children(tmp_path, **given) == [threads, threads]
+    script = tmp_path / "asks.py"
+    script.write_text(SCRIPT)
+    environment = {name: value for name, value in os.environ.items() if name not in VARIABLES}
+    command = [sys.executable, script]
+    told = subprocess.check_output(command, env=environment | given, text=True, timeout=120)
+    assert [int(count) for count in told.split()] == [threads, threads]

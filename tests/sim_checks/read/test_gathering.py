@@ -4,14 +4,7 @@ import os
 
 import pytest
 from PIL import Image
-from ros_packages import (
-    MESHES,
-    PACKAGE,
-    urdf_text,
-    write_meshes,
-    write_mjcf_package,
-    write_package,
-)
+from ros_packages import PACKAGE, urdf_text, write_meshes, write_mjcf_package, write_package
 from small_cabinet import codes
 
 from asset_factory.sim_checks.read.gather import gather
@@ -149,8 +142,7 @@ def test_links_pipes_and_secrets_are_not_copied(tmp_path, checked):
     assert codes(checked(path)) == ["missing_file"]
     mesh.unlink()
     mesh.write_text(f"mtllib ../../secret.obj\nmtllib {secret}\nmtllib drawer.obj\n{whole}")
-    gathered = gather(path, tmp_path / "copy", OWN_PACKAGE)
-    assert secret not in gathered.files
+    assert secret not in gather(path, tmp_path / "copy", OWN_PACKAGE).files
     assert not list((tmp_path / "copy").rglob("secret*"))
     (tmp_path / "pkg" / "package.xml").unlink()
     (tmp_path / "pkg" / "package.xml").symlink_to("package.xml")
@@ -208,4 +200,3 @@ def test_an_mjcf_that_attaches_another_model_keeps_the_files_of_both(tmp_path, c
         "</body></worldbody></mujoco>"
     )
     assert is_sound(checked(path))
-    assert len(MESHES) == 2

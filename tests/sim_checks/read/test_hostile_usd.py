@@ -28,6 +28,7 @@ def test_a_damaged_file_is_rejected_with_a_code_and_its_librarys_words(tmp_path,
     path.write_bytes(whole[: len(whole) // 2] + b"\0" * 64)
     report = judge.check(path, ())
     assert (report.status, report.findings[0].code) == (Status.REJECTED, "unreadable")
+    assert report.description == path.name
     assert "in file" not in report.findings[0].message
     rejected = refusal(load, path, IntakeConfig())
     assert rejected.code == "unreadable"

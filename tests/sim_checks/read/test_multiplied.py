@@ -20,6 +20,7 @@ from asset_factory.sim_checks.read.references import follow_models
 
 GEOM = '<geom size="0.1"/>'
 BODY = f"<body>{GEOM}</body>"
+GRID = '<flexcomp name="f" type="grid" count="{}" spacing="1 1 1" dim="2"/>'
 
 
 def replicated(count, inside):
@@ -57,9 +58,7 @@ HOSTILE = {
     "empty": lambda folder: written(folder, replicated(10**9, "")),
     "sites": lambda folder: written(folder, replicated(300_000, '<site size="1"/>')),
     "digits": lambda folder: written(folder, replicated(int("9" * 4000), GEOM)),
-    "flexcomp": lambda folder: written(
-        folder, '<flexcomp name="f" type="grid" count="2000 2000 20" spacing="1 1 1" dim="2"/>'
-    ),
+    "flexcomp": lambda folder: written(folder, GRID.format("2000 2000 20")),
     "included": lambda folder: written(
         folder,
         replicated(1000, '<include file="inner.xml"/>'),
@@ -94,7 +93,7 @@ def test_what_multiplies_without_bounds_is_refused_by_counting(tmp_path, name, m
         (replicated(3, BODY + replicated(4, BODY)), 16),
         (f"<frame>{replicated(5, f'<frame>{BODY}</frame>')}</frame>", 6),
         ('<include file="inner.xml"/>' + BODY, 4),
-        ('<flexcomp name="f" type="grid" count="4 5 1" spacing="1 1 1" dim="2"/>', 21),
+        (GRID.format("4 5 1"), 21),
     ],
 )
 def test_as_many_are_counted_as_mujoco_makes(tmp_path, world, bodies, monkeypatch):

@@ -54,8 +54,7 @@ def test_everything_written_is_read(tmp_path):
 @pytest.mark.parametrize("suffix", ["obj", "stl", "glb", "ply"])
 def test_every_mesh_format_gives_the_same_triangles(tmp_path, suffix):
     trimesh.creation.box(extents=(1, 2, 3)).export(tmp_path / f"part.{suffix}")
-    description = read_description(urdf(tmp_path, MESH.format(f"part.{suffix}")))
-    shape = description.links[0].collisions[0]
+    shape = read_description(urdf(tmp_path, MESH.format(f"part.{suffix}"))).links[0].collisions[0]
     assert len(shape.faces) == 12
     assert np.ptp(shape.vertices, axis=0) == pytest.approx([1, 2, 3])
 

@@ -12,14 +12,9 @@ from asset_factory.sim_checks.read.roots import ReadOptions
 
 pytest.importorskip("xacro")
 ROBOT = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">{}</robot>'
-MACROS = (
-    '<xacro:macro name="part" params="name"><link name="${name}"><visual><geometry>'
-    '<mesh filename="package://cabinet/meshes/${name}.obj"/></geometry></visual>'
-    "<collision><geometry>"
-    '<mesh filename="file://$(find cabinet)/meshes/${name}.obj"/></geometry></collision>'
-    '<inertial><origin xyz="0 0.2 0"/><mass value="2"/><inertia ixx="0.03" ixy="0" ixz="0" '
-    'iyy="0.03" iyz="0" izz="0.03"/></inertial></link></xacro:macro>'
-)
+PART = link("${name}", "file://$(find cabinet)/meshes/${name}.obj")
+SEEN = PART.replace("file://$(find cabinet)", "package://cabinet", 1)
+MACROS = f'<xacro:macro name="part" params="name">{SEEN}</xacro:macro>'
 
 
 def write_xacro(folder, body, name="cabinet.urdf.xacro"):

@@ -34,10 +34,6 @@ def judge():
         yield judge
 
 
-def of_engines(*names):
-    return pytest.mark.parametrize("engine", names)
-
-
 @pytest.mark.parametrize(
     ("engine", "write"),
     [
@@ -58,16 +54,14 @@ def test_a_sound_cabinet_opens_and_closes_without_a_finding(tmp_path, judge, eng
     assert loading["mass_kg"] == pytest.approx(5.0 if engine == "pybullet" else 25.0)
 
 
-@of_engines("mujoco")
-def test_a_door_in_front_of_the_drawer_is_a_dependency_not_a_jam(tmp_path, judge, engine):
+def test_a_door_in_front_of_the_drawer_is_a_dependency_not_a_jam(tmp_path, judge):
     tall = with_body(CABINET, "door", pieces=(box((-0.214, 0.0, 0.4), (0.018, 0.59, 0.78)),))
-    wide_open = {'upper="1.57"': 'upper="2.6"'}
-    result = judge(write_urdf(tmp_path, tall, wide_open), engine)
+    result = judge(write_urdf(tmp_path, tall, {'upper="1.57"': 'upper="2.6"'}), "mujoco")
     assert codes(result) == []
     assert result.measurements["motion"]["dependencies"] == ["slide"]
 
 
-@of_engines("mujoco", "pybullet")
+@pytest.mark.parametrize("engine", ["mujoco", "pybullet"])
 def test_swapped_limits_are_lost_and_said_to_be(tmp_path, judge, engine):
     swapped = {'lower="0.0" upper="0.3"': 'lower="0.3" upper="0"'}
     result = judge(write_urdf(tmp_path, replace=swapped), engine)
@@ -75,14 +69,13 @@ def test_swapped_limits_are_lost_and_said_to_be(tmp_path, judge, engine):
     assert engine == "pybullet" or "not_driven" in codes(result, Severity.NOTE)
 
 
-@of_engines("sapien")
-def test_two_roots_are_refused_in_the_loader_s_own_words(tmp_path, judge, engine):
-    result = judge(write_urdf(tmp_path, LOOSE), engine)
+def test_two_roots_are_refused_in_the_loader_s_own_words(tmp_path, judge):
+    result = judge(write_urdf(tmp_path, LOOSE), "sapien")
     assert codes(result) == ["load_failed"]
     assert "Links are not all connected" in result.findings[0].message
 
 
-@of_engines("sapien", "pybullet")
+@pytest.mark.parametrize("engine", ["sapien", "pybullet"])
 def test_a_mesh_that_vanishes_is_a_dropped_shape_or_does_not_load(tmp_path, judge, engine):
     result = judge(write_urdf(tmp_path), engine, lost="drawer_hull_0.obj")
     found = [item for item in result.findings if item.code in ("shape_dropped", "load_failed")]
@@ -91,17 +84,15 @@ def test_a_mesh_that_vanishes_is_a_dropped_shape_or_does_not_load(tmp_path, judg
         assert (found[0].value, found[0].limit, found[0].parts) == (0.0, 1.0, ("drawer",))
 
 
-@of_engines("sapien")
-def test_an_object_without_joints_loads_with_its_shapes(tmp_path, judge, engine):
+def test_an_object_without_joints_loads_with_its_shapes(tmp_path, judge):
     carcass = replace(LOOSE, bodies=LOOSE.bodies[:1])
-    result = judge(write_urdf(tmp_path, carcass), engine)
+    result = judge(write_urdf(tmp_path, carcass), "sapien")
     assert result.findings == ()
     assert result.measurements["loading"]["shapes"] == len(carcass.bodies[0].pieces)
 
 
-@of_engines("newton")
-def test_newton_never_lets_a_link_touch_the_one_that_it_is_jointed_to(tmp_path, judge, engine):
-    result = judge(write_urdf(tmp_path), engine)
+def test_newton_never_lets_a_link_touch_the_one_that_it_is_jointed_to(tmp_path, judge):
+    result = judge(write_urdf(tmp_path), "newton")
     pairs = result.measurements["motion"]["pairs_enforced"]
     assert pairs["link_and_unmoved_parent"] == "pass through each other"
     assert pairs["siblings_and_further"] == "touch"

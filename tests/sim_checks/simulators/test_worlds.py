@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from box_world import joint_text
 from box_world import write_urdf as write_boxes
 from engines import skipped_if_missing
 from fault_corpus.things import Body, Move, Thing, at, box, with_body
@@ -32,15 +33,6 @@ PENDULUM = """<robot name="pendulum"><link name="post"><inertial><mass value="1"
   <limit lower="0" upper="3.1" effort="1" velocity="9"/></joint></robot>"""
 
 
-def slide(name, axis, upper):
-    """What holds a box of that name on the base."""
-    limits = f'lower="0" upper="{upper}" effort="1" velocity="1"'
-    return (
-        f'<joint name="{name}_slide" type="prismatic"><parent link="base"/><child link="{name}"/>'
-        f'<axis xyz="{axis}"/><limit {limits}/></joint>'
-    )
-
-
 @pytest.fixture(params=ENGINES)
 def engine(request):
     return request.param
@@ -59,8 +51,7 @@ def pendulum(tmp_path, engine):
 
 def judged(path, engine):
     """The motion check in this process, where each engine is imported but once."""
-    seen = observe(engine, path, CONFIG, ())
-    return check_motion(read_description(path), seen, CheckConfig())
+    return check_motion(read_description(path), observe(engine, path, CONFIG, ()), CheckConfig())
 
 
 def written(folder, text, name="object.urdf"):
@@ -181,10 +172,10 @@ def test_a_jam_names_the_stopper(tmp_path, engine):
 def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path, engine):
     cube = (0.2, 0.2, 0.2)
     boxes = {"base": ((0, 5, 0), cube), "a": ((0, 0, 0), cube), "b": ((0.12, 0, 0), cube)}
-    slides = slide("a", "-1 0 0", 0.5) + slide("b", "1 0 0", 0.5)
+    slides = joint_text("a", "-1 0 0", 0.5) + joint_text("b", "1 0 0", 0.5)
     result = judged(write_boxes(tmp_path, boxes, slides), engine)
     pushed = [f for f in result.findings if f.code == "pushed_at_rest"]
-    assert {f.joint for f in pushed} == {"a_slide", "b_slide"}
+    assert {f.joint for f in pushed} == {"a_joint", "b_joint"}
     assert all("'a' and 'b' overlap" in f.message for f in pushed)
 
 
@@ -194,12 +185,12 @@ def test_siblings_that_lie_in_one_another_push_and_are_named(tmp_path, engine):
 def test_a_part_shot_out_of_another_made_energy_from_nowhere(tmp_path, engine, depth, expected):
     cube = (0.8, 0.8, 0.8)
     boxes = {"base": ((0.0, 0.0, 0.0), cube), "a": ((0.8 - depth, 0.0, 0.0), cube)}
-    result = judged(write_boxes(tmp_path, boxes, slide("a", "1 0 0", 2)), engine)
+    result = judged(write_boxes(tmp_path, boxes, joint_text("a", "1 0 0", 2)), engine)
     shots = [f for f in result.findings if f.code == "energy_grows"]
     assert [str(shot.severity) for shot in shots] == expected
     for shot in shots:
         # 1 kg, and what would lift it by 5 cm.
-        assert (shot.joint, shot.unit, shot.limit) == ("a_slide", "J", pytest.approx(0.05 * 9.81))
+        assert (shot.joint, shot.unit, shot.limit) == ("a_joint", "J", pytest.approx(0.05 * 9.81))
         assert shot.value > 0.05 * 9.81
 
 
@@ -222,8 +213,7 @@ def test_what_was_looked_at_before_leaves_no_trace(tmp_path, engine):
     path = write_urdf(tmp_path / "two", stopped())
     # In a process of its own: other tests leave settings in this one.
     asked = (engine, (path, jammed, path), ({"slide": 0.1, "hinge": 0.5},))
-    outcome = run_isolated(numbers_in_turn, *asked, limits=Limits(wall_s=60.0))
-    before, _, after = outcome.unwrap()
+    before, _, after = run_isolated(numbers_in_turn, *asked, limits=Limits(wall_s=60.0)).unwrap()
     assert after == before
 
 
