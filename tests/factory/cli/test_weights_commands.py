@@ -7,6 +7,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 import torch  # noqa: TID253
+from laid import laid
 from tiny_model import TINY, TINY_FIELD, random_cloud, tiny_model
 from weight_rule import weights
 
@@ -130,11 +131,9 @@ def test_an_address_is_downloaded(monkeypatch, released):
     ]
 
 
-def hub_of(monkeypatch, folder, content=b"weights"):
+def hub_of(monkeypatch, folder):
     """A hub whose newest commit holds one file, laid out as its library's cache."""
-    file = folder / "snapshots" / COMMIT / "file.pt"
-    file.parent.mkdir(parents=True)
-    file.write_bytes(content)
+    file = laid(folder / "snapshots" / COMMIT / "file.pt", "weights")
     stand_in_hub(monkeypatch, lambda repo_id, filename, revision: str(file))
     return file
 

@@ -5,6 +5,7 @@ from pathlib import Path
 from unittest.mock import Mock
 
 import pytest
+from laid import laid
 from s3_server import BUCKET, KEY, SECRET
 
 from asset_factory.factory.errors import ConfigError
@@ -106,9 +107,7 @@ def test_a_single_file_comes_with_what_is_named_after_it(remote, tmp_path):
 
 
 def test_paths_and_local_urls_are_what_they_are(tmp_path):
-    mesh = tmp_path / "in" / "a.stl"
-    mesh.parent.mkdir()
-    mesh.write_text("solid")
+    mesh = laid(tmp_path / "in" / "a.stl", "solid")
     given = (mesh, str(mesh), f"file://{mesh}")
     assert local_inputs(given, tmp_path / "out") == (mesh,) * 3
     assert not (tmp_path / "out").exists()

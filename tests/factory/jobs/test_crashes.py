@@ -5,7 +5,7 @@ import json
 import os
 
 import pytest
-from job_samples import PLAIN, job, made, note
+from job_samples import PLAIN, job, made, note, write_inputs
 
 from asset_factory.factory.jobs import Budget, LocalExecutor
 from asset_factory.factory.registry import Registry, keys
@@ -36,11 +36,9 @@ def _dying(builds_are):
 
 
 def built(tmp_path, name, retries=1, **more):
-    path = tmp_path / "in" / f"{name}.stl"
-    path.parent.mkdir(exist_ok=True)
-    path.write_text("solid")
+    inputs = write_inputs(tmp_path / "in", 0, name)
     executor = LocalExecutor(1, retries=retries)
-    (result,) = job((path,), tmp_path / "out", PLAIN, executor=executor, **more).run()
+    (result,) = job(inputs, tmp_path / "out", PLAIN, executor=executor, **more).run()
     return result
 
 

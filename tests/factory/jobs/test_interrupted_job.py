@@ -26,8 +26,7 @@ def started(folder, output, *flags):
 
 def begun(folder, output, *flags):
     """One that has finished three inputs and hangs in the fourth."""
-    write_inputs(folder, 3)
-    (folder / "zz_slow.stl").write_text("solid slow")
+    write_inputs(folder, 3, "zz_slow")
     process = started(folder, output, *flags)
     assert process.stdout is not None
     for _ in range(3):
@@ -82,8 +81,7 @@ def test_a_job_that_winds_up_begins_nothing_more(tmp_path, builds_are):
 
 
 def test_a_job_out_of_time_stops_what_runs_and_registers_nothing_of_it(tmp_path):
-    (tmp_path / "in").mkdir()
-    (tmp_path / "in" / "slow.stl").write_text("solid slow")
+    write_inputs(tmp_path / "in", 0, "slow")
     with started(tmp_path / "in", tmp_path / "out", "--max-s", "8") as process:
         assert process.wait(PATIENCE_S) == 0
         assert process.stdout.read() == "out_of_time 1\n"
@@ -91,9 +89,7 @@ def test_a_job_out_of_time_stops_what_runs_and_registers_nothing_of_it(tmp_path)
 
 
 def test_with_one_worker_ctrl_c_builds_what_is_begun_and_no_more(tmp_path):
-    (tmp_path / "in").mkdir()
-    for number in range(3):
-        (tmp_path / "in" / f"nap_{number}.stl").write_text("solid nap")
+    write_inputs(tmp_path / "in", 0, "nap_0", "nap_1", "nap_2")
     with started(tmp_path / "in", tmp_path / "out", "--wind-up", "--one") as process:
         until(lambda: (tmp_path / "in" / MADE).exists() and made(tmp_path / "in"))
         process.send_signal(signal.SIGINT)
