@@ -30,20 +30,17 @@ def open_edges(mesh):
     return sum((b, a) not in forward for a, b in forward) + len(edges) - len(forward)
 
 
-def painted(mesh):
-    """The mesh with texture coordinates and normals that are linear in the position."""
-    corners = mesh.vertices[mesh.faces]
-    normals = np.broadcast_to(np.array([0.0, 0.6, 0.8]), corners.shape)
-    return replace(mesh, corner_uv=corners[:, :, [0, 2]], corner_normals=normals)
-
-
 @settings(max_examples=15, deadline=None)
 @given(
     low=st.lists(st.floats(-0.1, 0.5), min_size=3, max_size=3),
     size=st.lists(st.floats(0.02, 0.6), min_size=3, max_size=3),
 )
 def test_a_cut_keeps_the_surface(low, size):
-    mesh = painted(one_piece.fridge())
+    plain = one_piece.fridge()
+    corners = plain.vertices[plain.faces]
+    normals = np.broadcast_to(np.array([0.0, 0.6, 0.8]), corners.shape)
+    # Texture coordinates and normals are linear in the position.
+    mesh = replace(plain, corner_uv=corners[:, :, [0, 2]], corner_normals=normals)
     region = box_region(low, [a + b for a, b in zip(low, size, strict=True)])
     cut = cut_along(mesh, [region])
     assert open_edges(cut.mesh) == open_edges(mesh) == 0
@@ -78,11 +75,6 @@ def test_what_needs_no_cut_is_not_cut():
     assert cut_along(mesh, [everything]).mesh is mesh
 
 
-def handle(row, column, rows, columns):
-    high = np.array([row + rows - 1, column + columns - 1])
-    return Protrusion(np.array([row, column]), high, 6.0, 1.0)
-
-
 def lines(at, length):
     sums = np.tile(np.arange(length + 1.0), (len(at), 1))
     return Lines(np.array(at, np.int64), sums, sums, sums)
@@ -90,7 +82,8 @@ def lines(at, length):
 
 @pytest.mark.parametrize(("parted", "wanted"), [(False, True), (True, False)])
 def test_knobs_far_apart_on_one_strip_turn_unless_seams_part_them(parted, wanted):
-    knobs = tuple(handle(90, column, 8, 8) for column in (20, 90, 160))
+    corners = [np.array([90, column]) for column in (20, 90, 160)]
+    knobs = tuple(Protrusion(corner, corner + 7, 6.0, 1.0) for corner in corners)
     face = Face(np.zeros((120, 200)), np.zeros((120, 200), np.bool_), knobs)
     level = lines([75, 110], 200)
     upright = lines([60, 130] if parted else [], 120)
