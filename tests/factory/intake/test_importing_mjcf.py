@@ -86,8 +86,7 @@ def test_joints_of_one_body_become_a_chain_and_limits_count_from_the_reference_p
 
 def geom(group, collides, alpha=1.0):
     place = {"size": np.ones(3), "pose": np.eye(4), "rgba": (1.0, 1.0, 1.0, alpha)}
-    contact = int(collides)
-    return CompiledGeom("", 1, shape="box", contact_type=contact, group=group, **place)
+    return CompiledGeom("", 1, shape="box", contact_type=int(collides), group=group, **place)
 
 
 @pytest.mark.parametrize(

@@ -54,8 +54,7 @@ def test_what_is_named_is_an_input_once_whatever_it_is(tmp_path):
     asset = laid(tmp_path / "out" / "assets" / "cup-0000000000" / "asset.urdf", "<robot/>")
     laid(tmp_path / "out" / "registry.db")
     other = laid(tmp_path / "notes.xml", "<notes/>")
-    named = [mesh, other, mesh, tmp_path / "out" / "assets"]
-    assert find_inputs(named) == (mesh, other, asset)
+    assert find_inputs([mesh, other, mesh, tmp_path / "out" / "assets"]) == (mesh, other, asset)
 
 
 def test_links_out_of_the_folder_are_named_and_passed_over(tmp_path):

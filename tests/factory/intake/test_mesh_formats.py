@@ -9,16 +9,7 @@ import numpy as np
 import pytest
 from fuzz_cases import DAE
 from laid import laid
-from mesh_cube import (
-    TEXTURED,
-    WRITERS,
-    cube,
-    gltf_parts,
-    pack_glb,
-    png,
-    write_glb,
-    write_obj,
-)
+from mesh_cube import TEXTURED, WRITERS, cube, gltf_parts, pack_glb, png, write_glb, write_obj
 from plain_solids import signed_volume
 
 from asset_factory.factory.config import IntakeConfig
@@ -65,8 +56,7 @@ def test_cube_survives_in_file_order_and_seams_are_welded(form, tmp_path):
 def test_texture_bytes_coordinates_and_normals_survive(form, tmp_path):
     mesh = _load(WRITERS[form](tmp_path)).mesh
     shape = cube()
-    textured = mesh.materials[int(mesh.face_material[0])]
-    assert textured.texture == Texture(png(), ".png")
+    assert mesh.materials[int(mesh.face_material[0])].texture == Texture(png(), ".png")
     np.testing.assert_allclose(mesh.corner_uv, shape["uv"][shape["faces"]], atol=1e-7)
     np.testing.assert_allclose(mesh.corner_normals, shape["normals"][shape["faces"]], atol=1e-7)
 
@@ -238,8 +228,7 @@ def test_transparency_and_texture_coordinates_of_older_formats_are_read(tmp_path
     rows = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2 6 0 0 1 0 0 1\n3 0 2 3 6 0 0 0 1 1 1\n"
     laid(tmp_path / "wood.png", png())
     path = laid(tmp_path / "a.ply", f"{head}element face 2\n{lists}end_header\n{rows}")
-    uv = _load(path).mesh.corner_uv
-    np.testing.assert_allclose(uv[0], [[0, 0], [1, 0], [0, 1]])
+    np.testing.assert_allclose(_load(path).mesh.corner_uv[0], [[0, 0], [1, 0], [0, 1]])
 
 
 def test_ply_vertex_colours_become_one_linear_colour(tmp_path):
@@ -263,11 +252,8 @@ def test_ply_mixed_polygons_keep_their_order(form, tmp_path):
     else:
         rows = (bytes([len(p)]) + np.array(p, dtype="<i4").tobytes() for p in polygons)
         body = b"".join((points.tobytes(), *rows))
-    assert _load(laid(tmp_path / "t.ply", head + body)).mesh.faces.tolist() == [
-        [0, 1, 2],
-        [0, 2, 3],
-        [3, 2, 4],
-    ]
+    faces = _load(laid(tmp_path / "t.ply", head + body)).mesh.faces
+    assert faces.tolist() == [[0, 1, 2], [0, 2, 3], [3, 2, 4]]
 
 
 def test_collada_applies_its_unit_and_nodes(tmp_path):

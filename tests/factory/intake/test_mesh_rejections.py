@@ -280,8 +280,7 @@ def test_a_visual_may_refer_to_anything_below_its_root(tmp_path):
     laid(tmp_path / "images" / "wood.png", png())
     path.with_name("wood.png").unlink()
     path.with_name("cube.mtl").write_text("newmtl red wood\nmap_Kd ../images/wood.png\n")
-    mesh = load_visual(path, tmp_path, CONFIG).mesh
-    assert mesh.materials[0].texture is not None
+    assert load_visual(path, tmp_path, CONFIG).mesh.materials[0].texture is not None
 
 
 @pytest.mark.parametrize("field", [{"height": 0.0}, {"height": float("nan")}])

@@ -133,8 +133,7 @@ def test_what_is_not_there_is_one_sentence(remote, tmp_path):
 def test_no_secret_is_told(url, without, tmp_path):
     assert shown(url) == without
     assert SECRET not in str(mirror_of(url, tmp_path))
-    error = OSError(f"cannot connect to {url}, refused")
-    assert SECRET not in told(error, url)
+    assert SECRET not in told(OSError(f"cannot connect to {url}, refused"), url)
 
 
 def test_an_error_of_a_server_names_no_secret(tmp_path, capfd):

@@ -129,8 +129,7 @@ def test_hierarchies_that_are_no_forest_are_refused(tmp_path, edges):
 def test_published_predictions_become_trees(fixtures, name):
     path = fixtures / "postprocess_e2e" / name / "pred.npz"
     stored = np.load(path, allow_pickle=False)
-    count = len(stored["face_part_ids"])
-    result = articulate(path, count)
+    result = articulate(path, len(stored["face_part_ids"]))
     assert len(result.joints) == len(stored["motion_hierarchy"])
     # Posing a joint inside its range turns the axes it carries; those of the root's children stay.
     for joint in (j for j in result.joints if j.parent == 0):

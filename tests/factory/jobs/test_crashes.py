@@ -62,8 +62,7 @@ def test_two_deaths_in_one_stage_are_a_verdict_with_a_trace_that_waits(tmp_path,
 
 
 def test_a_death_a_night_is_a_verdict_after_the_second(tmp_path):
-    first = built(tmp_path, "dies", retries=0)
-    assert first.entry.reason == "build_crashed"
+    assert built(tmp_path, "dies", retries=0).entry.reason == "build_crashed"
     second = built(tmp_path, "dies", retries=0)
     assert (second.known, second.entry.reason) == (False, "crashed")
     assert built(tmp_path, "dies", retries=0).known

@@ -76,8 +76,7 @@ def test_a_job_that_winds_up_begins_nothing_more(tmp_path, builds_are):
         winding.wind_up()
     assert 1 <= len(finished) < 8
     assert (winding.left, winding.state) == (8 - len(finished), "interrupted")
-    rest = job(inputs, tmp_path / "out")
-    assert len(list(rest.run())) == 8
+    assert len(list(job(inputs, tmp_path / "out").run())) == 8
 
 
 def test_a_job_out_of_time_stops_what_runs_and_registers_nothing_of_it(tmp_path):

@@ -239,8 +239,7 @@ def test_what_an_input_without_rights_was_listed_as_goes_once_it_has_them(tmp_pa
         (staging / "made").mkdir()
         ids = Source(path, PLAIN).unloaded_ids
         result = Result(str(path), asset)
-        told = BuildReport(Report(""))
-        register(registry, Product(result, told, staging / "made", ids))
+        register(registry, Product(result, BuildReport(Report("")), staging / "made", ids))
     assert [entry.id for entry in registry.entries()] == ["thing"]
 
 

@@ -137,8 +137,7 @@ def test_no_part_weighs_more_than_its_filled_hulls_or_too_little(mesh, hulls, ma
 
 
 def test_a_crumb_is_lifted_to_what_simulators_can_hold():
-    crumb = box((0.0, 1e-4), (0.0, 1e-4), (0.0, 1e-4), PLAIN)
-    found = inertial(crumb)
+    found = inertial(box((0.0, 1e-4), (0.0, 1e-4), (0.0, 1e-4), PLAIN))
     assert found.mass == MIN_MASS_KG
     np.testing.assert_allclose(
         found.tensor, np.eye(3) * 2 * MIN_MASS_KG * MIN_GYRATION_M**2, atol=1e-20

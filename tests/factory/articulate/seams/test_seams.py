@@ -41,8 +41,7 @@ def test_a_cut_keeps_the_surface(low, size):
     normals = np.broadcast_to(np.array([0.0, 0.6, 0.8]), corners.shape)
     # Texture coordinates and normals are linear in the position.
     mesh = replace(plain, corner_uv=corners[:, :, [0, 2]], corner_normals=normals)
-    region = box_region(low, [a + b for a, b in zip(low, size, strict=True)])
-    cut = cut_along(mesh, [region])
+    cut = cut_along(mesh, [box_region(low, [a + b for a, b in zip(low, size, strict=True)])])
     assert open_edges(cut.mesh) == open_edges(mesh) == 0
     assert face_areas(cut.mesh).sum() == pytest.approx(face_areas(mesh).sum(), rel=1e-9)
     corners = cut.mesh.vertices[cut.mesh.faces]
@@ -71,8 +70,7 @@ def test_no_triangle_is_on_both_sides():
 
 def test_what_needs_no_cut_is_not_cut():
     mesh = one_piece.fridge()
-    everything = box_region([-1.0, -1.0, -1.0], [2.0, 2.0, 2.0])
-    assert cut_along(mesh, [everything]).mesh is mesh
+    assert cut_along(mesh, [box_region([-1.0, -1.0, -1.0], [2.0, 2.0, 2.0])]).mesh is mesh
 
 
 def lines(at, length):

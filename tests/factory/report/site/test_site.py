@@ -110,8 +110,7 @@ def test_a_page_tells_size_units_and_how_to_load_an_asset(registry):
     assert "<span>0.6 x 0.45 x 0.8 m</span>" in text
     assert re.search(r"[\d.]+ N m s/rad</td>\s*<td class=\"number\">[\d.]+ N m</td>", text)
     assert re.search(r"[\d.]+ N s/m</td>\s*<td class=\"number\">[\d.]+ N</td>", text)
-    imported = re.findall(r"<code>import (\w+)", text)
-    assert imported == ["mujoco", "gymnasium", "omni"]
+    assert re.findall(r"<code>import (\w+)", text) == ["mujoco", "gymnasium", "omni"]
     assert "import mujoco" not in (registry.root / "report/a/hitting-2/index.html").read_text()
 
 
@@ -181,8 +180,7 @@ def test_findings_lead_to_the_pose_in_which_they_show(registry):
     fault = places.of(HIT)
     assert (fault.values, fault.point) == ({"hinge": 0.8}, POINT)
     jammed = Finding("jammed", Severity.ERROR, "x", joint="slide", value=0.1, unit="m")
-    found = places.of(jammed)
-    assert found.values == {"slide": 0.1}
+    assert places.of(jammed).values == {"slide": 0.1}
     assert places.of(Finding("no_mass", Severity.ERROR, "x")) is None
     assert places.clearance() == -4.2
     assert Places(scene, {"asset.urdf": {"penetration": {"from": "elsewhere"}}}).sweeps() == {}
