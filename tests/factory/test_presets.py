@@ -1,6 +1,7 @@
 """Presets state differences; a wrong one is named."""
 
 import pytest
+from laid import laid
 
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import ConfigError
@@ -15,9 +16,7 @@ def test_every_shipped_preset_loads():
 
 
 def test_a_file_changes_only_what_it_names(tmp_path):
-    path = tmp_path / "mine.toml"
-    path.write_text("[decompose]\nerror_m = 1\n")
-    config = load_config(str(path))
+    config = load_config(str(laid(tmp_path / "mine.toml", "[decompose]\nerror_m = 1\n")))
     assert config.decompose.error_m == 1.0
     assert config.checks == BuildConfig().checks
 
@@ -32,7 +31,6 @@ def test_a_file_changes_only_what_it_names(tmp_path):
     ],
 )
 def test_mistakes_are_named(tmp_path, text, sentence):
-    path = tmp_path / "mine.toml"
-    path.write_text(text)
+    path = laid(tmp_path / "mine.toml", text)
     with pytest.raises(ConfigError, match=sentence):
         load_config(str(path))

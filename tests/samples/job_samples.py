@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from laid import laid
+
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.intake.source import Source, asset_id
 from asset_factory.factory.jobs import Call
@@ -41,13 +43,10 @@ class Inline:
                 yield call, Outcome(None, "raised", str(error), "", 0.0, error)
 
 
-def write_inputs(folder: Path, count: int) -> tuple[Path, ...]:
-    """Files that look like inputs."""
-    folder.mkdir(parents=True, exist_ok=True)
-    paths = tuple(folder / f"thing_{number}.stl" for number in range(count))
-    for path in paths:
-        path.write_text(f"solid {path.stem}")
-    return paths
+def write_inputs(folder: Path, count: int, *named: str) -> tuple[Path, ...]:
+    """Files that look like inputs, and some more of them by name."""
+    stems = (*(f"thing_{number}" for number in range(count)), *named)
+    return tuple(laid(folder / f"{stem}.stl", f"solid {stem}") for stem in stems)
 
 
 def pretend(

@@ -21,26 +21,24 @@ class Oracle:
     random.
     """
 
-    def __init__(self, truth, config, queries=None, wrong=0.0, offset=0.0, change=None):
+    def __init__(self, truth, config, wrong=0.0, offset=0.0, change=None):
         self.truth = truth
         self.config = config
         self.wrong = wrong
         self.offset = offset
         self.change = change
-        self.queries = list(
-            queries or np.random.default_rng(5).permutation(PARTS)[: len(truth.parts)]
-        )
+        self.queries = list(np.random.default_rng(5).permutation(PARTS)[: len(truth.parts)])
         self.owner = face_parts(truth)
-        self.calls = []
+        self.calls = 0
 
     def __call__(self, shown, context, least_confidence=0.0):
         points = shown.points
-        seen = self._sample(len(self.calls))
-        self.calls.append((shown, context))
+        seen = self._sample(self.calls)
+        self.calls += 1
         box = seen.box
         cloud = seen.cloud
         assert np.array_equal(points, box.inside(cloud.points))
-        noise = np.random.default_rng(len(self.calls))
+        noise = np.random.default_rng(self.calls)
         part = self.owner[cloud.faces]
         part = np.where(
             noise.random(len(part)) < self.wrong,
@@ -52,7 +50,7 @@ class Oracle:
         fields = self._joints(box)
         fields["mask_logits"] = mask
         if self.change:
-            self.change(fields, self.queries, len(self.calls) - 1)
+            self.change(fields, self.queries, self.calls - 1)
         asked = assigned(fields["mask_logits"], least_confidence).parts
         place = fields.pop("place")[asked]
         unit = fields["revolute_direction"][asked]
@@ -82,17 +80,13 @@ class Oracle:
         for joint in self.truth.joints:
             query = self.queries[joint.child]
             f["hierarchy_logits"][self.queries[joint.parent], query] = SURE
-            kind = (
-                MotionClass.PRISMATIC if joint.kind is JointKind.PRISMATIC else MotionClass.REVOLUTE
-            )
+            slides = joint.kind is JointKind.PRISMATIC
+            kind = MotionClass.PRISMATIC if slides else MotionClass.REVOLUTE
+            way = "prismatic" if slides else "revolute"
+            limits = np.array([joint.lower, joint.upper]) / (box.size if slides else 1.0)
             f["motion_logits"][query] = SURE * (np.arange(4) == kind)
-            if kind is MotionClass.PRISMATIC:
-                f["prismatic_direction"][query] = joint.axis
-                f["prismatic_range"][query] = (
-                    np.array([joint.lower, joint.upper]) / box.size + self.offset
-                )
-            else:
-                f["revolute_direction"][query] = joint.axis
-                f["revolute_range"][query] = np.array([joint.lower, joint.upper]) + self.offset
+            f[f"{way}_direction"][query] = joint.axis
+            f[f"{way}_range"][query] = limits + self.offset
+            if not slides:
                 f["place"][query] = box.inside(joint.origin[None])[0]
         return f

@@ -14,6 +14,7 @@ from asset_factory.factory.mesh import concatenate
 
 BODY = box((0, 0, 0), (1, 1, 1))
 FRONT = box((0, -0.1, 0), (1, 0, 1))
+HANDLE = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
 
 
 def joint(kind, lower=0.0, upper=1.0, **changes):
@@ -99,13 +100,12 @@ def test_a_joint_is_turned_round_where_the_object_is_smaller_at_its_upper_limit(
 
 
 def test_an_input_outside_the_range_is_posed_at_the_nearest_limit():
-    handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
     second = joint("prismatic", 0.0, 0.1, name="k", parent=1, child=2, origin=[0.5, -0.2, 0.5])
-    result = build([BODY, FRONT, handle], [joint("prismatic", 0.25, 0.5), second])
+    result = build([BODY, FRONT, HANDLE], [joint("prismatic", 0.25, 0.5), second])
     assert (result.joint("j").lower, result.joint("j").upper) == pytest.approx((0.0, 0.25))
     np.testing.assert_allclose(result.part_mesh(0).bounds, BODY.bounds)
     np.testing.assert_allclose(result.part_mesh(1).bounds, FRONT.bounds - [0.0, 0.25, 0.0])
-    np.testing.assert_allclose(result.part_mesh(2).bounds, handle.bounds - [0.0, 0.25, 0.0])
+    np.testing.assert_allclose(result.part_mesh(2).bounds, HANDLE.bounds - [0.0, 0.25, 0.0])
     assert said(result, "which is the new zero")
 
 
@@ -172,9 +172,8 @@ def test_fixed_parts_merge_and_take_the_name_of_the_first_that_can_be_seen():
     fixed = joint("fixed", parent=0, child=1, name="f")
     slide = joint("prismatic", name="s", parent=1, child=2)
     plate = joint("fixed", name="g", parent=2, child=3)
-    handle = box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))
     names = ["root", "case", "front", "handle"]
-    result = build([None, BODY, FRONT, handle], [plate, slide, fixed], names)
+    result = build([None, BODY, FRONT, HANDLE], [plate, slide, fixed], names)
     assert [(part.name, len(part.faces)) for part in result.parts] == [("case", 12), ("front", 24)]
     assert said(result, "fixed to 'front' and made one part with it: 'handle'")
 
@@ -227,7 +226,7 @@ def test_scaling_and_turning_the_object_commutes_with_moving_it(angles, scale, s
     transform[:3, :3] = scale * x @ y @ z
     transform[:3, 3] = shift
     joints = [joint("revolute"), joint("prismatic", name="k", parent=1, child=2)]
-    meshes = [BODY, FRONT, box((0.4, -0.2, 0.4), (0.6, -0.1, 0.6))]
+    meshes = [BODY, FRONT, HANDLE]
     plain = build(meshes, joints)
     moved = build(meshes, joints, transform=transform)
     values = {"j": share, "k": share}

@@ -126,8 +126,7 @@ def coupled():
 
 
 def test_repairs_shorten_all_that_move_together_and_free_what_loses_its_leader(tmp_path):
-    shorter = replace(coupled()[2], upper=0.1)
-    made = with_common_ranges([*coupled()[:2], shorter])
+    made = with_common_ranges([*coupled()[:2], replace(coupled()[2], upper=0.1)])
     assert [joint.upper for joint in made] == [0.1, 0.2, 0.1]
     text = follower('<limit lower="0" upper="0.04"/><mimic joint="left"/>')
     whole = articulated(tmp_path, text)

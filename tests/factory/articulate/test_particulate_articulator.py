@@ -42,8 +42,7 @@ def joint_of(found, part):
 def assert_same(found, truth, tolerance=1e-5):
     """Same faces, tree, kinds, lines and limits; names and order may differ."""
     mine = face_sets(found)
-    real = face_sets(truth)
-    assert set(mine) == set(real)
+    assert set(mine) == set(face_sets(truth))
     size = truth.mesh.extents.max()
     for want in truth.joints:
         have = joint_of(found, truth.parts[want.child])
@@ -84,8 +83,7 @@ def test_a_fused_mesh_keeps_its_moving_parts():
     owner = face_parts(truth)
     agreed = sum(max(np.bincount(owner[part.faces])) for part in found.parts)
     assert agreed / len(owner) > 0.97
-    plain = asked(truth, config=replace(CONFIG, refinement="component"))
-    assert len(plain.movable_joints) == 0
+    assert len(asked(truth, config=replace(CONFIG, refinement="component")).movable_joints) == 0
 
 
 def test_a_range_that_leaves_out_the_input_pose_is_widened_not_posed():

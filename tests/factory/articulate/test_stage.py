@@ -27,8 +27,7 @@ def test_a_cut_mesh_comes_back_from_the_cache(tmp_path, monkeypatch):
     file.write_text(trimesh.exchange.obj.export_obj(plain, include_normals=True))
     (tmp_path / "fridge.parts.json").write_text(json.dumps({"parts": [DOOR]}))
     intake = load(file, IntakeConfig(up="z"))
-    stages = Stages(CONFIG, Store(tmp_path / "cache"))
-    first = hypotheses(intake, "key", stages)[0]
+    first = hypotheses(intake, "key", Stages(CONFIG, Store(tmp_path / "cache")))[0]
     assert len(first.mesh.faces) > len(intake.mesh.faces)
     monkeypatch.setattr(stage, "hypotheses_of", None)
     again = hypotheses(intake, "key", Stages(CONFIG, Store(tmp_path / "cache")))[0]

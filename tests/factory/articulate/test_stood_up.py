@@ -62,5 +62,4 @@ def test_one_panel_is_no_reason_to_turn_a_mesh_over(tmp_path):
     with pytest.raises(InputRejected, match="nothing moves"):
         read(tmp_path / "oven.glb", bumpy(bar_across(edge=0.03)))
     _, hypotheses = read(tmp_path / "upright.glb", bumpy(bar_across(edge=0.03)), "y")
-    parts = hypotheses[0].parts
-    assert sum(part.kind.closes_side for part in parts) == 1
+    assert sum(part.kind.closes_side for part in hypotheses[0].parts) == 1

@@ -2,9 +2,9 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from repository import FRIDGE
 from tiny_checkpoint import write_checkpoint
 
 from asset_factory.factory import build as pipeline
@@ -17,7 +17,6 @@ from asset_factory.factory.intake.licenses import combined
 from asset_factory.factory.jobs.nightly.licenses import Licenses
 from asset_factory.factory.registry import Registry
 
-FRIDGE = Path(__file__).resolve().parents[3] / "examples" / "meshes" / "fridge.obj"
 BOUND = "LicenseRef-NonCommercial"
 
 

@@ -51,12 +51,10 @@ def test_rate_and_time_left_are_those_of_what_is_built():
 
 def test_a_night_without_a_terminal_says_how_far_it_is_by_the_pace_of_the_last_minutes(capsys):
     assert console.pace(0, 100, None) == "0 of 100"
-    told = console.pace(50, 80, 10.0 / 60.0)
-    assert told == "50 of 80, 10.0 a minute, about 3 min 00 s left"
+    assert console.pace(50, 80, 10.0 / 60.0) == "50 of 80, 10.0 a minute, about 3 min 00 s left"
     for every_s, said in ((60.0, []), (0.0, ["1 of 3", "2 of 3", "3 of 3"])):
         assert len(list(console.follow(iter(results(1, 2)), 3, every_s=every_s))) == 3
-        lines = capsys.readouterr().err.splitlines()
-        assert [line.split(",")[0] for line in lines] == said
+        assert [line.split(",")[0] for line in capsys.readouterr().err.splitlines()] == said
 
 
 def test_the_bar_says_what_is_at_work_and_after_one_input_how_long_the_rest_takes(monkeypatch):

@@ -31,8 +31,7 @@ def root(tmp_path):
 @pytest.fixture
 def run(capsys):
     def ask(*arguments):
-        code = factory([str(item) for item in arguments])
-        return code, capsys.readouterr().out
+        return factory([str(item) for item in arguments]), capsys.readouterr().out
 
     return ask
 

@@ -43,7 +43,6 @@ def test_view_reads_a_file_in_a_process_of_its_own_and_saves_one_page(
 ):
     saved = tmp_path / "page.html"
     monkeypatch.setattr("asset_factory.factory.display.described.read_description", None)
-    folder = bundle_in(tmp_path / "bundle")
-    assert run(["view", str(folder / name), "--save", str(saved)]) == 0
+    assert run(["view", str(bundle_in(tmp_path / "bundle") / name), "--save", str(saved)]) == 0
     assert capsys.readouterr().out.strip() == str(saved)
     assert saved.read_text().startswith("<!DOCTYPE html>")

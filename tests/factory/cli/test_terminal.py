@@ -4,9 +4,9 @@ import io
 import json
 import os
 import re
-from pathlib import Path
 
 import pytest
+from laid import laid
 from rich.progress import Progress
 from rich.table import Table
 
@@ -54,9 +54,7 @@ def test_richs_own_colours_and_bars_stay(monkeypatch):
 @pytest.mark.parametrize("more", [[], ["--json"], ["--quiet"]])
 def test_a_hostile_files_name_does_not_reach_the_terminal(tmp_path, capfd, more):
     name = "\x1b]0;pwn\x07\n\x1b[2J.obj"
-    folder = tmp_path / "in"
-    folder.mkdir()
-    (folder / name).write_text("no mesh")
+    folder = laid(tmp_path / "in" / name, "no mesh").parent
     os.symlink("/etc/passwd", folder / "\x1b[31mout.obj")
     arguments = ["build", "--input", str(folder), "--output", str(tmp_path / "out"), *more]
     run([*arguments, "--sim", "sapien", "--no-report"])
@@ -72,8 +70,7 @@ def test_names_in_a_description_do_not_reach_the_terminal(tmp_path, capfd):
     # An XML character reference cannot name an escape; these come through all the same.
     name = "a\x85b\u009b2J\u202e"
     text = f'<robot name="r"><link name="{name}"/><link name="{name}"/></robot>'
-    (tmp_path / "\x1b[2J.urdf").write_text(text)
-    run(["check", str(next(Path(tmp_path).iterdir())), "--sim", "sapien"])
+    run(["check", str(laid(tmp_path / "\x1b[2J.urdf", text)), "--sim", "sapien"])
     run(["check", str(tmp_path / "\x1b[3J.urdf")])
     out, error = capfd.readouterr()
     assert r"a\x85b\x9b2J" in out

@@ -7,6 +7,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 import torch  # noqa: TID253
+from laid import laid
 from tiny_model import TINY, TINY_FIELD, random_cloud, tiny_model
 from weight_rule import weights
 
@@ -63,8 +64,7 @@ def test_a_converted_transformer_answers_the_same(released, tmp_path, capsys):
 
 def test_a_converted_field_keeps_its_terms_and_its_features(released_field, tmp_path):
     target = tmp_path / "field.safetensors"
-    info = convert(released_field, target)
-    assert info.network == "PartField"
+    assert convert(released_field, target).network == "PartField"
     assert "NON-COMMERCIAL" in read_safetensors(target).metadata["published_terms"]
     cloud = np.random.default_rng(0).uniform(-0.5, 0.5, (200, 3))
     fields = [load_field(str(file)) for file in (released_field, target)]
@@ -130,11 +130,9 @@ def test_an_address_is_downloaded(monkeypatch, released):
     ]
 
 
-def hub_of(monkeypatch, folder, content=b"weights"):
+def hub_of(monkeypatch, folder):
     """A hub whose newest commit holds one file, laid out as its library's cache."""
-    file = folder / "snapshots" / COMMIT / "file.pt"
-    file.parent.mkdir(parents=True)
-    file.write_bytes(content)
+    file = laid(folder / "snapshots" / COMMIT / "file.pt", "weights")
     stand_in_hub(monkeypatch, lambda repo_id, filename, revision: str(file))
     return file
 

@@ -59,8 +59,7 @@ def test_the_door_is_where_it_swings(scene):
     closed, opened = (scene.opened(amount) for amount in (0.0, 1.0))
     shots = [Shot(caster, camera, values) for values in (closed, opened)]
     before, after = (shot.see().link.reshape(HEIGHT, WIDTH) for shot in shots)
-    stills = [still(shot) for shot in shots]
-    one, other = (each.astype(int) for each in stills)
+    one, other = (still(shot).astype(int) for shot in shots)
     differs = np.abs(one - other).max(axis=2) > 24
     assert differs[(after == 1) & (before == -1)].mean() > 0.95
     assert differs[(after == 0) & (before == 0)].mean() < 0.05
@@ -124,8 +123,7 @@ def test_hulls_have_a_colour_each(pictures):
 
 
 def test_a_scene_without_surfaces_is_an_empty_picture(scene):
-    empty = pictures_of(replace(scene, visuals=(), hulls=()))
-    assert pixels(empty.closed)[..., 3].max() == 0
+    assert pixels(pictures_of(replace(scene, visuals=(), hulls=())).closed)[..., 3].max() == 0
 
 
 def test_a_contact_sheet_holds_all_and_is_bounded(pictures):

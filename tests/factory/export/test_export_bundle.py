@@ -70,8 +70,7 @@ def test_a_part_of_two_materials_is_written_as_two_visuals(tmp_path):
     two = cabinet([Material("a"), Material("b", (1.0, 0.0, 0.0, 1.0)), Material("c")])
     mesh = two.articulation.mesh
     whole = Articulation(mesh, (Part("all", np.arange(len(mesh.faces))),), (), "t")
-    merged = Asset("merged", whole, two.bodies[:1])
-    bundle = export_bundle(merged, PROVENANCE, tmp_path)
+    bundle = export_bundle(Asset("merged", whole, two.bodies[:1]), PROVENANCE, tmp_path)
     assert len(ElementTree.parse(bundle.urdf).findall("link/visual")) == 3
     assert bundle.manifest.links[0].visuals == 3
 

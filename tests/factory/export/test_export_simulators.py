@@ -48,8 +48,7 @@ def test_pybullet_opens_a_flap_of_five_grams(tmp_path):
     plate = box([0, 0, 2], [0.008, 0.001, 0.012])
     asset = boxes_asset([box([0, 0, 0], [1, 1, 1]), plate], (hinge,))
     flap = replace(asset.bodies[1], inertial=inertial_of(plate, 0.005))
-    light = replace(asset, bodies=(asset.bodies[0], flap))
-    bundle = export_bundle(light, PROVENANCE, tmp_path)
+    bundle = export_bundle(replace(asset, bodies=(asset.bodies[0], flap)), PROVENANCE, tmp_path)
     friction, turned = run_isolated(pybullet_turned, str(bundle.urdf), limits=LIMITS).unwrap()
     assert friction > 0.0
     assert turned > 2.4
@@ -58,8 +57,7 @@ def test_pybullet_opens_a_flap_of_five_grams(tmp_path):
 def test_mujoco_sees_each_parts_own_texture_and_only_hulls_collide(in_mujoco):
     colors = ((255, 0, 0), (0, 255, 0), (0, 0, 255))
     textures = map(image, colors, ("PNG", "JPEG", "PNG"))
-    looks = [Material("wood", texture=texture) for texture in textures]
-    model = in_mujoco(cabinet(looks))
+    model = in_mujoco(cabinet([Material("wood", texture=texture) for texture in textures]))
     pixels = model.tex_data.reshape(3, 16, -1)[:, 0, :3].astype(int)
     assert np.abs(pixels - np.array(colors)).max() <= 2
     collides = model.geom_contype > 0

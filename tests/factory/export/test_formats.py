@@ -89,8 +89,7 @@ def test_a_joint_that_follows_another_does_so_in_every_format_and_back(tmp_path)
     export_bundle(asset, PROVENANCE, tmp_path / "out", formats=ALL)
     for name in ("asset.urdf", "asset.xml", "asset.usd"):
         intake = load(tmp_path / "out" / name, IntakeConfig())
-        made = annotated_articulator(intake).articulate(intake.mesh)
-        mimic = made.joint("slide").mimic
+        mimic = annotated_articulator(intake).articulate(intake.mesh).joint("slide").mimic
         assert mimic is not None, name
         assert mimic.leader == "hinge"
         assert mimic.multiplier == pytest.approx(0.25)

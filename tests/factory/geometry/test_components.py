@@ -39,8 +39,7 @@ def test_faces_are_labelled_by_what_they_hang_together_with(mesh, labels):
 @given(st.permutations(range(36)))
 def test_components_do_not_depend_on_the_order_of_faces(order):
     three = concatenate([box((2.0 * k, 0, 0), (2.0 * k + 1, 1, 1)) for k in range(3)])
-    shuffled = Mesh.from_triangles(three.vertices, three.faces[order])
-    labels = connected_components(shuffled)
+    labels = connected_components(Mesh.from_triangles(three.vertices, three.faces[order]))
     truth = np.array(order) // 12
     assert all(len(np.unique(truth[labels == k])) == 1 for k in range(3))
     assert labels.max() == 2
@@ -65,8 +64,7 @@ def test_every_edge_of_a_closed_surface_is_shared_by_two_faces_wound_alike():
 
 
 def test_edges_of_one_or_three_faces_are_not_shared():
-    fan = np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]])
-    assert not len(shared_edges(fan).faces)
+    assert not len(shared_edges(np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]])).faces)
     assert not len(shared_edges(np.zeros((0, 3), dtype=np.int64)).faces)
 
 

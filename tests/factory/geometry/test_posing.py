@@ -50,8 +50,7 @@ def test_a_value_out_of_reach_is_refused():
 
 
 def test_a_welded_part_belongs_to_its_parent_and_the_others_move_as_before():
-    gone = CABINET.joints[0]
-    left = CABINET.joints[1]
+    gone, left, *_ = CABINET.joints
     found = welded(CABINET, {gone.name})
     assert [joint.name for joint in found.joints] == [joint.name for joint in CABINET.joints[1:]]
     assert (face_parts(found)[CABINET.parts[gone.child].faces] == 0).all()

@@ -18,17 +18,15 @@ def area(triangles):
     return float(face_areas(flat).sum())
 
 
-def surface(low, high):
-    solid = box_between([low] * 3, [high] * 3)
-    return solid.vertices[solid.faces]
+SOLID = box_between([0.0] * 3, [1.0] * 3)
+CUBE = SOLID.vertices[SOLID.faces]
 
 
 def test_the_surface_of_a_cube_in_a_smaller_box_is_what_a_knife_leaves():
-    cube = surface(0.0, 1.0)
-    inside = clip_to_box(cube, np.array([-1.0, -1.0, -1.0]), np.array([0.25, 2.0, 2.0]))
+    inside = clip_to_box(CUBE, np.array([-1.0, -1.0, -1.0]), np.array([0.25, 2.0, 2.0]))
     np.testing.assert_allclose(area(inside), 1.0 + 4 * 0.25)
     assert inside[..., 0].max() == 0.25
-    assert not len(clip_to_box(cube, np.full(3, 0.4), np.full(3, 0.6)))
+    assert not len(clip_to_box(CUBE, np.full(3, 0.4), np.full(3, 0.6)))
 
 
 @settings(max_examples=40)
@@ -58,15 +56,14 @@ def test_triangles_that_meet_a_box_are_those_of_which_it_holds_some(seed):
 
 
 def test_pieces_keep_what_is_linear_on_their_triangles():
-    triangles = surface(0.0, 1.0)
-    height = triangles[:, :, 0] - 0.3
+    height = CUBE[:, :, 0] - 0.3
     pieces = cut_at_zero(height)
-    made = pieces.spread(triangles)
-    np.testing.assert_allclose(area(made), area(triangles))
+    made = pieces.spread(CUBE)
+    np.testing.assert_allclose(area(made), area(CUBE))
     lifted = pieces.spread(height[..., None])[..., 0]
     np.testing.assert_allclose(lifted, made[:, :, 0] - 0.3, atol=1e-12)
     assert ((lifted > -1e-9).all(axis=1) | (lifted < 1e-9).all(axis=1)).all()
-    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    normals = np.cross(CUBE[:, 1] - CUBE[:, 0], CUBE[:, 2] - CUBE[:, 0])
     wound = np.cross(made[:, 1] - made[:, 0], made[:, 2] - made[:, 0])
     assert (np.einsum("ij,ij->i", wound, normals[pieces.whole]) > 0.0).all()
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from laid import laid
 from refusing import refusal
 from test_importing_urdf import articulated
 
@@ -17,9 +18,7 @@ LOPSIDED = "v 5 0 0\nv 6 0.1 0\nv 5 2 0.2\nv 5.3 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\
 
 
 def write(folder, text):
-    path = folder / "thing.xml"
-    path.write_text(f"<mujoco>{text}</mujoco>", encoding="utf-8")
-    return path
+    return laid(folder / "thing.xml", f"<mujoco>{text}</mujoco>")
 
 
 def load(folder, text):
@@ -54,8 +53,7 @@ def test_joints_of_every_kind_come_back_in_the_world_frame(tmp_path):
 
 
 def test_a_recentred_mesh_lands_where_the_file_had_it(tmp_path):
-    (tmp_path / "assets").mkdir()
-    (tmp_path / "assets" / "lopsided.obj").write_text(LOPSIDED)
+    laid(tmp_path / "assets" / "lopsided.obj", LOPSIDED)
     intake = load(
         tmp_path,
         """<compiler meshdir="assets" angle="radian"/>
@@ -88,8 +86,7 @@ def test_joints_of_one_body_become_a_chain_and_limits_count_from_the_reference_p
 
 def geom(group, collides, alpha=1.0):
     place = {"size": np.ones(3), "pose": np.eye(4), "rgba": (1.0, 1.0, 1.0, alpha)}
-    contact = int(collides)
-    return CompiledGeom("", 1, shape="box", contact_type=contact, group=group, **place)
+    return CompiledGeom("", 1, shape="box", contact_type=int(collides), group=group, **place)
 
 
 @pytest.mark.parametrize(

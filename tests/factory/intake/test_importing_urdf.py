@@ -5,6 +5,7 @@ import pytest
 from fault_corpus.things import words
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from laid import laid
 from plain_solids import signed_volume
 from refusing import refusal
 from scipy.spatial.transform import Rotation
@@ -18,10 +19,8 @@ BOX = '<visual><geometry><box size="1 1 1"/></geometry></visual>'
 TETRA = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
 
 
-def write(folder, body, name="thing.urdf"):
-    path = folder / name
-    path.write_text(f'<?xml version="1.0"?>\n<robot name="r">{body}</robot>', encoding="utf-8")
-    return path
+def write(folder, body):
+    return laid(folder / "thing.urdf", f'<?xml version="1.0"?>\n<robot name="r">{body}</robot>')
 
 
 def link(name, inside=BOX):

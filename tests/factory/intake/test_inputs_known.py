@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 from fuzz_cases import MJCF, cube_files
+from laid import laid
 from mesh_cube import write_glb, write_gltf, write_obj
 from refusing import refusal
 
@@ -53,10 +54,9 @@ def placed(folder, name="thing.glb", sidecar=""):
 
 def urdf(folder, mesh, sidecar=""):
     """A description beside that mesh."""
-    folder.mkdir(parents=True, exist_ok=True)
     shape = f'<visual><geometry><mesh filename="{mesh}"/></geometry></visual>'
-    path = folder / "box.urdf"
-    path.write_text(f'<robot name="box"><link name="base">{shape}</link></robot>')
+    text = f'<robot name="box"><link name="base">{shape}</link></robot>'
+    path = laid(folder / "box.urdf", text)
     if sidecar:
         path.with_suffix(".toml").write_text(sidecar)
     return path
@@ -126,10 +126,7 @@ def test_every_file_of_a_mesh_counts(write, files, tmp_path):
         before = file.read_bytes() if file.exists() else None
         file.write_bytes((before or b"") + b"\n")
         assert known.probe(path).key != source_key(source), name
-        if before is None:
-            file.unlink()
-        else:
-            file.write_bytes(before)
+        file.unlink() if before is None else file.write_bytes(before)
     assert known.probe(path).key == source_key(source)
 
 
@@ -294,8 +291,7 @@ def test_a_reader_that_was_stopped_gives_no_verdict(error, code, tmp_path, monke
 
 
 def test_a_name_that_is_no_utf8_is_an_input_like_any_other(tmp_path):
-    path = tmp_path / b"bad\xff.glb".decode("utf-8", "surrogateescape")
-    path.write_bytes(b"junk")
+    path = laid(tmp_path / b"bad\xff.glb".decode("utf-8", "surrogateescape"), "junk")
     registry = Registry(tmp_path / "out", create=True)
     with registry.staging_folder() as staging, Judge(CONFIG.checks) as judge:
         result = register(registry, make_asset(path, staging, CONFIG, None, judge))

@@ -4,17 +4,11 @@ import os
 
 import pytest
 from input_files import write_inputs
+from laid import laid
 from ros_packages import write_meshes, write_package
 
 from asset_factory.factory.intake.companions import companions
 from asset_factory.factory.intake.discover import find_inputs, links_out
-
-
-def _touch(path, content="x"):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(content)
-    return path
-
 
 ROBOT = '<robot><mesh filename="{}"/></robot>'
 SCENE = "<?xml version='1.0'?><!-- x --><mujoco><mesh file='link.stl'/></mujoco>"
@@ -50,23 +44,22 @@ FOLDERS = {
 def test_a_folder_is_searched_for_inputs(name, tmp_path):
     documents, others, found = FOLDERS[name]
     for file, text in {**documents, **dict.fromkeys(others.split(), "x")}.items():
-        _touch(tmp_path / file, text)
+        laid(tmp_path / file, text)
     assert find_inputs([tmp_path]) == tuple(tmp_path / file for file in found.split())
 
 
 def test_what_is_named_is_an_input_once_whatever_it_is(tmp_path):
-    mesh = _touch(tmp_path / "door.obj")
-    _touch(tmp_path / "robot.urdf", ROBOT.format("door.obj"))
-    asset = _touch(tmp_path / "out" / "assets" / "cup-0000000000" / "asset.urdf", "<robot/>")
-    _touch(tmp_path / "out" / "registry.db")
-    other = _touch(tmp_path / "notes.xml", "<notes/>")
-    named = [mesh, other, mesh, tmp_path / "out" / "assets"]
-    assert find_inputs(named) == (mesh, other, asset)
+    mesh = laid(tmp_path / "door.obj")
+    laid(tmp_path / "robot.urdf", ROBOT.format("door.obj"))
+    asset = laid(tmp_path / "out" / "assets" / "cup-0000000000" / "asset.urdf", "<robot/>")
+    laid(tmp_path / "out" / "registry.db")
+    other = laid(tmp_path / "notes.xml", "<notes/>")
+    assert find_inputs([mesh, other, mesh, tmp_path / "out" / "assets"]) == (mesh, other, asset)
 
 
 def test_links_out_of_the_folder_are_named_and_passed_over(tmp_path):
-    outside = _touch(tmp_path / "outside.glb")
-    inside = _touch(tmp_path / "in" / "a.glb")
+    outside = laid(tmp_path / "outside.glb")
+    inside = laid(tmp_path / "in" / "a.glb")
     os.symlink(outside, tmp_path / "in" / "b.glb")
     os.symlink(tmp_path, tmp_path / "in" / "up")
     assert find_inputs([tmp_path / "in"]) == (inside,)
@@ -78,9 +71,8 @@ def test_links_out_of_the_folder_are_named_and_passed_over(tmp_path):
 def test_meshes_beside_the_folder_of_a_description_belong_to_it(tmp_path, before):
     path = write_package(tmp_path / "pkg", "cabinet", before)
     write_meshes(tmp_path / "alone")
-    macros = path.with_name("parts.xacro")
-    macros.write_text("<robot/>")
-    (main := path.with_name("main.urdf.xacro")).write_text("<robot/>")
+    laid(path.with_name("parts.xacro"), "<robot/>")
+    main = laid(path.with_name("main.urdf.xacro"), "<robot/>")
     alone = [tmp_path / "alone" / f"{name}.obj" for name in ("drawer", "shell")]
     assert find_inputs([tmp_path]) == (*alone, path, main)
 
@@ -120,6 +112,6 @@ def test_a_description_brings_its_meshes_and_their_textures_and_a_mesh_no_other(
 def test_what_an_input_names_in_its_folder_comes_with_it(tmp_path, files, brought):
     folder = tmp_path / "in"
     for name, text in files.items():
-        _touch(folder / name, text)
+        laid(folder / name, text)
     entry = next(iter(files))
     assert companions(folder / entry) == {entry, *brought}

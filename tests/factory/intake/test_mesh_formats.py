@@ -8,16 +8,8 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from fuzz_cases import DAE
-from mesh_cube import (
-    TEXTURED,
-    WRITERS,
-    cube,
-    gltf_parts,
-    pack_glb,
-    png,
-    write_glb,
-    write_obj,
-)
+from laid import laid
+from mesh_cube import TEXTURED, WRITERS, cube, gltf_parts, pack_glb, png, write_glb, write_obj
 from plain_solids import signed_volume
 
 from asset_factory.factory.config import IntakeConfig
@@ -27,6 +19,7 @@ from asset_factory.factory.intake.loading import load_mesh, load_visual
 from asset_factory.factory.mesh import Texture
 
 LIMITS = IntakeConfig()
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 PLACES = "property float x\nproperty float y\nproperty float z\n"
 
 
@@ -63,8 +56,7 @@ def test_cube_survives_in_file_order_and_seams_are_welded(form, tmp_path):
 def test_texture_bytes_coordinates_and_normals_survive(form, tmp_path):
     mesh = _load(WRITERS[form](tmp_path)).mesh
     shape = cube()
-    textured = mesh.materials[int(mesh.face_material[0])]
-    assert textured.texture == Texture(png(), ".png")
+    assert mesh.materials[int(mesh.face_material[0])].texture == Texture(png(), ".png")
     np.testing.assert_allclose(mesh.corner_uv, shape["uv"][shape["faces"]], atol=1e-7)
     np.testing.assert_allclose(mesh.corner_normals, shape["normals"][shape["faces"]], atol=1e-7)
 
@@ -118,8 +110,7 @@ def test_gltf_strips_and_fans_become_triangles(mode, indices, tmp_path):
     document["meshes"][0]["primitives"][0].update(mode=mode)
     binary = _appended(document, binary, np.array(indices, dtype="<u2").tobytes())
     document["accessors"][3] |= {"bufferView": 5, "count": 4}
-    (tmp_path / "quad.glb").write_bytes(pack_glb(document, binary))
-    normals = _normals(_load(tmp_path / "quad.glb").mesh)
+    normals = _normals(_load(laid(tmp_path / "quad.glb", pack_glb(document, binary))).mesh)
     np.testing.assert_allclose(normals, [[-1, 0, 0], [-1, 0, 0]], atol=1e-6)
 
 
@@ -141,8 +132,8 @@ def test_gltf_sparse_accessor_moves_one_vertex(tmp_path):
     indices = {"bufferView": 5, "componentType": 5123}
     sparse = {"count": 1, "indices": indices, "values": {"bufferView": 6}}
     document["accessors"][0]["sparse"] = sparse
-    (tmp_path / "cube.glb").write_bytes(pack_glb(document, binary))
-    assert _load(tmp_path / "cube.glb").mesh.bounds[0].tolist() == [-1.0, 0.0, 0.0]
+    path = laid(tmp_path / "cube.glb", pack_glb(document, binary))
+    assert _load(path).mesh.bounds[0].tolist() == [-1.0, 0.0, 0.0]
 
 
 def _meshes(*primitives):
@@ -181,8 +172,8 @@ def test_a_gltf_of_specular_and_gloss_keeps_its_diffuse_colour(tmp_path):
 
 
 def test_obj_understands_negative_indices_and_missing_attributes(tmp_path):
-    (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf -3/-1 -2 -1\nf 1 3 2\n")
-    mesh = _load(tmp_path / "t.obj").mesh
+    text = f"{TRIANGLE}vt 0 0\nf -3/-1 -2 -1\nf 1 3 2\n"
+    mesh = _load(laid(tmp_path / "t.obj", text)).mesh
     assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 1]]
     assert np.isnan(mesh.corner_uv[0, 1:]).all()
     assert mesh.corner_normals is None
@@ -219,27 +210,25 @@ def test_whatever_a_decoder_raises_the_picture_is_left_out(error, monkeypatch):
 
 def test_faces_that_are_not_finite_or_flat_are_dropped_and_counted(tmp_path):
     vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 2 0 0\nv 0 0 1\n"
-    (tmp_path / "m.obj").write_text(f"{vertices}f 1 2 4\nf 1 2 3\nf 1 2 5\nf 1 1 3\nf 1 3 6\n")
-    intake = load_mesh(tmp_path / "m.obj", LIMITS)
-    assert intake.provenance.dropped_non_finite == 1
-    assert intake.provenance.dropped_degenerate == 2
-    assert intake.source_faces.tolist() == [1, 4]
+    text = f"{vertices}f 1 2 4\nf 1 2 3\nf 1 2 5\nf 1 1 3\nf 1 3 6\n"
+    intake = load_mesh(laid(tmp_path / "m.obj", text), LIMITS)
+    dropped = (intake.provenance.dropped_non_finite, intake.provenance.dropped_degenerate)
+    assert (*dropped, intake.source_faces.tolist()) == (1, 2, [1, 4])
 
 
 def test_transparency_and_texture_coordinates_of_older_formats_are_read(tmp_path):
-    (tmp_path / "a.obj").write_text("mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    (tmp_path / "a.mtl").write_text("newmtl a\nKd 1 0 0\nTr 0.25\n")
-    assert _load(tmp_path / "a.obj").mesh.materials[0].color == (1.0, 0.0, 0.0, 0.75)
+    path = laid(tmp_path / "a.obj", f"mtllib a.mtl\nusemtl a\n{TRIANGLE}f 1 2 3\n")
+    laid(tmp_path / "a.mtl", "newmtl a\nKd 1 0 0\nTr 0.25\n")
+    assert _load(path).mesh.materials[0].color == (1.0, 0.0, 0.0, 0.75)
     corners = "0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n0 1 0 255 0 0 255\n"
-    (tmp_path / "a.off").write_text(f"COFF\n3 1 0\n{corners}3 0 1 2\n")
-    assert len(_load(tmp_path / "a.off").mesh.faces) == 1
+    path = laid(tmp_path / "a.off", f"COFF\n3 1 0\n{corners}3 0 1 2\n")
+    assert len(_load(path).mesh.faces) == 1
     head = f"ply\nformat ascii 1.0\ncomment TextureFile wood.png\nelement vertex 4\n{PLACES}"
     lists = "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
     rows = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2 6 0 0 1 0 0 1\n3 0 2 3 6 0 0 0 1 1 1\n"
-    (tmp_path / "a.ply").write_text(f"{head}element face 2\n{lists}end_header\n{rows}")
-    (tmp_path / "wood.png").write_bytes(png())
-    uv = _load(tmp_path / "a.ply").mesh.corner_uv
-    np.testing.assert_allclose(uv[0], [[0, 0], [1, 0], [0, 1]])
+    laid(tmp_path / "wood.png", png())
+    path = laid(tmp_path / "a.ply", f"{head}element face 2\n{lists}end_header\n{rows}")
+    np.testing.assert_allclose(_load(path).mesh.corner_uv[0], [[0, 0], [1, 0], [0, 1]])
 
 
 def test_ply_vertex_colours_become_one_linear_colour(tmp_path):
@@ -247,8 +236,8 @@ def test_ply_vertex_colours_become_one_linear_colour(tmp_path):
     head = f"ply\nformat ascii 1.0\nelement vertex 3\n{PLACES}"
     colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
     tail = "element face 1\nproperty list uchar int vertex_index\nend_header\n"
-    (tmp_path / "t.ply").write_text(head + colors + tail + rows + "3 0 1 2\n")
-    color = _load(tmp_path / "t.ply").mesh.materials[0].color
+    path = laid(tmp_path / "t.ply", head + colors + tail + rows + "3 0 1 2\n")
+    color = _load(path).mesh.materials[0].color
     np.testing.assert_allclose(color, (0.5, 0.0, 1.0, 1.0), atol=0.005)
 
 
@@ -259,17 +248,16 @@ def test_ply_mixed_polygons_keep_their_order(form, tmp_path):
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 2, 0]], dtype="<f4")
     polygons = [[0, 1, 2, 3], [3, 2, 4]]
     if form == "ascii":
-        body = "".join(f"{x} {y} {z}\n" for x, y, z in points) + "4 0 1 2 3\n3 3 2 4\n"
-        (tmp_path / "t.ply").write_bytes(head + body.encode())
+        body = "".join(f"{x} {y} {z}\n" for x, y, z in points).encode() + b"4 0 1 2 3\n3 3 2 4\n"
     else:
-        lists = b"".join(bytes([len(p)]) + np.array(p, dtype="<i4").tobytes() for p in polygons)
-        (tmp_path / "t.ply").write_bytes(head + points.tobytes() + lists)
-    assert _load(tmp_path / "t.ply").mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3], [3, 2, 4]]
+        rows = (bytes([len(p)]) + np.array(p, dtype="<i4").tobytes() for p in polygons)
+        body = b"".join((points.tobytes(), *rows))
+    faces = _load(laid(tmp_path / "t.ply", head + body)).mesh.faces
+    assert faces.tolist() == [[0, 1, 2], [0, 2, 3], [3, 2, 4]]
 
 
 def test_collada_applies_its_unit_and_nodes(tmp_path):
     text = DAE.format("wood.png").replace('<unit name="meter" meter="1"/>', '<unit meter="0.01"/>')
     lifted = text.replace("<node>", "<node><translate>0 0 3</translate>")
-    (tmp_path / "t.dae").write_text(lifted)
-    bounds = _load(tmp_path / "t.dae").mesh.bounds
+    bounds = _load(laid(tmp_path / "t.dae", lifted)).mesh.bounds
     np.testing.assert_allclose(bounds, [[0.0, 0.0, 0.03], [0.01, 0.01, 0.03]], rtol=1e-6)

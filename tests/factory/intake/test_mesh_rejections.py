@@ -7,6 +7,7 @@ from unittest.mock import Mock
 
 import pytest
 from fuzz_cases import DAE
+from laid import laid
 from mesh_cube import (
     WRITERS,
     gltf_parts,
@@ -47,12 +48,6 @@ def _rejected(path, config=CONFIG):
     found = refusal(load_mesh, path, config)
     assert str(path.parent) not in found.message
     return found
-
-
-def _laid(folder, name, content):
-    path = folder / name
-    path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    return path
 
 
 def _glb(**options):
@@ -114,13 +109,13 @@ UNREADABLE = {
 @pytest.mark.parametrize("name", USELESS)
 def test_each_way_to_be_no_mesh_has_its_code(name, tmp_path):
     content, code = USELESS[name]
-    assert _rejected(_laid(tmp_path, name, content)).code == code
+    assert _rejected(laid(tmp_path / name, content)).code == code
 
 
 @pytest.mark.parametrize("name", UNREADABLE)
 def test_a_broken_file_is_refused_with_its_fault(name, tmp_path):
     content, said = UNREADABLE[name]
-    found = _rejected(_laid(tmp_path, name, content))
+    found = _rejected(laid(tmp_path / name, content))
     assert (found.code, said in found.message) == ("unreadable", True)
 
 
@@ -206,16 +201,16 @@ TOO_LARGE = {
 @pytest.mark.parametrize("name", TOO_LARGE)
 def test_what_goes_beyond_a_limit_is_too_large(name, tmp_path):
     content, settings, said = TOO_LARGE[name]
-    found = _rejected(_laid(tmp_path, name, content), IntakeConfig(**settings))
+    found = _rejected(laid(tmp_path / name, content), IntakeConfig(**settings))
     assert (found.code, said in found.message) == ("too_large", True)
 
 
 def test_what_keeps_to_a_limit_is_not(tmp_path):
     for side in (2, 100):
-        path = _laid(tmp_path, "pictures.glb", _pictures(side))
+        path = laid(tmp_path / "pictures.glb", _pictures(side))
         assert load_mesh(path, IntakeConfig(max_texture_pixels=600 * 512)).mesh.materials
     for form in PLY_FORMS:
-        path = _laid(tmp_path, "tables.ply", _empty_tables(form))
+        path = laid(tmp_path / "tables.ply", _empty_tables(form))
         assert _rejected(path, IntakeConfig(max_faces=1501)).code == "unreadable"
 
 
@@ -234,9 +229,9 @@ def test_out_of_memory_is_too_large(tmp_path, monkeypatch):
 
 
 def test_a_flat_mesh_cannot_be_scaled_to_a_height(tmp_path):
-    (tmp_path / "rug.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    assert len(load_mesh(tmp_path / "rug.obj", CONFIG).mesh.faces) == 1
-    assert _rejected(tmp_path / "rug.obj", IntakeConfig(height=0.5)).code == "zero_size"
+    rug = laid(tmp_path / "rug.obj", f"{OBJ}f 1 2 3\n")
+    assert len(load_mesh(rug, CONFIG).mesh.faces) == 1
+    assert _rejected(rug, IntakeConfig(height=0.5)).code == "zero_size"
 
 
 HERE = ("../secret.png", "/etc/hostname", "C:\\a.png", "a/../../b.png")
@@ -246,7 +241,7 @@ HERE = ("../secret.png", "/etc/hostname", "C:\\a.png", "a/../../b.png")
 def test_a_reference_that_leaves_the_folder_is_external(reference, tmp_path):
     inside = tmp_path / "inside"
     inside.mkdir()
-    (tmp_path / "secret.png").write_bytes(png())
+    laid(tmp_path / "secret.png", png())
     path = write_gltf(inside)
     document = json.loads(path.read_text())
     document["images"] = [{"uri": reference}]
@@ -261,11 +256,9 @@ def test_a_reference_that_leaves_the_folder_is_external(reference, tmp_path):
 
 def test_a_collada_file_shows_pictures_of_its_own_folder_only(tmp_path):
     inside = tmp_path / "inside"
-    inside.mkdir()
     for folder in (tmp_path, inside):
-        (folder / "wood.png").write_bytes(png())
-    path = inside / "picture.dae"
-    path.write_text(DAE.format("wood.png"))
+        laid(folder / "wood.png", png())
+    path = laid(inside / "picture.dae", DAE.format("wood.png"))
     assert load_mesh(path, CONFIG).mesh.materials[0].texture is not None
     for reference in ("../wood.png", f"{tmp_path}/wood.png", f"file://{tmp_path}/wood.png"):
         path.write_text(DAE.format(reference))
@@ -284,11 +277,10 @@ def test_a_visual_outside_its_root_is_external(tmp_path):
 def test_a_visual_may_refer_to_anything_below_its_root(tmp_path):
     (tmp_path / "meshes").mkdir()
     path = write_obj(tmp_path / "meshes")
-    (tmp_path / "images").mkdir()
-    (tmp_path / "meshes" / "wood.png").rename(tmp_path / "images" / "wood.png")
-    (tmp_path / "meshes" / "cube.mtl").write_text("newmtl red wood\nmap_Kd ../images/wood.png\n")
-    mesh = load_visual(path, tmp_path, CONFIG).mesh
-    assert mesh.materials[0].texture is not None
+    laid(tmp_path / "images" / "wood.png", png())
+    path.with_name("wood.png").unlink()
+    path.with_name("cube.mtl").write_text("newmtl red wood\nmap_Kd ../images/wood.png\n")
+    assert load_visual(path, tmp_path, CONFIG).mesh.materials[0].texture is not None
 
 
 @pytest.mark.parametrize("field", [{"height": 0.0}, {"height": float("nan")}])

@@ -146,8 +146,7 @@ def test_a_gltf_that_is_only_plausible_z_up_is_kept_y_up_but_pointed_out(tmp_pat
 def test_sidecar_says_everything(tmp_path):
     (tmp_path / "pred.npz").write_bytes(b"x")
     size = 'category = "Refrigerator"\nup = "y"\nheight = 2.0\ndensity = 400\n'
-    sidecar = f'{size}license = "MIT"\nannotation = "pred.npz"\n'
-    intake = _load(write_glb(tmp_path), sidecar)
+    intake = _load(write_glb(tmp_path), f'{size}license = "MIT"\nannotation = "pred.npz"\n')
     provenance = intake.provenance
     assert (provenance.category, provenance.density, provenance.license) == ("fridge", 400.0, "MIT")
     assert intake.annotation_path == tmp_path / "pred.npz"

@@ -5,6 +5,7 @@ from pathlib import Path
 from unittest.mock import Mock
 
 import pytest
+from laid import laid
 from s3_server import BUCKET, KEY, SECRET
 
 from asset_factory.factory.errors import ConfigError
@@ -106,9 +107,7 @@ def test_a_single_file_comes_with_what_is_named_after_it(remote, tmp_path):
 
 
 def test_paths_and_local_urls_are_what_they_are(tmp_path):
-    mesh = tmp_path / "in" / "a.stl"
-    mesh.parent.mkdir()
-    mesh.write_text("solid")
+    mesh = laid(tmp_path / "in" / "a.stl", "solid")
     given = (mesh, str(mesh), f"file://{mesh}")
     assert local_inputs(given, tmp_path / "out") == (mesh,) * 3
     assert not (tmp_path / "out").exists()
@@ -134,8 +133,7 @@ def test_what_is_not_there_is_one_sentence(remote, tmp_path):
 def test_no_secret_is_told(url, without, tmp_path):
     assert shown(url) == without
     assert SECRET not in str(mirror_of(url, tmp_path))
-    error = OSError(f"cannot connect to {url}, refused")
-    assert SECRET not in told(error, url)
+    assert SECRET not in told(OSError(f"cannot connect to {url}, refused"), url)
 
 
 def test_an_error_of_a_server_names_no_secret(tmp_path, capfd):

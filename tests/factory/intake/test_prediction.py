@@ -12,7 +12,7 @@ from asset_factory.factory.mesh import Mesh
 FACES = 8
 
 
-def fields(**changes):
+def save(folder, **changes):
     """Labels of four boxes: part 0 carries a hinge (1), a slider (2) and a part with both (3)."""
     axis = np.array([0.0, 0.0, 1.0])
     point = np.array([1.0, 2.0, 0.0])
@@ -28,25 +28,18 @@ def fields(**changes):
         "prismatic_range": np.array([[0, 0], [0, 0], [0, 0.3], [0, 0.2]], dtype=np.float32),
     }
     result.update(changes)
-    return {name: value for name, value in result.items() if value is not None}
-
-
-def save(folder, **changes):
     path = folder / "pred.npz"
-    np.savez(path, **fields(**changes))
+    np.savez(path, **{name: value for name, value in result.items() if value is not None})
     return path
 
 
-def strip(count=FACES):
-    """Loose triangles side by side, one above another."""
+def articulate(path, count=FACES):
+    """What is read of loose triangles side by side, one above another."""
+    annotation = read_prediction(path, count)
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=np.float64)
     vertices = np.concatenate([corners + np.array([0, 0, i]) for i in range(count)])
-    return Mesh.from_triangles(vertices, np.arange(3 * count).reshape(-1, 3))
-
-
-def articulate(path, count=FACES):
-    annotation = read_prediction(path, count)
-    return AnnotatedArticulator(annotation, np.eye(4), np.arange(count)).articulate(strip(count))
+    strip = Mesh.from_triangles(vertices, np.arange(3 * count).reshape(-1, 3))
+    return AnnotatedArticulator(annotation, np.eye(4), np.arange(count)).articulate(strip)
 
 
 def test_moments_are_axis_cross_point():
@@ -136,8 +129,7 @@ def test_hierarchies_that_are_no_forest_are_refused(tmp_path, edges):
 def test_published_predictions_become_trees(fixtures, name):
     path = fixtures / "postprocess_e2e" / name / "pred.npz"
     stored = np.load(path, allow_pickle=False)
-    count = len(stored["face_part_ids"])
-    result = articulate(path, count)
+    result = articulate(path, len(stored["face_part_ids"]))
     assert len(result.joints) == len(stored["motion_hierarchy"])
     # Posing a joint inside its range turns the axes it carries; those of the root's children stay.
     for joint in (j for j in result.joints if j.parent == 0):

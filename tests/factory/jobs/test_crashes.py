@@ -5,7 +5,7 @@ import json
 import os
 
 import pytest
-from job_samples import PLAIN, job, made, note
+from job_samples import PLAIN, job, made, note, write_inputs
 
 from asset_factory.factory.jobs import Budget, LocalExecutor
 from asset_factory.factory.registry import Registry, keys
@@ -36,11 +36,9 @@ def _dying(builds_are):
 
 
 def built(tmp_path, name, retries=1, **more):
-    path = tmp_path / "in" / f"{name}.stl"
-    path.parent.mkdir(exist_ok=True)
-    path.write_text("solid")
+    inputs = write_inputs(tmp_path / "in", 0, name)
     executor = LocalExecutor(1, retries=retries)
-    (result,) = job((path,), tmp_path / "out", PLAIN, executor=executor, **more).run()
+    (result,) = job(inputs, tmp_path / "out", PLAIN, executor=executor, **more).run()
     return result
 
 
@@ -64,8 +62,7 @@ def test_two_deaths_in_one_stage_are_a_verdict_with_a_trace_that_waits(tmp_path,
 
 
 def test_a_death_a_night_is_a_verdict_after_the_second(tmp_path):
-    first = built(tmp_path, "dies", retries=0)
-    assert first.entry.reason == "build_crashed"
+    assert built(tmp_path, "dies", retries=0).entry.reason == "build_crashed"
     second = built(tmp_path, "dies", retries=0)
     assert (second.known, second.entry.reason) == (False, "crashed")
     assert built(tmp_path, "dies", retries=0).known

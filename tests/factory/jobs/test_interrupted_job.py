@@ -26,8 +26,7 @@ def started(folder, output, *flags):
 
 def begun(folder, output, *flags):
     """One that has finished three inputs and hangs in the fourth."""
-    write_inputs(folder, 3)
-    (folder / "zz_slow.stl").write_text("solid slow")
+    write_inputs(folder, 3, "zz_slow")
     process = started(folder, output, *flags)
     assert process.stdout is not None
     for _ in range(3):
@@ -77,13 +76,11 @@ def test_a_job_that_winds_up_begins_nothing_more(tmp_path, builds_are):
         winding.wind_up()
     assert 1 <= len(finished) < 8
     assert (winding.left, winding.state) == (8 - len(finished), "interrupted")
-    rest = job(inputs, tmp_path / "out")
-    assert len(list(rest.run())) == 8
+    assert len(list(job(inputs, tmp_path / "out").run())) == 8
 
 
 def test_a_job_out_of_time_stops_what_runs_and_registers_nothing_of_it(tmp_path):
-    (tmp_path / "in").mkdir()
-    (tmp_path / "in" / "slow.stl").write_text("solid slow")
+    write_inputs(tmp_path / "in", 0, "slow")
     with started(tmp_path / "in", tmp_path / "out", "--max-s", "8") as process:
         assert process.wait(PATIENCE_S) == 0
         assert process.stdout.read() == "out_of_time 1\n"
@@ -91,9 +88,7 @@ def test_a_job_out_of_time_stops_what_runs_and_registers_nothing_of_it(tmp_path)
 
 
 def test_with_one_worker_ctrl_c_builds_what_is_begun_and_no_more(tmp_path):
-    (tmp_path / "in").mkdir()
-    for number in range(3):
-        (tmp_path / "in" / f"nap_{number}.stl").write_text("solid nap")
+    write_inputs(tmp_path / "in", 0, "nap_0", "nap_1", "nap_2")
     with started(tmp_path / "in", tmp_path / "out", "--wind-up", "--one") as process:
         until(lambda: (tmp_path / "in" / MADE).exists() and made(tmp_path / "in"))
         process.send_signal(signal.SIGINT)

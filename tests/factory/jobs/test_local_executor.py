@@ -36,10 +36,6 @@ def nap(seconds):
     return seconds
 
 
-def process_id(_):
-    return os.getpid()
-
-
 def named(*names):
     return [Call(name, {"what": name}) for name in names]
 
@@ -59,13 +55,14 @@ def test_what_fails_costs_only_itself():
 
 def test_bad_luck_gets_one_more_try_in_a_new_process_and_no_more():
     # The first call of a process, and one that is not: both are tried twice.
-    for before in ((), ("fine",)):
-        *_, (_, outcome) = LocalExecutor(1).run(behave, named(*before, "crash"), GENEROUS)
-        assert (outcome.failure, outcome.tries) == ("crashed", 2)
-    *_, (_, outcome) = LocalExecutor(1, retries=0).run(behave, named("crash"), GENEROUS)
-    assert outcome.tries == 1
-    *_, (_, outcome) = LocalExecutor(1, retries=2).run(behave, named("crash"), GENEROUS)
-    assert outcome.tries == 3
+    for calls, more in (
+        (("crash",), {}),
+        (("fine", "crash"), {}),
+        (("crash",), {"retries": 0}),
+        (("crash",), {"retries": 2}),
+    ):
+        *_, (_, outcome) = LocalExecutor(1, **more).run(behave, named(*calls), GENEROUS)
+        assert (outcome.failure, outcome.tries) == ("crashed", 1 + more.get("retries", 1))
     # What only a worn process fails at is no failure.
     *_, (_, outcome) = LocalExecutor(1).run(behave, named("fine", "worn"), GENEROUS)
     assert (outcome.unwrap(), outcome.tries) == ("worn", 2)
@@ -95,8 +92,8 @@ def test_calls_are_taken_as_workers_come_free():
 
 
 def test_workers_are_kept_and_replaced():
-    calls = [Call(str(number), {"_": number}) for number in range(6)]
-    ran = LocalExecutor(1, calls=3).run(process_id, calls, GENEROUS)
+    calls = [Call(str(number), {}) for number in range(6)]
+    ran = LocalExecutor(1, calls=3).run(os.getpid, calls, GENEROUS)
     processes = [outcome.unwrap() for _, outcome in ran]
     assert processes[0] == processes[1] == processes[2] != processes[3]
     assert processes[3] == processes[4] == processes[5]

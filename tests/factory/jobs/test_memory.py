@@ -1,6 +1,7 @@
 """No more workers than memory has room for, by the machine and by every cgroup above."""
 
 import pytest
+from laid import laid
 
 from asset_factory.factory.jobs import memory
 from asset_factory.factory.jobs.memory import free_memory, workers_for
@@ -8,21 +9,17 @@ from asset_factory.factory.jobs.memory import free_memory, workers_for
 GIB = 2**30
 
 
-def machine(root, available, cgroup=""):
-    proc = root / "proc"
-    (proc / "self").mkdir(parents=True)
-    (proc / "meminfo").write_text(
-        f"MemTotal: 99999999 kB\nMemFree: 1 kB\nMemAvailable: {available // 1024} kB\n"
-    )
-    (proc / "self" / "cgroup").write_text(cgroup)
-    return proc
+def machine(root, cgroup):
+    free = f"MemFree: 1 kB\nMemAvailable: {64 * GIB // 1024} kB\n"
+    laid(root / "proc" / "meminfo", f"MemTotal: 99999999 kB\n{free}")
+    laid(root / "proc" / "self" / "cgroup", cgroup)
+    return root / "proc"
 
 
 def group(folder, limit, used, unused):
     """A group with that limit [GiB], of which so much is used, and of that so much is no loss."""
-    folder.mkdir(parents=True, exist_ok=True)
     most = limit if limit == "max" else limit * GIB
-    (folder / "memory.max").write_text(f"{most}\n")
+    laid(folder / "memory.max", f"{most}\n")
     (folder / "memory.current").write_text(f"{used * GIB}\n")
     (folder / "memory.stat").write_text(f"anon 5\ninactive_file {unused * GIB}\n")
 
@@ -40,15 +37,13 @@ def group(folder, limit, used, unused):
 def test_the_tightest_limit_decides(tmp_path, cgroup, groups, free):
     for name, (limit, used, unused) in groups.items():
         group(tmp_path / "groups" / name, limit, used, unused)
-    assert free_memory(machine(tmp_path, 64 * GIB, cgroup), tmp_path / "groups") == free * GIB
+    assert free_memory(machine(tmp_path, cgroup), tmp_path / "groups") == free * GIB
 
 
 def test_groups_of_the_first_kind_are_read_too(tmp_path):
-    proc = machine(tmp_path, 64 * GIB, "5:cpu,cpuacct:/x\n4:memory:/x\n")
-    folder = tmp_path / "groups" / "memory" / "x"
-    folder.mkdir(parents=True)
-    (folder / "memory.limit_in_bytes").write_text(str(6 * GIB))
-    (folder / "memory.usage_in_bytes").write_text(str(2 * GIB))
+    proc = machine(tmp_path, "5:cpu,cpuacct:/x\n4:memory:/x\n")
+    for name, gib in (("limit", 6), ("usage", 2)):
+        laid(tmp_path / f"groups/memory/x/memory.{name}_in_bytes", str(gib * GIB))
     assert free_memory(proc, tmp_path / "groups") == 4 * GIB
 
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import trimesh
 from job_samples import PLAIN, job
+from laid import laid
 
 from asset_factory.factory.jobs import local, worker
 from asset_factory.factory.jobs.local import LocalExecutor
@@ -11,16 +12,11 @@ from asset_factory.factory.registry import Registry
 from asset_factory.factory.runtime.store import folder_digests
 
 
-def boxes(folder):
+def test_the_order_of_builds_changes_no_byte(tmp_path):
+    folder = laid(tmp_path / "in" / "broken.glb", "glTF but not really").parent
     for number, size in enumerate(((0.5, 0.4, 0.3), (0.2, 0.3, 0.4))):
         trimesh.creation.box(size).export(folder / f"box_{number}.stl")
-    (folder / "broken.glb").write_bytes(b"glTF but not really")
-    return sorted(folder.iterdir())
-
-
-def test_the_order_of_builds_changes_no_byte(tmp_path):
-    (tmp_path / "in").mkdir()
-    inputs = boxes(tmp_path / "in")
+    inputs = sorted(folder.iterdir())
     digests = []
     for number, order in enumerate((inputs, inputs[::-1])):
         output = tmp_path / f"out_{number}"

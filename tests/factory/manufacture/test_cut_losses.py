@@ -33,8 +33,7 @@ def test_depths_are_limited_for_both_parts_together(name, most):
     within = replace(NOTHING, **{name: 0.5 * most})
     both = [within, replace(NOTHING, part="bin", **{name: 0.6 * most})]
     assert judged(within, solid=False) is None
-    told = overdone(both, (False, True), CONFIG, **LIMITS)
-    assert "most of it off 'bin'" in told
+    assert "most of it off 'bin'" in overdone(both, (False, True), CONFIG, **LIMITS)
 
 
 def test_most_of_the_slabs_over_an_open_surface_may_go_where_nothing_is_bared():
@@ -64,8 +63,7 @@ def test_a_plate_cut_to_a_knife_s_edge_is_bared_though_no_plane_cuts_deep():
     whole, surface = plate()
     # From the upper edge of one end down to the middle of the lower face.
     normal = np.array([0.002, 0.0, 0.3]) / np.hypot(0.002, 0.3)
-    wedge = clipped(whole, normal, float(normal @ [0.0, 0.0, -0.001]))
-    lost = lost_by(surface, whole, wedge)
+    lost = lost_by(surface, whole, clipped(whole, normal, float(normal @ [0.0, 0.0, -0.001])))
     assert lost.bared_m == pytest.approx(0.004, abs=1e-4)
     assert lost.area == pytest.approx(0.295 / 0.6, abs=0.03)
     assert lost.untouched == pytest.approx(0.29 / 0.6, abs=0.03)

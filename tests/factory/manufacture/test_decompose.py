@@ -275,8 +275,7 @@ def test_pieces_are_split_again_up_to_a_count(monkeypatch):
 
     monkeypatch.setattr(methods, "METHODS", (halved,))
     monkeypatch.setattr(methods, "MOST_AGAIN", 1)
-    once = split_closely(torus_solid(), 0.01, CONFIG, NOWHERE)
-    assert len(once.hulls) == 3
+    assert len(split_closely(torus_solid(), 0.01, CONFIG, NOWHERE).hulls) == 3
     monkeypatch.undo()
     monkeypatch.setattr(methods, "METHODS", (halved,))
     assert len(split_closely(torus_solid(), 0.01, CONFIG, NOWHERE).hulls) == 4

@@ -137,8 +137,7 @@ def test_no_part_weighs_more_than_its_filled_hulls_or_too_little(mesh, hulls, ma
 
 
 def test_a_crumb_is_lifted_to_what_simulators_can_hold():
-    crumb = box((0.0, 1e-4), (0.0, 1e-4), (0.0, 1e-4), PLAIN)
-    found = inertial(crumb)
+    found = inertial(box((0.0, 1e-4), (0.0, 1e-4), (0.0, 1e-4), PLAIN))
     assert found.mass == MIN_MASS_KG
     np.testing.assert_allclose(
         found.tensor, np.eye(3) * 2 * MIN_MASS_KG * MIN_GYRATION_M**2, atol=1e-20
@@ -180,16 +179,12 @@ def test_no_link_becomes_denser_than_steel_or_too_light_for_simulators():
     assert lightest.mass == pytest.approx(MIN_MASS_KG)
 
 
-def lump(seed):
-    points = np.random.default_rng(seed).normal(size=(12, 3)) * [0.3, 0.2, 0.1]
-    made = trimesh.convex.convex_hull(points)
-    return Mesh.from_triangles(made.vertices, made.faces)
-
-
 @settings(max_examples=25, deadline=None)
 @given(seed=st.integers(0, 1000), shift=st.floats(-20.0, 20.0), factor=st.floats(0.3, 3.0))
 def test_moving_turning_and_scaling_commute_with_the_inertia(seed, shift, factor):
-    mesh = lump(seed)
+    lump = np.random.default_rng(seed).normal(size=(12, 3)) * [0.3, 0.2, 0.1]
+    made = trimesh.convex.convex_hull(lump)
+    mesh = Mesh.from_triangles(made.vertices, made.faces)
     rotation = Rotation.random(rng=np.random.default_rng(seed)).as_matrix()
     matrix = np.eye(4)
     matrix[:3, :3] = factor * rotation

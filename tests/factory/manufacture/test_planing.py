@@ -139,8 +139,7 @@ def test_what_a_slide_passes_between_two_poses_is_cut_too():
     slide = Joint("slide", "prismatic", 0, 1, [1, 0, 0], [0, 0, 0], 0.0, 0.45)
     cut_free([floor, lip], [front], slide)
     # One that reaches 30 mm further is no lip.
-    higher = box((0.004, -0.1, 0.067), (0.03, 0.1, 0.2))
-    require_refused([floor, higher], [front], slide)
+    require_refused([floor, box((0.004, -0.1, 0.067), (0.03, 0.1, 0.2))], [front], slide)
 
 
 def swung_over(post):

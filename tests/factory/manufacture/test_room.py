@@ -56,8 +56,7 @@ def test_a_groove_that_another_part_runs_in_stays_open_all_its_way():
 def cap(radius=0.04, height=0.025):
     """A round cap with its opening down."""
     made = trimesh.creation.cylinder(radius, height, sections=24)
-    low = (made.vertices[made.faces][:, :, 2] < 0.0).all(axis=1)
-    made.update_faces(~low)
+    made.update_faces(~(made.vertices[made.faces][:, :, 2] < 0.0).all(axis=1))
     return made
 
 

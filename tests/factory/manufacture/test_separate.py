@@ -168,8 +168,7 @@ def test_a_cut_that_would_take_too_much_is_refused():
 
 def test_what_sticks_out_on_the_other_side_is_not_cut_off():
     # A rod through a board: neither half of it may go, only what is in the board.
-    board = solid((0.3, 0.3, 0.02), (0, 0, 0.1))
-    _, _, result = cut([board], [solid((0.02, 0.02, 0.4))], TURN)
+    _, _, result = cut([solid((0.3, 0.3, 0.02), (0, 0, 0.1))], [solid((0.02, 0.02, 0.4))], TURN)
     assert result.refused == {}
     rods = result.pieces[1].hulls
     assert sum(each.volume for each in rods) == pytest.approx(0.02**2 * (0.4 - 0.025))

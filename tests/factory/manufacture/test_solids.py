@@ -219,8 +219,7 @@ def test_halves_of_a_board_are_joined_and_the_legs_of_a_table_are_not():
 
 
 def test_joining_covers_whatever_was_given():
-    random = np.random.default_rng(3)
-    places = random.random((40, 3)) * [0.2, 0.2, 0.01]
+    places = np.random.default_rng(3).random((40, 3)) * [0.2, 0.2, 0.01]
     hulls = [hull_box((0.03, 0.03, 0.01), place) for place in places]
     merged = merge(hulls, 0.005)
     assert len(merged) < len(hulls)

@@ -127,8 +127,7 @@ def test_without_an_exchanging_rename_two_do(registry, monkeypatch):
     publish(registry)
     exchanged = "asset_factory.factory.registry.placing._exchanged"
     monkeypatch.setattr(exchanged, lambda first, second: errno.ENOSYS)
-    folder = publish(registry, "two")
-    assert (folder / "meshes" / "a.obj").read_text() == "two"
+    assert (publish(registry, "two") / "meshes" / "a.obj").read_text() == "two"
     assert list((registry.root / ".staging").iterdir()) == []
 
 

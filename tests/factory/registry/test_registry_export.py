@@ -56,8 +56,7 @@ def test_licenses_are_told_and_what_people_write_into_one_stays_text(registry, t
 
 def test_the_hub_finds_a_card_and_tables(registry, tmp_path):
     export(registry, tmp_path / "x", "huggingface", status="passed")
-    card = (tmp_path / "x" / "README.md").read_text()
-    matter = card.split("---")[1]
+    matter = (tmp_path / "x" / "README.md").read_text().split("---")[1]
     for line in ("license: other", "license_link: LICENSES.md", "  - n<1K", "      - split: train"):
         assert f"\n{line}\n" in matter
     tables = [parquet.read_table(path) for path in (tmp_path / "x" / "metadata").iterdir()]

@@ -65,16 +65,6 @@ def test_a_claim_is_had_by_one_until_it_is_released(tmp_path):
     assert list((tmp_path / "claims").iterdir()) == []
 
 
-def cached(registry, ages):
-    store = Store(registry.root / ".cache")
-    for number, age in enumerate(ages):
-        key = stage_key("decompose", 1, number)
-        store.save(key, {"a": np.zeros(100)})
-        path = store.root / key[-2:] / f"{key}.npz"
-        os.utime(path, (time.time() - age * DAY,) * 2)
-    return store
-
-
 def left(store, numbers=range(4)):
     """Which are still there of some, which are used by asking."""
     keys = {number: stage_key("decompose", 1, number) for number in numbers}
@@ -94,7 +84,12 @@ def left(store, numbers=range(4)):
     ids=["by age", "from the future", "by size", "just used"],
 )
 def test_the_cache_shrinks(registry, ages, days, share, used, kept):
-    store = cached(registry, ages)
+    store = Store(registry.root / ".cache")
+    for number, age in enumerate(ages):
+        key = stage_key("decompose", 1, number)
+        store.save(key, {"a": np.zeros(100)})
+        path = store.root / key[-2:] / f"{key}.npz"
+        os.utime(path, (time.time() - age * DAY,) * 2)
     assert left(store, used) == list(used)
     older_than_s = None if days is None else days * DAY
     keep_bytes = None if share is None else int(share * store.size().bytes)

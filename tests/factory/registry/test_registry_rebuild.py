@@ -18,15 +18,11 @@ from asset_factory.factory.registry.verify import verify
 def lose(registry, how):
     database = registry.root / "registry.db"
     if how == "deleted":
-        database.unlink()
-    elif how == "garbage":
-        database.write_bytes(b"no database at all" * 1000)
-    elif how == "empty":
-        database.write_bytes(b"")
-    elif how == "torn":
-        content = bytearray(database.read_bytes())
-        content[4096:] = b"\xff" * (len(content) - 4096)
-        database.write_bytes(content)
+        return database.unlink()
+    whole = database.read_bytes()
+    contents = {"intact": whole, "garbage": b"no database at all" * 1000, "empty": b""}
+    contents["torn"] = whole[:4096] + b"\xff" * (len(whole) - 4096)
+    return database.write_bytes(contents[how])
 
 
 @pytest.mark.parametrize("how", ["intact", "deleted", "garbage", "empty", "torn"])

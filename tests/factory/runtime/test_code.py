@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from command_line import ran
+from laid import laid
 
 import asset_factory
 from asset_factory.factory.registry.keys import PIPELINE, STAGES
@@ -38,9 +39,7 @@ SOURCES = {
 def digest(tmp_path, monkeypatch):
     """What takes the digest of modules of a small package, anew each time."""
     for name, text in SOURCES.items():
-        path = tmp_path / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
+        laid(tmp_path / name, text)
     monkeypatch.syspath_prepend(tmp_path)
 
     def taken(*names):

@@ -75,8 +75,7 @@ def one_door(tmp_path_factory):
     """A block with a door and its bar: one joint, which rules of shape find."""
     block = board((0.0, 0.0, 0.0), (0.6, 0.6, 1.0))
     door = board((0.0, -0.06, 0.02), (0.6, -0.001, 0.98), PAINT)
-    bar = board((0.05, -0.1, 0.4), (0.08, -0.06, 0.7), METAL)
-    mesh = concatenate([block, door, bar])
+    mesh = concatenate([block, door, board((0.05, -0.1, 0.4), (0.08, -0.06, 0.7), METAL)])
     file = tmp_path_factory.mktemp("one_door") / "cupboard.obj"
     trimesh.Trimesh(mesh.vertices, mesh.faces, process=False).export(file)
     return file

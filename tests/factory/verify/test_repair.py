@@ -147,8 +147,7 @@ def test_a_joint_that_another_stops_once_a_little_open_ends_there():
 
 
 def test_a_small_blocked_part_is_frozen_and_says_after_how_much():
-    given = blocked(name="slide", clear_until=0.2)
-    plan = planned(given, spare=Spare(frozenset({"slide"})))
+    plan = planned(blocked(name="slide", clear_until=0.2), spare=Spare(frozenset({"slide"})))
     assert plan.frozen == {"slide"}
     assert "after 10% of its range" in plan.repairs[-1].sentence
 
@@ -241,10 +240,8 @@ def test_joined_hulls_stay_joined_where_nothing_or_another_part_is_wrong_or_ther
     assert planned(verdict(JOINED)) is None
     assert planned(verdict(JOINED, wrong), Plan(fewer=10)) is None
     assert planned(verdict(wrong)) is None
-    elsewhere = hard("rest_penetration", parts=("door", "handle"))
-    assert planned(verdict(JOINED, elsewhere)) is None
-    unplaced = hard("simulator_crashed", parts=())
-    assert planned(verdict(JOINED, unplaced)).closely
+    assert planned(verdict(JOINED, hard("rest_penetration", parts=("door", "handle")))) is None
+    assert planned(verdict(JOINED, hard("simulator_crashed", parts=()))).closely
 
 
 FRONTS = Spare(fronts=frozenset({"drawer"}))
@@ -254,8 +251,7 @@ def drawer(proposer):
     """The upper drawer of a chest, by whoever says so."""
     mesh = drawer_chest()
     own = np.isin(connected_components(mesh), (2, 4))
-    source = PartSource("upper", proposer)
-    front = Part("drawer", np.flatnonzero(own), source=source)
+    front = Part("drawer", np.flatnonzero(own), source=PartSource("upper", proposer))
     parts = (Part("base", np.flatnonzero(~own)), front)
     out = np.array([0.0, -1.0, 0.0])
     joint = Joint("slide", JointKind.PRISMATIC, 0, 1, out, np.zeros(3), upper=0.3)

@@ -56,8 +56,7 @@ def drafted(monkeypatch, cut_off, refused_below=0, fat=0):
     monkeypatch.setattr(rounds, "dispensable_joints", lambda *asked: None)
     monkeypatch.setattr(rounds, "first_plan", lambda *asked: Plan())
     monkeypatch.setattr(rounds, "close_seen", lambda drawn: drawn)
-    config = replace(BuildConfig(), hulls=HullsConfig(most=MOST))
-    stages = SimpleNamespace(config=config)
+    stages = SimpleNamespace(config=replace(BuildConfig(), hulls=HullsConfig(most=MOST)))
     return Rounds(None, None, Path(), None, stages).drafted(), aims
 
 
@@ -89,7 +88,9 @@ def drawn_open():
     """Return an asset whose door is closed, and its hypothesis, in which it stands open."""
     asset = cabinet(upper=1.5)
     asset = replace(asset, articulation=proposed_by(Proposer.DETECTOR, asset.articulation))
-    return asset, left_open(asset, replaced(asset, -OPEN)).articulation
+    (joint,) = asset.articulation.joints
+    ajar = (replace(joint, lower=-OPEN, upper=1.5 - OPEN),)
+    return asset, left_open(asset, replace(asset.articulation, joints=ajar)).articulation
 
 
 def proposed_by(proposer, articulation):
@@ -97,12 +98,6 @@ def proposed_by(proposer, articulation):
     base, door = articulation.parts
     parts = (base, replace(door, source=PartSource("id", proposer)))
     return replace(articulation, parts=parts)
-
-
-def replaced(asset, lower):
-    """Return the articulation of an asset with another lower limit."""
-    (joint,) = asset.articulation.joints
-    return replace(asset.articulation, joints=(replace(joint, lower=lower, upper=1.5 + lower),))
 
 
 def test_a_hinge_that_the_detector_sees_is_closed_and_nobody_elses():
@@ -179,6 +174,5 @@ def test_ranges_and_coverage_are_shares_of_what_was_read():
 def test_a_frozen_joint_keeps_nothing_and_nothing_measured_is_no_loss():
     reading = cabinet().articulation
     fixed = replace(reading.joints[0], kind=JointKind.FIXED, lower=0.0, upper=0.0)
-    frozen = replace(reading, joints=(fixed,))
-    assert kept_of(reading, frozen, {})["range"] == 0.0
+    assert kept_of(reading, replace(reading, joints=(fixed,)), {})["range"] == 0.0
     assert kept_of(reading, reading, {})["coverage"] == 1.0

@@ -38,8 +38,7 @@ def test_a_frame_turns_and_looks_inward_and_a_box_is_a_flat_rectangle(side):
     # Right, up and away make a left-handed frame, as depth does behind any picture.
     assert np.isclose(abs(np.linalg.det(side.frame)), 1.0)
     seen = elevation(BOX, side, pixels=80)
-    raster = seen.raster
-    width, height = (np.abs(side.frame[:2]) @ BOX.extents) / raster.pixel
+    width, height = (np.abs(side.frame[:2]) @ BOX.extents) / seen.raster.pixel
     assert seen.seen.sum() == pytest.approx(width * height, rel=0.03)
     assert np.abs(seen.depth[seen.seen]).max() < 1e-9
     assert np.allclose(seen.normal[seen.seen], [0, 0, -1])

@@ -98,8 +98,7 @@ def test_a_good_answer_is_found_on_the_mesh_and_asked_for_once(server, ask, tmp_
     text, picture = body["messages"][0]["content"]
     assert "fridge.glb" in text["text"]
     assert picture["image_url"]["url"].startswith("data:image/png;base64,iVBOR")
-    again = ask(completion("never asked"))
-    assert again[0].notes == tree.notes
+    assert ask(completion("never asked"))[0].notes == tree.notes
     assert len(server.asked) == 1
     for kept in (tmp_path / "answers").iterdir():
         assert KEY not in kept.read_text()
@@ -188,8 +187,7 @@ def test_a_seam_is_dark_at_its_share_of_the_side():
         assert rows == 400
         assert abs(columns - 400 * 0.6 / 1.6) <= 2
         ink = picture[:, int(0.8 * columns)].mean(axis=1)
-        inner = slice(20, -20)
-        darkest = 20 + int(ink[inner].argmin())
+        darkest = 20 + int(ink[slice(20, -20)].argmin())
         assert abs((1.0 - darkest / rows) - 1.1 / 1.6) < 0.01
 
 
@@ -220,6 +218,5 @@ def test_propose_writes_what_is_asked_and_what_may_be_answered(tmp_path, capsys)
     assert "fridge.parts.json" in capsys.readouterr().out
     written = {path.name for path in (tmp_path / "asked").iterdir()}
     assert written == {"sheet.png", "instruction.txt", "parts.schema.json"}
-    told = (tmp_path / "asked" / "instruction.txt").read_text()
-    assert "'fridge.stl'" in told
+    assert "'fridge.stl'" in (tmp_path / "asked" / "instruction.txt").read_text()
     json.loads((tmp_path / "asked" / "parts.schema.json").read_text())

@@ -69,8 +69,7 @@ def test_knobs_that_rules_find_move_alone_and_guessed_ones_do_not(proposer, move
     table = make_still("still_table", np.random.default_rng(4)).mesh
     source = PartSource("knob", proposer, 0.5, {})
     said = rigid_articulation(table, "auto", ())
-    knob = with_part(said, np.arange(2), PartKind.KNOB, source=source)
-    made = detected(knob)[0]
+    made = detected(with_part(said, np.arange(2), PartKind.KNOB, source=source))[0]
     assert bool(made.movable_joints) is moves
 
 
@@ -113,8 +112,7 @@ def front_of(mesh, share):
 
 def test_a_part_that_a_network_believes_gives_way_to_drawers_that_are_seen_there():
     said = unmoving("dresser", 1)
-    believed = with_part(said, front_of(said.mesh, 0.1), confidence=0.9)
-    made = detected(believed)[0]
+    made = detected(with_part(said, front_of(said.mesh, 0.1), confidence=0.9))[0]
     drawers = len(make_object("dresser", 1).movable_joints)
     assert [part.kind for part in made.parts[1:]] == [PartKind.DRAWER] * drawers
 
@@ -123,8 +121,7 @@ def test_of_one_piece_what_rules_take_for_a_door_gives_way_to_drawers_that_are_s
     mesh = one_piece.proud_drawers()
     source = PartSource("0", Proposer.RULES, 0.9, {})
     said = rigid_articulation(mesh, "auto", ())
-    door = with_part(said, front_of(mesh, 0.1), PartKind.DOOR, source=source)
-    made = detected(door)[0]
+    made = detected(with_part(said, front_of(mesh, 0.1), PartKind.DOOR, source=source))[0]
     assert [part.kind for part in made.parts[1:]] == [PartKind.DRAWER] * 2
 
 
@@ -145,8 +142,7 @@ def test_a_knob_on_a_door_that_is_seen_is_its_pull():
     truth = make_object("fridge", 4)
     said = unmoving("fridge", 4)
     source = PartSource("knob", Proposer.RULES, 0.63, {})
-    knob = with_part(said, front_of(said.mesh, 0.02), PartKind.KNOB, source=source)
-    made = detected(knob)[0]
+    made = detected(with_part(said, front_of(said.mesh, 0.02), PartKind.KNOB, source=source))[0]
     assert [part.kind for part in made.parts[1:]] == [PartKind.DOOR] * len(truth.movable_joints)
 
 
@@ -155,8 +151,7 @@ def test_a_doors_lever_that_is_all_a_network_sees_gives_way_to_the_door():
     lever = truth.parts[2].faces
     # Of the second no side shows enough to ask about it.
     for faces in (lever, lever[:2]):
-        said = with_part(rigid_articulation(truth.mesh, "auto", ()), faces)
-        made = detected(said)[0]
+        made = detected(with_part(rigid_articulation(truth.mesh, "auto", ()), faces))[0]
         assert [part.kind for part in made.parts[1:]] == [PartKind.DOOR]
 
 
@@ -186,8 +181,7 @@ def test_agreement_rises_with_what_is_seen():
 def test_what_is_seen_and_left_fixed_is_told():
     made = make_object("fridge", 4)
     says = Says(rigid_articulation(made.mesh, "auto", ()))
-    articulator = DetectedArticulator(says, least=0.999)
-    (only,) = articulator.hypotheses(made.mesh)
+    (only,) = DetectedArticulator(says, least=0.999).hypotheses(made.mesh)
     assert not only.movable_joints
     assert "a door is seen on the front and left fixed" in only.notes[0]
     assert "want 1.00" in only.notes[0]

@@ -169,6 +169,5 @@ def test_what_does_not_is_left(made):
 
 def test_a_part_that_carries_another_is_left():
     made = cabinet((-0.35, 0.02, 0.12), (0.35, 0.4, 0.28))
-    drawer = replace(made.joints[1], parent=1)
-    carried = replace(made, joints=(made.joints[0], drawer))
+    carried = replace(made, joints=(made.joints[0], replace(made.joints[1], parent=1)))
     assert with_whole_drawers(carried) is carried

@@ -65,11 +65,9 @@ def standing_open(panel, degrees, beside=()):
 )
 def test_a_panel_that_stands_open_closes_about_its_hinge(kind, panel, degrees):
     drawn, shut = standing_open(panel, degrees)
-    found = found_open(drawn, seen(kind))
-    made = closed(found)
+    made = closed(found_open(drawn, seen(kind)))
     (joint,) = made.joints
-    part = made.parts[joint.child]
-    assert part.kind is panel[0]
+    assert made.parts[joint.child].kind is panel[0]
     assert joint.kind is JointKind.REVOLUTE
     assert joint.axis == pytest.approx(panel[3], abs=0.02)
     off = np.cross(joint.origin - panel[4], panel[3])
@@ -122,8 +120,7 @@ def test_closed_panels_take_the_place_of_what_others_find_there():
     named = with_closed(made, made)
     assert [part.name for part in named.parts] == ["base", "door_0"]
     assert len(named.joints) == 1
-    elsewhere = rigid_articulation(drawn, "auto", ())
-    assert with_closed(elsewhere, made) is made
+    assert with_closed(rigid_articulation(drawn, "auto", ()), made) is made
 
 
 def opened(kind, seed, angle):

@@ -100,11 +100,9 @@ def test_own_frame_of_a_plate_is_the_plates(angle, x, y):
 def test_own_frame_of_a_bar_starts_with_its_length():
     tilt = rotation_about(np.array([1.0, 0.0, 0.0]), 0.4)
     bar = triangles_of(cylinder(2, (0, 0), 0.05, (0, 1.0), PLAIN), tilt)
-    frame = own_frame(spread(bar, 512))
-    assert abs(frame[0] @ tilt[:, 2]) > 0.999
+    assert abs(own_frame(spread(bar, 512))[0] @ tilt[:, 2]) > 0.999
 
 
 def test_distinct_keeps_one_of_frames_that_differ_in_order_only():
     swapped = np.eye(3)[[1, 0, 2]] * [[-1], [1], [1]]
-    tilted = rotation_about(UP, 0.3)
-    assert len(distinct([np.eye(3), swapped, tilted])) == 2
+    assert len(distinct([np.eye(3), swapped, rotation_about(UP, 0.3)])) == 2

@@ -30,22 +30,18 @@ def open_edges(mesh):
     return sum((b, a) not in forward for a, b in forward) + len(edges) - len(forward)
 
 
-def painted(mesh):
-    """The mesh with texture coordinates and normals that are linear in the position."""
-    corners = mesh.vertices[mesh.faces]
-    normals = np.broadcast_to(np.array([0.0, 0.6, 0.8]), corners.shape)
-    return replace(mesh, corner_uv=corners[:, :, [0, 2]], corner_normals=normals)
-
-
 @settings(max_examples=15, deadline=None)
 @given(
     low=st.lists(st.floats(-0.1, 0.5), min_size=3, max_size=3),
     size=st.lists(st.floats(0.02, 0.6), min_size=3, max_size=3),
 )
 def test_a_cut_keeps_the_surface(low, size):
-    mesh = painted(one_piece.fridge())
-    region = box_region(low, [a + b for a, b in zip(low, size, strict=True)])
-    cut = cut_along(mesh, [region])
+    plain = one_piece.fridge()
+    corners = plain.vertices[plain.faces]
+    normals = np.broadcast_to(np.array([0.0, 0.6, 0.8]), corners.shape)
+    # Texture coordinates and normals are linear in the position.
+    mesh = replace(plain, corner_uv=corners[:, :, [0, 2]], corner_normals=normals)
+    cut = cut_along(mesh, [box_region(low, [a + b for a, b in zip(low, size, strict=True)])])
     assert open_edges(cut.mesh) == open_edges(mesh) == 0
     assert face_areas(cut.mesh).sum() == pytest.approx(face_areas(mesh).sum(), rel=1e-9)
     corners = cut.mesh.vertices[cut.mesh.faces]
@@ -74,13 +70,7 @@ def test_no_triangle_is_on_both_sides():
 
 def test_what_needs_no_cut_is_not_cut():
     mesh = one_piece.fridge()
-    everything = box_region([-1.0, -1.0, -1.0], [2.0, 2.0, 2.0])
-    assert cut_along(mesh, [everything]).mesh is mesh
-
-
-def handle(row, column, rows, columns):
-    high = np.array([row + rows - 1, column + columns - 1])
-    return Protrusion(np.array([row, column]), high, 6.0, 1.0)
+    assert cut_along(mesh, [box_region([-1.0, -1.0, -1.0], [2.0, 2.0, 2.0])]).mesh is mesh
 
 
 def lines(at, length):
@@ -90,7 +80,8 @@ def lines(at, length):
 
 @pytest.mark.parametrize(("parted", "wanted"), [(False, True), (True, False)])
 def test_knobs_far_apart_on_one_strip_turn_unless_seams_part_them(parted, wanted):
-    knobs = tuple(handle(90, column, 8, 8) for column in (20, 90, 160))
+    corners = [np.array([90, column]) for column in (20, 90, 160)]
+    knobs = tuple(Protrusion(corner, corner + 7, 6.0, 1.0) for corner in corners)
     face = Face(np.zeros((120, 200)), np.zeros((120, 200), np.bool_), knobs)
     level = lines([75, 110], 200)
     upright = lines([60, 130] if parted else [], 120)

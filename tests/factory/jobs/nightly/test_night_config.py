@@ -6,6 +6,7 @@ from pathlib import Path
 
 import fsspec  # noqa: TID253
 import pytest
+from laid import laid
 from repository import ROOT
 
 from asset_factory.factory.cli.nightly import Nightly, night_config
@@ -19,9 +20,7 @@ SHIPPED = ROOT / "configs" / "nightly.toml"
 
 
 def written(folder, text):
-    path = folder / "night.toml"
-    path.write_text(text)
-    return path
+    return laid(folder / "night.toml", text)
 
 
 def test_the_shipped_file_states_every_setting_and_its_tables_the_defaults():
@@ -37,10 +36,9 @@ def test_the_shipped_file_states_every_setting_and_its_tables_the_defaults():
 
 
 def test_paths_start_from_the_file_and_flags_from_here(tmp_path, monkeypatch):
-    (tmp_path / "configs").mkdir()
     text = "inputs = ['../meshes', '/data/more']\noutput = '../out'\npreset = 'own.toml'\n"
     path = written(tmp_path / "configs", text)
-    (tmp_path / "configs" / "own.toml").write_text("[decompose]\nerror_m = 0.002\n")
+    laid(tmp_path / "configs" / "own.toml", "[decompose]\nerror_m = 0.002\n")
     monkeypatch.chdir(tmp_path)
     config = night_config(Nightly(path))
     assert config.inputs == (tmp_path / "meshes", Path("/data/more"))

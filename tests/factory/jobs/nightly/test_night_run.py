@@ -252,5 +252,4 @@ def test_a_source_that_drifts_rings(workshop, config):
     assert report.night.exit_code == 5
     told = "66.7 %; 100 % is usual over 3 nights, 10 points less are allowed."
     assert report.attention[0] == f"The yield of {workshop.folder} is {told}"
-    page = (config.output / "nights" / "0004" / "index.html").read_text()
-    assert "By source" in page
+    assert "By source" in (config.output / "nights" / "0004" / "index.html").read_text()

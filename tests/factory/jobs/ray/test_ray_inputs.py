@@ -16,6 +16,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from input_files import write_inputs
+from laid import laid
 from tiny_checkpoint import write_checkpoint
 
 from asset_factory.factory.build import make_asset
@@ -173,10 +174,7 @@ def test_an_input_too_large_to_send_is_refused_unread(tmp_path):
 
 @pytest.fixture
 def sent(tmp_path):
-    source = tmp_path / "meshes" / "thing.stl"
-    source.parent.mkdir()
-    source.write_text("solid thing")
-    return pack_input(source, frozenset())
+    return packed(laid(tmp_path / "meshes" / "thing.stl", "solid thing"))
 
 
 @pytest.fixture

@@ -69,10 +69,8 @@ def test_a_drawer_of_a_solid_chest_gets_a_box_and_room_for_it():
     made = solids(with_drawer(drawer_chest(), 1, 3), SolidsConfig())
     told = {(each.part, each.kind) for each in made.surfaces}
     assert {("drawer", "drawer box"), ("base", "hollow")} <= told
-    drawer = made.articulation.part_mesh(1)
-    assert np.ptp(drawer.vertices[:, 1]) > 0.3
-    pieces = made.pieces[1]
-    assert max(hull.vertices[:, 1].max() for hull in pieces.hulls) > 0.3
+    assert np.ptp(made.articulation.part_mesh(1).vertices[:, 1]) > 0.3
+    assert max(hull.vertices[:, 1].max() for hull in made.pieces[1].hulls) > 0.3
 
 
 def test_a_drawer_of_a_hollow_case_gets_a_box_too():
@@ -103,8 +101,7 @@ def test_a_front_gets_no_box_where_a_tray_of_its_own_slides():
 
 
 def test_a_handle_taken_for_a_drawer_of_its_own_keeps_its_faces():
-    bar = board((0.2, -0.1, 0.3), (0.4, -0.02, 0.34))
-    made = sliding_in_case(bar=[bar], drawer=[FRONT])
+    made = sliding_in_case(bar=[board((0.2, -0.1, 0.3), (0.4, -0.02, 0.34))], drawer=[FRONT])
     assert all(len(part.faces) for part in made.articulation.parts)
 
 

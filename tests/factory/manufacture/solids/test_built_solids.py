@@ -128,8 +128,7 @@ def test_a_drawer_of_a_case_open_below_and_behind_has_its_box_too():
     slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [0, -1, 0], [0, -0.25, 0.6], 0.0, 0.3)
     vertices, patch = np.concatenate([vertices, inner]), front([-0.2, 0.5], [0.2, 0.7])
     made = solids(labelled(vertices, sheets, [patch], [slide]), CONFIG)
-    drawer = np.concatenate([hull.vertices for hull in made.pieces[1].hulls])
-    assert np.ptp(drawer[:, 1]) > 0.4
+    assert np.ptp(np.concatenate([hull.vertices for hull in made.pieces[1].hulls])[:, 1]) > 0.4
 
 
 def test_a_drawer_stays_in_its_hollow():
@@ -137,8 +136,7 @@ def test_a_drawer_stays_in_its_hollow():
     far = [replace(joint, upper=1.5) for joint in given.joints]
     made = solids(replace(given, joints=tuple(far)), CONFIG).articulation
     for joint in made.joints:
-        drawer = made.part_mesh(joint.child).bounds
-        assert 0.2 < joint.upper < np.ptp(drawer[:, 1])
+        assert 0.2 < joint.upper < np.ptp(made.part_mesh(joint.child).bounds[:, 1])
     assert any("its box is" in note for note in made.notes)
 
 
@@ -169,8 +167,7 @@ def test_a_high_lid_takes_all_above_its_seam_along():
 
 def test_a_lids_hinge_stays_under_the_cistern_behind_it():
     cistern = sized_box((SIZE[0], 0.2, 1.5), (0.0, SIZE[1] / 2.0 + 0.1, 0.75))
-    given = with_more(bin_with_lid(), 0, *cistern)
-    (joint,) = solids(given, CONFIG).articulation.joints
+    (joint,) = solids(with_more(bin_with_lid(), 0, *cistern), CONFIG).articulation.joints
     assert 0.69 < joint.origin[2] < SIZE[2] + 0.01
 
 
@@ -256,8 +253,7 @@ def test_shelves_divide_a_hollow_evenly(spacing, count):
         assert board.size[1] == pytest.approx(SHELF_M)
         assert board.low[2] > HOLLOW.low[2]
         np.testing.assert_array_equal(board.size[[0]], HOLLOW.size[[0]])
-    too_shallow = Box(HOLLOW.low, np.array([0.3, 1.0, 0.05]))
-    assert shelf_boards(too_shallow, spacing) == ()
+    assert shelf_boards(Box(HOLLOW.low, np.array([0.3, 1.0, 0.05])), spacing) == ()
 
 
 def test_a_cupboard_has_shelves():

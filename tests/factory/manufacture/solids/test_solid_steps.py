@@ -115,8 +115,7 @@ def test_a_hollow_is_the_largest_box_in_what_may_be_hollowed(side):
     cells = lattice(cells=50)
     room = np.zeros(cells.shape, dtype=bool)
     room[cells.span(Box(np.full(3, 0.1), np.full(3, 0.9)))] = True
-    column = Box(UNIT[0] + 0.05, UNIT[1] - 0.05)
-    turned = column.turned(side.frame)
+    turned = Box(UNIT[0] + 0.05, UNIT[1] - 0.05).turned(side.frame)
     inner = Box(np.append(turned.low[:2], turned.low[2] + 0.06), turned.high)
     boxes = hollow(cells, room, inner, side.frame)
     found = Box(boxes[0].low, boxes[-1].high).turned(side.frame.T)
@@ -145,8 +144,7 @@ def test_a_tapered_room_is_hollowed_in_steps_without_a_skin_between(depth):
 
 def test_no_room_no_hollow():
     cells = lattice()
-    nothing = np.zeros(cells.shape, dtype=bool)
-    assert hollow(cells, nothing, Box(*UNIT), np.eye(3)) == ()
+    assert hollow(cells, np.zeros(cells.shape, dtype=bool), Box(*UNIT), np.eye(3)) == ()
 
 
 def test_a_drawer_box_keeps_clear_of_its_room():
@@ -188,8 +186,7 @@ def test_a_wall_that_is_a_single_sheet_becomes_a_thin_piece():
     y, z = np.meshgrid(np.linspace(0.1, 0.9, 30), np.linspace(0.1, 0.9, 30))
     sheet = np.column_stack([np.full(y.size, 0.52), y.ravel(), z.ravel()])
     nothing = np.zeros(cells.shape, dtype=bool)
-    matter = Matter(cells, solid, nothing, nothing.astype(np.uint8), sheet)
-    (wall,) = convex_pieces(matter, 10)
+    (wall,) = convex_pieces(Matter(cells, solid, nothing, nothing.astype(np.uint8), sheet), 10)
     assert depth_below(wall, sheet).min() > -1e-6
     assert wall.volume == pytest.approx(0.8 * 0.8 * SHEET_M, rel=1e-3)
 
@@ -231,8 +228,7 @@ def test_a_button_keeps_its_height_and_its_host_a_pit_for_it():
     joint = Joint("press", JointKind.PRISMATIC, 0, 1, [0, 0, -1], [0, 0, 0], 0.0, 0.02)
     parts = (Part("body", np.flatnonzero(~raised)), Part("button", np.flatnonzero(raised)))
     mesh = Mesh.from_triangles(vertices, faces)
-    made = solids(Articulation(mesh, parts, (joint,), "test"), SolidsConfig())
-    body, pressed = made.pieces
+    body, pressed = solids(Articulation(mesh, parts, (joint,), "test"), SolidsConfig()).pieces
     (hull,) = pressed.hulls
     assert np.ptp(hull.vertices[:, 2]) == pytest.approx(0.04 - APART_M, abs=1e-3)
     way = hull.vertices - np.array([0.0, 0.0, 0.02])
@@ -261,24 +257,20 @@ def test_a_lever_that_turns_all_the_way_is_no_wheel():
 def test_hollows_and_boards_bound_their_volume():
     above = Box(np.array([0.2, 0.2, 1.0]), np.array([0.8, 0.8, 2.0]))
     boxes = (Box(np.zeros(3), np.ones(3)), above)
-    outside = outside_of(boxes)
-    assert len(boundary(outside)) == 0
-    inside = inside_of(boxes, 0.0)
-    assert np.unique(np.round(boundary(inside)[:, :, 2], 9)).tolist() == [0.0]
+    assert len(boundary(outside_of(boxes))) == 0
+    assert np.unique(np.round(boundary(inside_of(boxes, 0.0))[:, :, 2], 9)).tolist() == [0.0]
 
 
 def test_a_plate_with_a_hole_has_the_area_of_what_is_left():
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    ring = plate(square, [square * 0.5 + 0.25], 0.3)
-    normals = doubled_normals(ring)
+    normals = doubled_normals(plate(square, [square * 0.5 + 0.25], 0.3))
     assert normals[:, 2].sum() / 2.0 == pytest.approx(0.75)
     assert (normals[:, 2] > 0.0).all()
 
 
 @pytest.mark.parametrize("degrees", [0.0, 20.0, -35.0])
 def test_the_working_frame_undoes_a_turn_about_the_vertical(degrees):
-    given_tree = chest()
-    turned = posing.turned(given_tree, float(np.radians(degrees)))
+    turned = posing.turned(chest(), float(np.radians(degrees)))
     frame = working_frame(turned, (1, 2))
     back = frame @ rotation_about([0.0, 0.0, 1.0], np.radians(degrees))
     assert np.abs(back).max(axis=1) == pytest.approx(np.ones(3), abs=1e-3)
@@ -300,8 +292,7 @@ def matter():
 
 
 def test_a_piece_that_falls_short_reaches_what_is_seen(matter):
-    short = Box(LOW, np.array([0.8, 0.8, 0.75])).hull()
-    (reached,) = reaching(matter, [short])
+    (reached,) = reaching(matter, [Box(LOW, np.array([0.8, 0.8, 0.75])).hull()])
     assert depth_below(reached, matter.sparse).min() >= -FAR_M
     assert reached.volume == pytest.approx(0.6**3, rel=0.02)
 
@@ -323,8 +314,7 @@ def test_what_must_stay_free_is_not_filled(matter):
 
 def test_air_is_not_filled_to_reach_a_spike(matter):
     spike = np.concatenate([matter.points, [[0.5, 0.5, 0.99]]])
-    whole = Box(LOW, HIGH).hull()
-    (reached,) = reaching(replace(matter, points=spike), [whole])
+    (reached,) = reaching(replace(matter, points=spike), [Box(LOW, HIGH).hull()])
     assert reached.vertices[:, 2].max() == pytest.approx(0.8)
 
 
@@ -362,5 +352,4 @@ def test_a_sheet_thinner_than_cells_fills_those_it_crosses():
     hull = Box(low, high).grown([0.0, 0.0, 5e-4]).hull()
     assert hull is not None
     once = np.ones(LATTICE.shape, dtype=np.uint8)
-    crossed = LATTICE.volumes[:, :, 4].sum()
-    assert np.isclose(filled(LATTICE, once, EVERYWHERE, hull), crossed)
+    assert np.isclose(filled(LATTICE, once, EVERYWHERE, hull), LATTICE.volumes[:, :, 4].sum())

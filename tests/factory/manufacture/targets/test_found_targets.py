@@ -76,8 +76,7 @@ def test_a_slab_that_nothing_can_hold_is_named_at_its_far_edge_as_hopeless():
 
 
 def test_a_slab_that_overhangs_its_body_is_hooked_or_grasped_at_the_overhang():
-    wide = box((0.0, 0.46), (-0.02, -0.003), (0.0, 0.6), PLAIN)
-    targets = targets_of(world([wide]))
+    targets = targets_of(world([box((0.0, 0.46), (-0.02, -0.003), (0.0, 0.6), PLAIN)]))
     assert targets[0].score > 0.4
     assert targets[0].point[0] > 0.43
     pushed = [t for t in targets if t.kind in ("hook", "push")]

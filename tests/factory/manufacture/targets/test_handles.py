@@ -183,7 +183,6 @@ def test_the_best_target_lies_on_the_makers_handle(monkeypatch):
         first = {target.joint: target for target in reversed(targets)}
         assert set(first) == {joint.name for joint in articulation.movable_joints}
         for name, triangles in grips(articulation).items():
-            point = first[name].point
-            on_handle.append(distance(triangles, point) < 1e-3)
+            on_handle.append(distance(triangles, first[name].point) < 1e-3)
     assert len(on_handle) >= 12
     assert np.mean(on_handle) >= 0.9

@@ -16,8 +16,7 @@ from asset_factory.factory.export.manifest import Manifest
 
 
 def test_the_manifest_holds_targets_in_their_links_frame_and_places_to_stand(tmp_path):
-    asset = asset_of(world([PANEL, *BAR]))
-    bundle = export_bundle(asset, PROVENANCE, tmp_path)
+    bundle = export_bundle(asset_of(world([PANEL, *BAR])), PROVENANCE, tmp_path)
     text = (tmp_path / "asset.json").read_text()
     assert Manifest.from_json(text) == bundle.manifest
     manifest = json.loads(text)
@@ -51,8 +50,7 @@ def test_every_moving_link_shows_a_handle_and_no_face_is_lost(moving, joint, tmp
     assert not any("handle" in visual.get("name", "") for visual in links["body"].iter("visual"))
     meshes = links["front"].findall("visual/geometry/mesh")
     texts = ((tmp_path / mesh.get("filename", "")).read_text() for mesh in meshes)
-    written = sum(text.count("\nf ") for text in texts)
-    assert written == len(asset.articulation.parts[1].faces)
+    assert sum(text.count("\nf ") for text in texts) == len(asset.articulation.parts[1].faces)
 
 
 def test_a_handle_that_is_a_part_of_its_own_is_called_one_too(tmp_path):

@@ -92,8 +92,7 @@ def test_each_box_is_found_once_with_its_sort_and_way():
     [("fridge", 3, Sort.DOOR), ("dresser", 3, Sort.DRAWER), ("oven", 3, Sort.FLAP)],
 )
 def test_the_shipped_weights_know_made_objects(kind, seed, sort):
-    made = make_object(kind, seed)
-    detection = detect(made.mesh)
+    detection = detect(make_object(kind, seed).mesh)
     assert detection.opens > 0.9
     assert int(detection.dense.front.argmax()) == 0
     assert any(part.sort is sort and part.side is Side.FRONT for part in detection.parts(0.6))

@@ -29,8 +29,6 @@ from asset_factory.factory.models.particulate.proxy import Proxy
 from asset_factory.factory.models.particulate.sampling import Cloud, CloudSample
 from asset_factory.factory.models.particulate.surface import Surface
 
-UNIT = UnitBox(np.zeros(3), 1.0)
-
 
 def prediction_of(held):
     """The logits behind stored decisions."""
@@ -52,15 +50,12 @@ def prediction_of(held):
     )
 
 
-def seen(faces):
-    """A sample of which only the faces matter."""
+def decoded(surface, faces, prediction, **rules):
+    """What is made of a sample of which only the faces matter."""
     places = np.zeros((len(faces), 3))
     cloud = Cloud(places, places, faces, np.zeros(len(faces), dtype=bool), faces)
-    return CloudSample(cloud, cloud, UNIT)
-
-
-def decoded(surface, faces, prediction, **rules):
-    return decode(surface, Proxy(surface), seen(faces), prediction, ParticulateConfig(**rules))
+    seen = CloudSample(cloud, cloud, UnitBox(np.zeros(3), 1.0))
+    return decode(surface, Proxy(surface), seen, prediction, ParticulateConfig(**rules))
 
 
 def assert_moves_as(motion, want, index, atol):
@@ -98,16 +93,12 @@ def test_a_stored_answer_becomes_the_released_codes_prediction(fixtures, case, r
             assert part.motion.slide == holding_zero(want["prismatic_range"][index], "", [])
 
 
-def forward_prediction(held):
-    given = {name: held[original][0] for name, original in OUTPUTS.items()}
-    return Prediction(**given, closest_points=held["closest_point_on_axis"][0])
-
-
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_axes_types_and_tree_are_those_of_the_release(fixtures, seed):
     forward = arrays(fixtures / "pat_tiny" / f"forward_seed{seed}.npz")
     want = arrays(fixtures / "pat_tiny" / f"infer_seed{seed}_t00.npz")
-    prediction = forward_prediction(forward)
+    given = {name: forward[original][0] for name, original in OUTPUTS.items()}
+    prediction = Prediction(**given, closest_points=forward["closest_point_on_axis"][0])
     points = assigned(prediction.mask_logits)
     for part in points.present:
         assert_moves_as(read_motion(prediction, part, points.parts), want, part, atol=1e-5)
@@ -135,15 +126,13 @@ def only_motion(prediction, count=1):
     return read_motion(prediction, 0, np.zeros(count, dtype=int))
 
 
-def turning(
-    direction=(0.0, 0.0, 1.0), moment=(0.0, 0.0, 0.0), limits=(0.0, 1.0), kind=MotionClass.REVOLUTE
-):
+def turning(direction=(0.0, 0.0, 1.0), moment=(0.0, 0.0, 0.0), kind=MotionClass.REVOLUTE):
     return Prediction(
         mask_logits=np.zeros((1, 1)),
         hierarchy_logits=np.zeros((1, 1)),
         motion_logits=5.0 * np.eye(4)[[kind]],
         revolute_direction=np.array([direction]),
-        revolute_range=np.array([limits]),
+        revolute_range=np.array([[0.0, 1.0]]),
         prismatic_direction=np.array([[0.0, 2.0, 0.0]]),
         prismatic_range=np.array([[0.0, 0.3]]),
         revolute_moment=np.array([moment]),
@@ -221,15 +210,16 @@ def test_broken_votes_are_a_reason_too():
     assert (found.code, "votes" in found.message) == ("prediction_not_finite", True)
 
 
-def strip(count):
-    """``count`` boxes in a row, and a point on every face."""
-    boxes = [trimesh.creation.box().apply_translation([2.0 * i, 0, 0]) for i in range(count)]
-    surface = surface_of(*boxes)
-    return surface, np.arange(len(surface.faces))
-
-
-def rows(labels, hierarchy):
-    return Prediction(
+@pytest.mark.parametrize("over", list(TreeOver))
+def test_one_tree_over_parts_with_faces_also_when_the_root_has_none(over):
+    """Where we leave the release: its writers then give a URDF of several roots."""
+    boxes = [trimesh.creation.box().apply_translation([2.0 * i, 0, 0]) for i in range(3)]
+    labels = np.repeat([4, 5, 6], 12)
+    labels[:2] = 9
+    hierarchy = np.full((16, 16), -9.0)
+    hierarchy[9, [4, 5, 6]] = 9.0
+    hierarchy[5, [4, 6]] = 1.0
+    prediction = Prediction(
         mask_logits=9.0 * np.eye(16)[labels],
         hierarchy_logits=hierarchy,
         motion_logits=np.tile([9.0, 0, 0, 0], (16, 1)),
@@ -239,19 +229,8 @@ def rows(labels, hierarchy):
         prismatic_range=np.zeros((16, 2)),
         revolute_moment=np.zeros((16, 3)),
     )
-
-
-@pytest.mark.parametrize("over", list(TreeOver))
-def test_one_tree_over_parts_with_faces_also_when_the_root_has_none(over):
-    """Where we leave the release: its writers then give a URDF of several roots."""
-    surface, faces = strip(3)
-    labels = np.repeat([4, 5, 6], 12)
-    labels[:2] = 9
-    hierarchy = np.full((16, 16), -9.0)
-    hierarchy[9, [4, 5, 6]] = 9.0
-    hierarchy[5, [4, 6]] = 1.0
     rules = {"refinement": Refinement.COMPONENT, "tree": over}
-    found = decoded(surface, faces, rows(labels, hierarchy), **rules)
+    found = decoded(surface_of(*boxes), np.arange(len(labels)), prediction, **rules)
     assert [part.query for part in found.parts] == [4, 5, 6]
     assert sorted(found.edges) == [(1, 0), (1, 2)]
     assert found.root == 1

@@ -90,8 +90,7 @@ def test_a_batch_is_its_clouds_one_by_one():
     for number, cloud in enumerate(clouds):
         prediction = model.predict(cloud)
         np.testing.assert_allclose(prediction.mask_logits, masks[number].numpy(), **CLOSE)
-        own = closest[number].numpy()
-        np.testing.assert_allclose(prediction.closest_points, own, **CLOSE)
+        np.testing.assert_allclose(prediction.closest_points, closest[number].numpy(), **CLOSE)
 
 
 def test_a_cloud_that_drives_itself_is_predicted():

@@ -39,8 +39,7 @@ def triangles_apart(count):
 
 
 def flat_sheet():
-    sheet = trimesh.creation.box().subdivide().subdivide()
-    vertices, faces = of(sheet)
+    vertices, faces = of(trimesh.creation.box().subdivide().subdivide())
     return vertices * [1, 1, 0] + [0, 0, 3.0], faces
 
 

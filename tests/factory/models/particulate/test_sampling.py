@@ -21,12 +21,6 @@ from asset_factory.factory.models.particulate.surface import Surface
 SHARP_MESHES = ("box", "cyl10", "ico", "plus", "thin_wedge")
 
 
-def soup(surface):
-    """The same triangles, no two of them sharing a vertex index."""
-    corners = surface.vertices[surface.faces].reshape(-1, 3)
-    return corners, np.arange(len(corners)).reshape(-1, 3)
-
-
 def by_place(ends, values):
     """Edges with a value each, in an order that depends on their places alone."""
     places = [sorted(map(tuple, np.round(pair, 9).tolist())) for pair in ends]
@@ -98,7 +92,8 @@ def test_the_same_seed_gives_the_same_points_and_another_gives_others():
 def test_split_and_welded_meshes_give_the_same_points():
     """Where we leave the release: split vertices cost it every sharp edge and every neighbour."""
     surface = surface_of(trimesh.creation.cylinder(1.0, 2.0, sections=10))
-    split = Surface.of(*soup(surface))
+    corners = surface.vertices[surface.faces].reshape(-1, 3)
+    split = Surface.of(corners, np.arange(len(corners)).reshape(-1, 3))
     points = [sample(s, 400, 100, 10**6, np.random.default_rng(0)).cloud for s in (surface, split)]
     for cloud in points:
         assert int(cloud.sharp.sum()) == 200

@@ -143,8 +143,7 @@ def header(text, body=b""):
 
 def array(dtype, shape, body):
     described = {"dtype": dtype, "shape": shape, "data_offsets": [0, len(body)]}
-    told = {"__metadata__": {}, "a": described}
-    return header(json.dumps(told).encode(), body)
+    return header(json.dumps({"__metadata__": {}, "a": described}).encode(), body)
 
 
 @pytest.mark.parametrize(

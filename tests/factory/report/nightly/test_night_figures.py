@@ -67,8 +67,7 @@ def test_every_input_counts_once(rows):
 
 def test_a_night_that_goes_on_keeps_the_true_times():
     first = attempt("a", seconds=40.0)
-    again = attempt("a", seconds=0.01, attempts=0)
-    assert latest([first, again]) == (first,)
+    assert latest([first, attempt("a", seconds=0.01, attempts=0)]) == (first,)
     other = attempt("a", "rejected", seconds=0.01, attempts=0)
     assert latest([first, other]) == (other,)
     anew = attempt("a", seconds=35.0)

@@ -1,6 +1,7 @@
 """What a night leaves on disk: the table, the summary, and the names of nights."""
 
 import pytest
+from laid import laid
 from nights_made import ATTEMPTS, attempt, night
 from pyarrow import parquet  # noqa: TID253
 
@@ -65,9 +66,8 @@ def test_nights_are_numbered_and_named(tmp_path):
 
 
 def test_a_night_that_was_interrupted_goes_on(tmp_path):
-    for name in ("0001", "0002"):
-        (tmp_path / name).mkdir()
-    (tmp_path / "0002" / JOURNAL).touch()
+    (tmp_path / "0001").mkdir()
+    laid(tmp_path / "0002" / JOURNAL)
     assert unfinished(tmp_path) == ("0002",)
     assert chosen_name(tmp_path, None) == "0002"
     assert chosen_name(tmp_path, "0002") == "0002"
@@ -83,8 +83,7 @@ def test_summaries_are_read_in_the_order_of_the_nights(tmp_path):
         ("strange", '{"night": {"name": "x", "passed": "many"}}'),
         ("none", "[]"),
     ):
-        (tmp_path / name).mkdir()
-        (tmp_path / name / SUMMARY).write_text(text)
+        laid(tmp_path / name / SUMMARY, text)
     (tmp_path / "empty").mkdir()
     assert [stored.name for stored in stored_nights(tmp_path)] == ["sooner", "later"]
     (tmp_path / "later").rename(tmp_path / "renamed")

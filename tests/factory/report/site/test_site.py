@@ -8,6 +8,7 @@ from urllib.parse import unquote, urlsplit
 import pytest
 from export_samples import PROVENANCE, cabinet
 from html_page import Page
+from laid import laid
 from refusing import refusal
 from registry_samples import PASSED
 from repository import EXAMPLES
@@ -109,8 +110,7 @@ def test_a_page_tells_size_units_and_how_to_load_an_asset(registry):
     assert "<span>0.6 x 0.45 x 0.8 m</span>" in text
     assert re.search(r"[\d.]+ N m s/rad</td>\s*<td class=\"number\">[\d.]+ N m</td>", text)
     assert re.search(r"[\d.]+ N s/m</td>\s*<td class=\"number\">[\d.]+ N</td>", text)
-    imported = re.findall(r"<code>import (\w+)", text)
-    assert imported == ["mujoco", "gymnasium", "omni"]
+    assert re.findall(r"<code>import (\w+)", text) == ["mujoco", "gymnasium", "omni"]
     assert "import mujoco" not in (registry.root / "report/a/hitting-2/index.html").read_text()
 
 
@@ -180,8 +180,7 @@ def test_findings_lead_to_the_pose_in_which_they_show(registry):
     fault = places.of(HIT)
     assert (fault.values, fault.point) == ({"hinge": 0.8}, POINT)
     jammed = Finding("jammed", Severity.ERROR, "x", joint="slide", value=0.1, unit="m")
-    found = places.of(jammed)
-    assert found.values == {"slide": 0.1}
+    assert places.of(jammed).values == {"slide": 0.1}
     assert places.of(Finding("no_mass", Severity.ERROR, "x")) is None
     assert places.clearance() == -4.2
     assert Places(scene, {"asset.urdf": {"penetration": {"from": "elsewhere"}}}).sweeps() == {}
@@ -204,25 +203,26 @@ def test_a_file_becomes_one_page_that_needs_nothing_else(tmp_path):
     assert page_of_file(folder / "asset.urdf") == page_of_file(folder / "asset.urdf")
 
 
+def robot(folder, begun):
+    """A description of one link, whose geometry is begun so."""
+    text = f'<robot name="x">{begun}</geometry></visual></link></robot>'
+    return laid(folder / "x.urdf", text)
+
+
 def test_what_cannot_be_shown_says_why(tmp_path):
     with pytest.raises(InputRejected, match="no such file"):
         page_of_file(tmp_path / "nothing.urdf")
-    hostile = tmp_path / "out.urdf"
-    hostile.write_text(
-        '<robot name="x"><link name="a"><visual><geometry><mesh filename="../../etc/x.obj"/>'
-        "</geometry></visual></link></robot>"
+    hostile = '<link name="a"><visual><geometry><mesh filename="../../etc/x.obj"/>'
+    assert refusal(page_of_file, robot(tmp_path, hostile)).code in (
+        "outside_folder",
+        "missing_file",
     )
-    assert refusal(page_of_file, hostile).code in ("outside_folder", "missing_file")
 
 
 def test_hostile_names_in_a_description_are_text(tmp_path):
-    file = tmp_path / "x.urdf"
     name = HOSTILE.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
-    file.write_text(
-        f'<robot name="x"><link name="{name}"><visual><geometry><box size="1 1 1"/></geometry>'
-        "</visual></link></robot>"
-    )
-    parsed = Page(page_of_file(file))
+    named = f'<link name="{name}"><visual><geometry><box size="1 1 1"/>'
+    parsed = Page(page_of_file(robot(tmp_path, named)))
     assert parsed.handlers == []
     assert parsed.tags.count("img") == 0
 
