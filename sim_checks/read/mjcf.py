@@ -41,8 +41,7 @@ def read_mjcf(path: Path, document: ET.Element) -> Description:
         DescriptionError: with MuJoCo's own words.
     """
     refuse_multiplied(path.name, follow_models(path, document))
-    model = compile_model(path)
-    return _Describer(model, path.parent.resolve()).describe(path)
+    return _Describer(compile_model(path), path.parent.resolve()).describe(path)
 
 
 class _Describer:
