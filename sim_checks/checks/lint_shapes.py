@@ -11,13 +11,7 @@ from scipy.spatial import cKDTree
 
 from ..config import LintConfig
 from ..description import DescribedShape, FloatArray, Link
-from ..geometry.hull import (
-    CollisionHull,
-    FlatHull,
-    convex_hull,
-    distance_outside,
-    farthest_along,
-)
+from ..geometry.hull import CollisionHull, FlatHull, convex_hull, distance_outside, farthest_along
 from ..geometry.placing import diagonal
 from ..geometry.surfaces import VisibleSurface
 from ..report import Finding

@@ -10,14 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..description import (
-    DescribedShape,
-    Description,
-    FloatArray,
-    IntArray,
-    JointLine,
-    Link,
-)
+from ..description import DescribedShape, Description, FloatArray, IntArray, JointLine, Link
 from ..geometry.kinematics import rotation_about
 from ..geometry.placing import placed, rigid
 from .mjcf_compiler import compile_model

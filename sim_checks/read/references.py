@@ -106,10 +106,7 @@ def _plain(reference: str) -> str:
 
 
 def follow_models(
-    path: Path,
-    document: ET.Element,
-    parse: Parser = parse_document,
-    allows: Allows | None = None,
+    path: Path, document: ET.Element, parse: Parser = parse_document, allows: Allows | None = None
 ) -> list[MujocoModel]:
     """Return an MJCF model and those that it attaches, with every file that they name.
 
