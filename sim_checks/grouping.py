@@ -18,8 +18,7 @@ def group_findings(findings: Sequence[Finding]) -> tuple[tuple[Finding, ...], ..
     groups: dict[tuple[Severity, str], list[Finding]] = {}
     for finding in findings:
         groups.setdefault((finding.severity, finding.code), []).append(finding)
-    order = list(Severity)
-    keys = sorted(groups, key=lambda key: order.index(key[0]))
+    keys = sorted(groups, key=lambda key: list(Severity).index(key[0]))
     return tuple(tuple(sorted(groups[key], key=_excess, reverse=True)) for key in keys)
 
 

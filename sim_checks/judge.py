@@ -118,8 +118,7 @@ class Judge:
         with TemporaryDirectory() as folder:
             gathered = self._gathered(path, Path(folder), options)
             if isinstance(gathered, Finding):
-                asked = () if is_usd(path) else tuple(simulators)
-                return Report(path.name, asked, (gathered,), {})
+                return Report(path.name, () if is_usd(path) else tuple(simulators), (gathered,))
             report = self._reported(path.name, self.examine(gathered.path), simulators)
         return replace(report, findings=(*gathered.findings, *report.findings))
 
@@ -217,8 +216,7 @@ def examine_here(path: Path, config: CheckConfig, *, native: bool = True) -> Exa
     from .read.read import read_here
 
     description = read_here(path)
-    too_large = oversized(description, config.work)
-    if too_large is not None:
+    if (too_large := oversized(description, config.work)) is not None:
         return Examination((too_large,))
     asked = (check for check in CHECKS if native or not check.native)
     results = {check.name: check.run(description, config) for check in asked}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from operator import attrgetter
 
 import numpy as np
@@ -55,7 +56,7 @@ class _Surfaces:
         self._links = {link.name: link for link in description.links}
         self._part_of = self.tree.part_of()
         self._joint_above = {joint.child: joint for joint in self.tree.order}
-        self._still: dict[tuple[int, bool], tuple[FloatArray, Skin] | None] = {}
+        self._ready = cache(self._made_ready)
 
     def gaps(self, joint: JointLine, enough: float, *, every: bool) -> tuple[FloatArray, float]:
         """Return gaps at poses along a joint's way [m], shape [pose_count], and its part's size.
@@ -109,12 +110,10 @@ class _Surfaces:
                 return None
             link = outer[0]
 
-    def _ready(self, part: int, *, visible: bool) -> tuple[FloatArray, Skin] | None:
+    def _made_ready(self, part: int, *, visible: bool) -> tuple[FloatArray, Skin] | None:
         """Return a part's corners and its triangles held ready; ``None`` where it has none."""
-        if (part, visible) not in self._still:
-            found = self._triangles(self.tree.parts[part], visible=visible)
-            self._still[part, visible] = None if found is None else (found[0], Skin(*found))
-        return self._still[part, visible]
+        found = self._triangles(self.tree.parts[part], visible=visible)
+        return None if found is None else (found[0], Skin(*found))
 
     def _triangles(
         self, names: Sequence[str], *, visible: bool

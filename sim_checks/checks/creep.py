@@ -39,12 +39,9 @@ def check_creep(
     for held in observation.holds:
         line = lines.get(held.joint)
         load = None if line is None else gravity_load(description, tree, line, held.values)
-        if line is None or load is None:
+        if line is None or load is None or abs(load) > config.motion.hold_share * line.friction:
             continue
-        if abs(load) > config.motion.hold_share * line.friction:
-            continue
-        length = ranges[held.joint]
-        findings.extend(_findings(held, line, length, config.motion, soft=soft, advice=advice))
+        findings += _findings(held, line, ranges[held.joint], config.motion, soft, advice)
         row = {"at": held.values[held.joint], "moved": held.moved, "load": load}
         rows.append({"joint": held.joint, **{k: round(v, DECIMALS) + 0.0 for k, v in row.items()}})
     # Of each code and joint the largest.
@@ -55,13 +52,7 @@ def check_creep(
 
 
 def _findings(
-    held: HoldMotion,
-    line: JointLine,
-    length: float,
-    config: MotionConfig,
-    *,
-    soft: bool,
-    advice: str,
+    held: HoldMotion, line: JointLine, length: float, config: MotionConfig, soft: bool, advice: str
 ) -> Findings:
     subject = about(line)
     at = f"{round(held.values[line.name], DECIMALS) + 0.0:.4g}"

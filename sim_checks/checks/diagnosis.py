@@ -66,8 +66,7 @@ class Diagnosis:
         if contact.depth <= allowed:
             return contact
         visual = self._gap(contact)
-        meets = visual is not None and visual < -allowed
-        leaked = meets and self._strayed(contact, allowed)
+        leaked = visual is not None and visual < -allowed and self._strayed(contact, allowed)
         cause = shown_cause(contact.depth, allowed, visual, leaked=leaked, at_rest=at_rest)
         if cause is None and way is not None:
             # Other ways are looked for only where the surfaces alone do not tell.
@@ -90,8 +89,7 @@ class Diagnosis:
             return sweep
         nearest = max(sweep.pairs, key=lambda pair: pair.excess)
         seen = replace(nearest, visual=self._gap(nearest))
-        pairs = tuple(seen if pair is nearest else pair for pair in sweep.pairs)
-        return replace(sweep, pairs=pairs)
+        return replace(sweep, pairs=tuple(seen if p is nearest else p for p in sweep.pairs))
 
     def _explained(
         self,
@@ -141,10 +139,8 @@ class Diagnosis:
         # Along the part's widest direction only: the hinge stays on the face that it is on.
         reach = (points - own.origin) @ widest
         near, far = sorted((float(reach.min()), float(reach.max())), key=abs)
-        nearer = own.origin + near * widest
-        farther = own.origin + far * widest
-        hung = [(own, nearer), (own, farther), (around, farther)]
-        return (around, *(replace(line, origin=edge) for line, edge in hung))
+        hung = ((own, near), (own, far), (around, far))
+        return (around, *(replace(line, origin=own.origin + at * widest) for line, at in hung))
 
     def _met_open(self, contact: AnyContact) -> AnyContact:
         """Tell only causes that the surfaces show: two open joints may meet by design."""

@@ -42,17 +42,13 @@ class EngineEvidence:
 
     def answer(self, simulator: str, codes: frozenset[str], joint: str | None = None) -> str:
         """Return ``pass``, or the first of these codes that the engine found (on one joint)."""
-        for finding in self.findings:
-            concerned = finding.simulator == simulator and joint in (None, finding.joint)
-            if concerned and finding.code in codes:
-                return finding.code
-        return PASS
+        own = (f for f in self.findings if f.simulator == simulator and f.code in codes)
+        return next((f.code for f in own if joint in (None, f.joint)), PASS)
 
     def sweeps(self, joint: str | None) -> Iterator[Mapping[str, Any]]:
         """Yield the measurements along one joint's way."""
-        for sweep in self.measurements.get("penetration", {}).get("joints", ()):
-            if sweep["joint"] == joint:
-                yield sweep
+        swept = self.measurements.get("penetration", {}).get("joints", ())
+        yield from (sweep for sweep in swept if sweep["joint"] == joint)
 
     def parts(self, case: Disagreement) -> frozenset[str]:
         """Return parent and child of the joint, as a finding names them; empty if none does."""
@@ -62,11 +58,9 @@ class EngineEvidence:
 
     def blockers(self, case: Disagreement) -> frozenset[str]:
         """Return the two links in contact where an engine stopped the joint; empty if unknown."""
-        for name in sorted(case.failing):
-            for motion in self.said(name, "motion").get("joints", ()):
-                if motion["joint"] == case.joint and motion.get("blocked_by"):
-                    return frozenset(motion["blocked_by"])
-        return frozenset()
+        lists = (self.said(n, "motion").get("joints", ()) for n in sorted(case.failing))
+        motions = (motion for each in lists for motion in each if motion["joint"] == case.joint)
+        return frozenset(next(filter(None, (m.get("blocked_by") for m in motions)), ()))
 
     def nearest(self, case: Disagreement) -> Mapping[str, Any] | None:
         """Return the deepest overlap or narrowest gap of the parts that block the joint.
@@ -83,9 +77,8 @@ class EngineEvidence:
         if case.question != "rests":
             for sweep in self.sweeps(case.joint):
                 yield from sweep["pairs"]
-        for contact in self.measurements.get("penetration", {}).get("rest", ()):
-            if self.parts(case) & set(contact["links"]):
-                yield contact
+        resting = self.measurements.get("penetration", {}).get("rest", ())
+        yield from (each for each in resting if self.parts(case) & set(each["links"]))
 
 
 def likely_reason(case: Disagreement, evidence: EngineEvidence) -> str:

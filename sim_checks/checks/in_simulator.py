@@ -40,8 +40,7 @@ def judge_in_simulator(
         loads = f"{name} loads {' and '.join(engine.formats)} here, not {description.format}"
         message = f"{loads}: it did not validate this file"
         return CheckResult((note("format_not_loaded", message, simulator=name),))
-    too_large = undriven(description, name, config.work)
-    if too_large is not None:
+    if (too_large := undriven(description, name, config.work)) is not None:
         return CheckResult((too_large,))
     asked = (name, description.path, config.motion)
     together = (pose_samples(description), joints_apart(description))

@@ -31,15 +31,13 @@ def clear_until(course: JointCourse, failing: PairSweep) -> float:
 
     Found by halving. What the course looks at decides which pairs count.
     """
-    name = course.joint.name
-    kind = failing.kind
     course = replace(course, decides=True)
-    clear = course.rest.lower[name]
+    clear = course.rest.lower[course.joint.name]
     fails = failing.at
     for _ in range(CLEAR_HALVINGS):
         middle = (clear + fails) / 2.0
         pairs = replace(course, until=middle).run().pairs
-        alike = (pair for pair in pairs if pair.kind is kind)
+        alike = (pair for pair in pairs if pair.kind is failing.kind)
         worst = max((pair.excess for pair in alike), default=0.0)
         clear, fails = (middle, fails) if worst <= course.rest.config.excess_m else (clear, middle)
     return clear
@@ -181,10 +179,9 @@ class _Encounter:
 
     def _pair(self, kind: PairKind, worst: Worst) -> PairSweep:
         course = self.course
-        sweep = self.sweep
         first = self.moving[worst.candidate.moving]
         second = self.standing[worst.candidate.standing]
-        sweep.place(worst.candidate.moving, worst.at)
+        self.sweep.place(worst.candidate.moving, worst.at)
         at = course.rest.lower[course.joint.name] + float(worst.at)
         pose = {**course.values, course.joint.name: at}
         # Where another motion or a shorter way meets anything, nobody asks.

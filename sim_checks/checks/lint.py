@@ -85,8 +85,7 @@ def _joint_findings(joint: JointLine, description: Description, config: LintConf
     if joint.kind not in KNOWN_KINDS:
         held = any(other.child == joint.parent for other in description.joints)
         message = f"{name} is of type {joint.kind!r}; want one of {', '.join(KNOWN_KINDS)}"
-        grave = held or joint.kind != "floating"
-        yield graded(grave, "unknown_joint_type", message, **subject)
+        yield graded(held or joint.kind != "floating", "unknown_joint_type", message, **subject)
         return
     if joint.kind == "fixed":
         return
@@ -96,8 +95,8 @@ def _joint_findings(joint: JointLine, description: Description, config: LintConf
         yield error("zero_axis", message, **subject)
     elif abs(length - 1.0) > UNIT:
         far = abs(length - 1.0) > config.axis_slack
-        words = "loaders scale motion by it or not"
-        message = f"{name} has an axis of length {length:.4g}, want 1; {words}"
+        message = f"{name} has an axis of length {length:.4g}, want 1; "
+        message += "loaders scale motion by it or not"
         yield graded(far, "axis_not_unit", message, **subject, value=length, limit=1.0)
     if joint.kind != "continuous":
         yield from _limit_findings(joint)

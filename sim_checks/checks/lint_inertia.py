@@ -10,7 +10,7 @@ from ..config import LintConfig
 from ..description import ABSURD, Description, FloatArray, Link, LinkInertia, sensible
 from ..geometry.hull import find_hull
 from ..geometry.kinematics import Tree
-from ..geometry.placing import box_around, diagonal
+from ..geometry.placing import box_around, box_gap, diagonal
 from ..geometry.surfaces import VisibleSurface
 from .result import Findings, error, graded, in_mm, measured, rounded, significant, warning
 
@@ -25,8 +25,7 @@ def missing_inertia_findings(description: Description, tree: Tree | None) -> Fin
     """
     if description.format != "urdf":
         return
-    every = tuple(link.name for link in description.links)
-    parts = (every,) if tree is None else tree.parts
+    parts = (tuple(each.name for each in description.links),) if tree is None else tree.parts
     bare = {link.name for link in description.links if link.inertia is None}
     seen = {link.name for link in description.links if link.collisions or link.visuals}
     for i, part in enumerate(parts):
@@ -69,25 +68,16 @@ def inertia_findings(link: Link, config: LintConfig) -> Findings:
         message += "the two smaller must add up to the largest at least"
         ratio = round((a + b) / c, 6)
         yield error("inertia_triangle", message, parts=parts, value=ratio, limit=1.0)
-    else:
-        yield from _plausible(link, inertia, moments, config)
-
-
-def _plausible(
-    link: Link, inertia: LinkInertia, moments: FloatArray, config: LintConfig
-) -> Findings:
-    if not (link.collisions or link.visuals):
-        return
-    box = box_around(shape.vertices for shape in (*link.collisions, *link.visuals))
-    yield from _center(link, inertia.center, box, config)
-    yield from _gyration(link, inertia, moments, box, config)
-    yield from _density(link, inertia.mass, config)
+    elif link.collisions or link.visuals:
+        box = box_around(shape.vertices for shape in (*link.collisions, *link.visuals))
+        yield from _center(link, inertia.center, box, config)
+        yield from _gyration(link, inertia, moments, box, config)
+        yield from _density(link, inertia.mass, config)
 
 
 def _center(link: Link, center: FloatArray, box: FloatArray, config: LintConfig) -> Findings:
     """Check how far the centre of mass lies outside the box around the link's shapes."""
-    low, high = box
-    outside = float(np.linalg.norm(np.maximum(0.0, np.maximum(low - center, center - high))))
+    outside = box_gap(center[None], box)
     soft = config.center_soft * diagonal([box])
     if outside <= soft:
         return
@@ -103,7 +93,9 @@ def _center(link: Link, center: FloatArray, box: FloatArray, config: LintConfig)
 
 def _density(link: Link, mass: float, config: LintConfig) -> Findings:
     """Check mass over hull volume; too dense is an error only where nothing else has room."""
-    volume = _volume(link)
+    # Overlaps count twice.
+    hulls = (find_hull(shape.vertices) for shape in link.collisions)
+    volume = sum(hull.volume for hull in hulls if hull is not None)
     if not volume > 0.0 or config.density_low <= mass / volume <= config.density_high:
         return
     low = mass / volume < config.density_low
@@ -150,12 +142,6 @@ def _gyration(
         message += f"link {across:.3g} m across"
         told = rounded(gyration, "m", config.gyration_share * across)
         yield warning("inertia_implausible", message, parts=(link.name,), **told)
-
-
-def _volume(link: Link) -> float:
-    """Return the volume of the collision hulls together [m3]; overlaps count twice."""
-    hulls = (find_hull(shape.vertices) for shape in link.collisions)
-    return sum(hull.volume for hull in hulls if hull is not None)
 
 
 def _visible_volume(link: Link, sheet: float) -> float:

@@ -122,11 +122,10 @@ def _findings(link: Link, numbers: dict[str, Any], config: LintConfig) -> Findin
 
 def _same(visuals: Sequence[DescribedShape], collisions: Sequence[DescribedShape]) -> bool:
     """Tell whether visuals and collisions are the same primitives: nothing is filled."""
-
-    def keys(shapes: Sequence[DescribedShape]) -> list[bytes]:
-        return sorted(shape.vertices.tobytes() for shape in shapes)
-
-    return all(shape.kind != "mesh" for shape in visuals) and keys(visuals) == keys(collisions)
+    if any(shape.kind == "mesh" for shape in visuals):
+        return False
+    seen, touched = (sorted(s.vertices.tobytes() for s in each) for each in (visuals, collisions))
+    return seen == touched
 
 
 def _grid(shapes: Sequence[DescribedShape], config: LintConfig) -> _Grid:

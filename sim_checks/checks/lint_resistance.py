@@ -40,21 +40,18 @@ def resistance_findings(description: Description, tree: Tree, config: LintConfig
 
 
 def _force_findings(joint: JointLine, length: float, reach: float, config: LintConfig) -> Findings:
-    friction = joint.friction / reach
-    damping = joint.damping * length / config.opening_s / reach
     within = f"open it against its damping within {config.opening_s:g} s"
     where = "" if joint.kind == "prismatic" else " at its far edge"
-    ways = (
-        ("friction_excessive", friction, "overcome its friction"),
-        ("damping_excessive", damping, within),
-    )
-    for code, force, purpose in ways:
+    for code, force, purpose in (
+        ("friction_excessive", joint.friction / reach, "overcome its friction"),
+        ("damping_excessive", joint.damping * length / config.opening_s / reach, within),
+    ):
         if force > config.pull_soft_n:
             hard = force > config.pull_hard_n
             limit = config.pull_hard_n if hard else config.pull_soft_n
             takes = f"joint {joint.name!r}: it takes {force:.4g} N{where} to {purpose}"
-            told = measured(round(force, 3), "N", limit)
             message = f"{takes}, want at most {limit:g} N"
+            told = measured(round(force, 3), "N", limit)
             yield graded(hard, code, message, **about(joint), **told)
 
 

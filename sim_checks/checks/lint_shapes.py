@@ -11,13 +11,7 @@ from scipy.spatial import cKDTree
 
 from ..config import LintConfig
 from ..description import DescribedShape, FloatArray, Link
-from ..geometry.hull import (
-    CollisionHull,
-    FlatHull,
-    convex_hull,
-    distance_outside,
-    farthest_along,
-)
+from ..geometry.hull import CollisionHull, FlatHull, convex_hull, distance_outside, farthest_along
 from ..geometry.placing import diagonal
 from ..geometry.surfaces import VisibleSurface
 from ..report import Finding
@@ -87,12 +81,10 @@ def _hull_findings(
     name = f"collision shape {shape.name!r} of link {link.name!r}"
     parts = (link.name,)
     if shape.kind == "mesh" and hull.corners > config.hull_vertices:
-        most = config.hull_vertices
-        allowed = "GPU simulation allows"
-        if hull.corners > config.most_vertices:
-            most = config.most_vertices
-            allowed = "each engine cooks it down to another; want at most"
-        grave = most == config.most_vertices
+        grave = hull.corners > config.most_vertices
+        most = config.most_vertices if grave else config.hull_vertices
+        cooked = "each engine cooks it down to another; want at most"
+        allowed = cooked if grave else "GPU simulation allows"
         message = f"{name} has a hull of {hull.corners} corners; {allowed} {most}"
         told = measured(float(hull.corners), limit=float(most))
         yield graded(grave, "many_hull_vertices", message, parts=parts, **told)
@@ -189,8 +181,7 @@ def _cover_findings(
     ):
         if gap > allowed:
             message = f"link {link.name!r}: {words} by up to {1000 * gap:.1f} mm"
-            told = in_mm(gap, allowed, 3)
-            findings.append(warning("collision_gap", message, **subject, **told))
+            findings.append(warning("collision_gap", message, **subject, **in_mm(gap, allowed, 3)))
     return findings, numbers
 
 

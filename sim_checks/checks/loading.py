@@ -52,8 +52,7 @@ def check_loading(
     findings += agreement.findings
     if lines := observation.loader_lines:
         message = f"said while loading: {' | '.join(lines[:MOST_WARNINGS])}"
-        count = measured(float(len(lines)), "lines")
-        findings.append(warning("loader_warning", message, **count))
+        findings.append(warning("loader_warning", message, **measured(float(len(lines)), "lines")))
     return CheckResult(tuple(findings), {**_numbers(observation), **agreement.measurements})
 
 
@@ -75,10 +74,9 @@ def _link_findings(link: Link, held: LoadedLink | None, config: LoadingConfig) -
     inertia = link.inertia
     if inertia is None or inertia.mass <= 0.0 or held.moments is None:
         return
-    if not (sensible(inertia.mass) and sensible(inertia.center) and sensible(inertia.tensor)):
-        # The lint says so; there is no number to hold anyone to.
-        return
-    yield from _inertia_findings(inertia, held, config)
+    # What is not sensible the lint says; there is no number to hold anyone to.
+    if sensible(inertia.mass) and sensible(inertia.center) and sensible(inertia.tensor):
+        yield from _inertia_findings(inertia, held, config)
 
 
 def _inertia_findings(inertia: LinkInertia, held: LoadedLink, config: LoadingConfig) -> Findings:
@@ -124,8 +122,7 @@ def _invented(description: Description, links: dict[str, LoadedLink]) -> Finding
     if names:
         invented = f"invented mass and inertia, {total:.4g} kg in all"
         message = f"{invented}, for {listed(names)}: the file gives none"
-        told = measured(total, "kg")
-        yield warning("inertia_invented", message, parts=tuple(names), **told)
+        yield warning("inertia_invented", message, parts=tuple(names), **measured(total, "kg"))
 
 
 def _numbers(observation: Observation) -> dict[str, Any]:

@@ -48,8 +48,7 @@ def joint_findings(
     yield from _coupling(description, joints, config)
     yield from _ignored(description, joints)
     written = {line.name for line in description.joints}
-    more = [name for name in joints if name not in written]
-    if more:
+    if more := [name for name in joints if name not in written]:
         yield added("joints", more)
 
 
@@ -154,12 +153,9 @@ def _coupling(
                 limit, value = map(finite, wrong)
                 yield error("mimic_mismatch", message, **subject, value=value, limit=limit)
     if dropped:
-        message = (
-            f"does not couple {listed(dropped)} to another joint as the file does: "
-            "whoever simulates it must"
-        )
-        count = rounded(len(dropped), "joints", 0.0)
-        yield warning("mimic_ignored", message, **count)
+        uncoupled = f"does not couple {listed(dropped)} to another joint as the file does"
+        message = f"{uncoupled}: whoever simulates it must"
+        yield warning("mimic_ignored", message, **rounded(len(dropped), "joints", 0.0))
 
 
 def _ignored(description: Description, joints: Mapping[str, LoadedJoint]) -> Findings:
@@ -174,10 +170,9 @@ def _ignored(description: Description, joints: Mapping[str, LoadedJoint]) -> Fin
             if has is None or not math.isclose(has, said, rel_tol=1e-4):
                 names.append(line.name)
         if names:
-            code = f"{quantity}_ignored"
             message = f"drops the {quantity} that the file gives to {listed(names)}"
             count = measured(float(len(names)), "joints")
-            yield note(code, message, joints=tuple(names), **count)
+            yield note(f"{quantity}_ignored", message, joints=tuple(names), **count)
 
 
 def _differ(said: float, has: float, tolerance: float) -> bool:

@@ -34,8 +34,7 @@ def check_motion(
     description: Description, observation: Observation, config: CheckConfig
 ) -> CheckResult:
     """Check the drive of every joint, the rest at lower without weight, and the fall with it."""
-    lines = {line.name: line for line in description.joints}
-    checks = _MotionChecks(lines, config.motion)
+    checks = _MotionChecks({line.name: line for line in description.joints}, config.motion)
     findings = [finding for rest in observation.rest for finding in checks.rest(rest)]
     pushed = {rest.joint for rest in observation.rest if rest.share > config.motion.drift_soft}
     # With weight, the same contacts make up the same energy again.
@@ -51,8 +50,7 @@ def check_motion(
         findings.append(warning("engine_warning", message))
     spoken_for = {motion.joint for motion in observation.motions}
     joints = observation.model.joints
-    pairs_coupled = ((joint.name, joint.follows) for joint in joints if joint.follows)
-    coupled = {name for pair in pairs_coupled for name in pair}
+    coupled = {name for each in joints if each.follows for name in (each.name, each.follows)}
     idle = [joint.name for joint in joints if joint.name not in spoken_for | coupled]
     for name in idle:
         message = f"joint {name!r} was not driven: it has no range from lower to upper"

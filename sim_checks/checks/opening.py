@@ -63,8 +63,7 @@ class _OpeningOrder:
     def judged(self, name: str) -> JointSweep:
         """Return one joint, once all is settled."""
         first = self._swept(name, CLOSED)
-        failing = self._failing(first)
-        if not failing:
+        if not (failing := self._failing(first)):
             return first
         if name in self.needs:
             ordered = tuple(other for other in self.needs if other in self.needs[name])

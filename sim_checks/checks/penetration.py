@@ -64,8 +64,7 @@ def _measured(solids: Solids, config: PenetrationConfig) -> CheckResult:
     # Contacts are located as the solids are placed, which sweeps change.
     met = rest.worst(rest.standings, rest.lower)
     at_zero = _at_zero(rest)
-    asked = [joint for joint in tree.free if joint.name in tree.ranges]
-    sweeps = judge_joints(asked, rest)
+    sweeps = judge_joints([joint for joint in tree.free if joint.name in tree.ranges], rest)
     study = PenetrationStudy(
         rest=met,
         zero=at_zero,

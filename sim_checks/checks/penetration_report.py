@@ -121,8 +121,7 @@ def _finding(
     cause = None if contact.cause is None else str(contact.cause)
     if contact.cause is not None:
         message += f"; {CLAUSES[contact.cause]}"
-    told = in_mm(depth, most)
-    return graded(grave, code, message, parts=contact.links, **told, cause=cause)
+    return graded(grave, code, message, parts=contact.links, **in_mm(depth, most), cause=cause)
 
 
 def _both_open(item: BothOpen, config: PenetrationConfig) -> Finding:

@@ -22,9 +22,6 @@ class CheckResult:
     findings: tuple[Finding, ...] = ()
     measurements: Mapping[str, Any] = field(default_factory=dict)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "findings", tuple(self.findings))
-
 
 class Concerned(TypedDict, total=False):
     """Whom a :class:`Finding` concerns."""

@@ -15,6 +15,7 @@ import numpy as np
 from ..description import FloatArray, IntArray
 from .depth import HullOverlap, overlap, overlap_along, widest_gap
 from .hull import CollisionHull
+from .placing import box_around, placed
 
 #: FCL's distances are good to about this [m]; a claimed gap smaller than it is settled exactly.
 TRUSTED_GAP = 1e-7
@@ -71,8 +72,7 @@ class Collider:
     def bounds(self) -> FloatArray:
         """Return lowest and highest corner of the box around the placed hull [m], shape [2, 3]."""
         if self._bounds is None:
-            vertices = self.local.vertices @ self.pose[:3, :3].T + self.pose[:3, 3]
-            self._bounds = np.array([vertices.min(axis=0), vertices.max(axis=0)])
+            self._bounds = box_around([placed(self.local.vertices, self.pose)])
         return self._bounds
 
     def place(self, pose: FloatArray) -> None:

@@ -63,6 +63,17 @@ def overlap_along(a: CollisionHull, b: CollisionHull, directions: FloatArray) ->
     return reach
 
 
+def _least(
+    a: CollisionHull, b: CollisionHull, directions: FloatArray, found: HullOverlap | None = None
+) -> HullOverlap:
+    """Return the overlap along the best of some directions; what was found, if none is better."""
+    reaches = overlap_along(a, b, directions)
+    best = int(np.argmin(reaches))
+    if found is not None and not reaches[best] < found.depth:
+        return found
+    return HullOverlap(float(reaches[best]), directions[best])
+
+
 def overlap(a: CollisionHull, b: CollisionHull) -> HullOverlap:
     """Return the exact penetration depth of two hulls in one frame, or a separating direction."""
     if len(a.edges) * len(b.edges) > MANY_EDGE_PAIRS:
@@ -81,7 +92,7 @@ def widest_gap(a: CollisionHull, b: CollisionHull, direction: FloatArray) -> Hul
     1976). Every direction tried separates by what the hulls' own corners say, so that no gap is
     overstated. The first is a unit vector from ``a`` towards ``b`` that separates them, shape [3].
     """
-    found = HullOverlap(float(overlap_along(a, b, direction[None])[0]), direction)
+    found = _least(a, b, direction[None])
     points = _differences(a, b, direction[None])
     for _ in range(MAX_WIDENING):
         nearest = _nearest_to_origin(points)
@@ -89,9 +100,7 @@ def widest_gap(a: CollisionHull, b: CollisionHull, direction: FloatArray) -> Hul
         if length + found.depth <= WIDEST:
             break
         direction = -nearest / length
-        reach = float(overlap_along(a, b, direction[None])[0])
-        if reach < found.depth:
-            found = HullOverlap(reach, direction)
+        found = _least(a, b, direction[None], found)
         points = np.vstack([points, _differences(a, b, direction[None])])
     return found
 
@@ -122,8 +131,7 @@ def _grown(a: CollisionHull, b: CollisionHull) -> HullOverlap | None:
     size = float(np.ptp(a.vertices, axis=0).max() + np.ptp(b.vertices, axis=0).max())
     grid = np.array([step for step in product((-1, 0, 1), repeat=3) if any(step)], dtype=float)
     grid /= np.linalg.norm(grid, axis=1)[:, None]
-    reaches = overlap_along(a, b, grid)
-    found = HullOverlap(float(reaches.min()), grid[int(np.argmin(reaches))])
+    found = _least(a, b, grid)
     if found.depth < 0.0:
         return found
     points = _differences(a, b, grid)
@@ -136,12 +144,9 @@ def _grown(a: CollisionHull, b: CollisionHull) -> HullOverlap | None:
         open_faces = equations[-equations[:, 3] < found.depth - GROWN * size, :3]
         if len(open_faces) == 0:
             return found
-        outer = overlap_along(a, b, open_faces)
-        best = int(np.argmin(outer))
-        if outer[best] < found.depth:
-            found = HullOverlap(float(outer[best]), open_faces[best])
-            if found.depth < 0.0:
-                return found
+        found = _least(a, b, open_faces, found)
+        if found.depth < 0.0:
+            return found
         points = np.unique(np.vstack([points, _differences(a, b, open_faces)]), axis=0)
     return None
 
@@ -207,10 +212,7 @@ def _verified(
         some = order[start : start + VERIFIED]
         if reach[some[0]] >= found.depth:
             break
-        true = overlap_along(a, b, axes[some])
-        best = int(np.argmin(true))
-        if true[best] < found.depth:
-            found = HullOverlap(float(true[best]), axes[some[best]])
+        found = _least(a, b, axes[some], found)
     return found
 
 
@@ -238,5 +240,4 @@ def _clipped_edges(a: CollisionHull, b: CollisionHull) -> FloatArray:
     enter = np.where(before > 0.0, crossing, 0.0).max(axis=1, initial=0.0)
     leave = np.where(after > 0.0, crossing, 1.0).min(axis=1, initial=1.0)
     kept = enter <= leave
-    ends = [start[kept] + at_end[kept, None] * along[kept] for at_end in (enter, leave)]
-    return np.vstack(ends)
+    return np.vstack([start[kept] + at[kept, None] * along[kept] for at in (enter, leave)])

@@ -89,8 +89,7 @@ def _zones(
     low, high = np.minimum(low, high) - half, np.maximum(low, high) + half
     near = ((low[:, None] <= high[None]) & (low[None] <= high[:, None])).all(axis=2)
     labels = connected_components(near, directed=False)[1]
-    sizes = np.bincount(labels)
-    for label in np.argsort(-sizes, kind="stable")[:MOST_ZONES]:
+    for label in np.argsort(-np.bincount(labels), kind="stable")[:MOST_ZONES]:
         rows = labels == label
         box = np.array([low[rows].min(axis=0) - half, high[rows].max(axis=0) + half])
         # What of either lies deeper in the other comes by on the way out.
@@ -139,7 +138,6 @@ def _meets_after(one: Patch, other: Patch, shift: FloatArray) -> bool:
 
 def _directions(one: Patch, other: Patch, meeting: SurfaceMeeting) -> FloatArray:
     """Return where to pull the first: the hulls' way out, then across the faces that meet."""
-    back = -meeting.direction
     pairs = one.skin.touching(other.skin, MET_FACES)
     corners = [one.corners[np.unique(pairs[:, 0])], other.corners[np.unique(pairs[:, 1])]]
     a, b, c = np.vstack(corners).transpose(1, 0, 2)
@@ -148,7 +146,7 @@ def _directions(one: Patch, other: Patch, meeting: SurfaceMeeting) -> FloatArray
     # The largest faces say best where the surfaces point.
     order = np.argsort(-lengths, kind="stable")
     order = order[lengths[order] > FINEST**2]
-    found = [back]
+    found = [-meeting.direction]
     for normal in normals[order] / lengths[order, None]:
         for vector in (normal, -normal):
             if all(float(vector @ known) < 1.0 - 0.5 * SAME_DIRECTION**2 for known in found):

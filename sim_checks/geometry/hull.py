@@ -164,9 +164,8 @@ def _assemble(hull: ConvexHull, center: FloatArray, corners_before: int) -> Coll
     facet, slot, other = (rows[sharp] for rows in (facet, slot, other))
     edges = renumber[hull.simplices[facet[:, None], (slot[:, None] + [1, 2]) % 3]]
     sides = np.stack([equations[facet, :3], equations[other, :3]], axis=1)
-    rounded = np.round(equations[:, :3] / SAME_NORMAL)
-    faces_at = np.unique(rounded, axis=0, return_index=True)[1]
-    normals = equations[np.sort(faces_at), :3]
+    _, first = np.unique(np.round(equations[:, :3] / SAME_NORMAL), axis=0, return_index=True)
+    normals = equations[np.sort(first), :3]
     offsets = farthest_along(vertices, normals) + normals @ center
     faces = (triangles, normals, offsets, edges, sides)
     return CollisionHull(vertices + center, *faces, float(hull.volume), corners_before)

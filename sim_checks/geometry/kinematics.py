@@ -156,8 +156,7 @@ def build_tree(description: Description) -> Tree:
     ends = {end for joint in description.joints for end in (joint.parent, joint.child)}
     if strangers := sorted(ends - set(names)):
         raise NotATree(f"joints name links that are not there: {_listed(strangers)}")
-    twice = [name for name, count in Counter(names).items() if count > 1]
-    if twice:
+    if twice := [name for name, count in Counter(names).items() if count > 1]:
         raise NotATree(f"{len(twice)} link names are used twice ({_listed(twice)})")
     holders: dict[str, JointLine] = {}
     for joint in description.joints:
@@ -170,8 +169,7 @@ def build_tree(description: Description) -> Tree:
         raise NotATree(f"{len(roots)} root links ({_listed(roots)}), want 1")
     order = _parents_first(roots[0], description.joints)
     reached = {joint.child for joint in order}
-    loop = [joint.name for joint in description.joints if joint.child not in reached]
-    if loop:
+    if loop := [joint.name for joint in description.joints if joint.child not in reached]:
         raise NotATree(f"joints {_listed(loop)} form a loop apart from root {roots[0]!r}")
     moving = tuple(joint for joint in description.joints if joint.kind in MOVING_KINDS)
     return Tree(roots[0], order, moving, _parts(names, roots[0], order), sound_mimics(description))
@@ -201,12 +199,9 @@ def _parents_first(root: str, joints: tuple[JointLine, ...]) -> tuple[JointLine,
     by_parent: dict[str, list[JointLine]] = {}
     for joint in joints:
         by_parent.setdefault(joint.parent, []).append(joint)
-    order: list[JointLine] = []
-    queue = [root]
-    while queue:
-        for joint in by_parent.get(queue.pop(0), []):
-            order.append(joint)
-            queue.append(joint.child)
+    order = list(by_parent.get(root, ()))
+    for joint in order:
+        order += by_parent.get(joint.child, ())
     return tuple(order)
 
 
@@ -216,8 +211,7 @@ def _parts(
     head = {root: root}
     for joint in order:
         head[joint.child] = joint.child if joint.kind in MOVING_KINDS else head[joint.parent]
-    parts: dict[str, list[str]] = {root: []}
-    parts.update({name: [] for name in names if head[name] == name})
+    parts: dict[str, list[str]] = {name: [] for name in (root, *names) if head[name] == name}
     for name in names:
         parts[head[name]].append(name)
     return tuple(tuple(part) for part in parts.values())

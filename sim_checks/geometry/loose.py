@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..description import IntArray
 from .collision import Skin
 from .gaps import visible_gap
 from .placing import box_around, grow_box, placed
@@ -38,7 +37,9 @@ def strayed(met: Sides, meeting: SurfaceMeeting, at_rest: Sides, allowed: float)
 
     def side_strayed(side: int) -> bool:
         own = met[side].surface
-        small = _small(own, np.unique(own.pieces[found[side].rows[pairs[:, side]]]))
+        pieces = np.unique(own.pieces[found[side].rows[pairs[:, side]]])
+        areas = np.bincount(own.pieces, weights=own.areas)
+        small = pieces[areas[pieces] < SMALL_SHARE * areas.sum()]
         stray = np.isin(own.pieces, small)
         if stray.all() or not stray.any():
             return False
@@ -48,16 +49,10 @@ def strayed(met: Sides, meeting: SurfaceMeeting, at_rest: Sides, allowed: float)
         if visible_gap(one, other, meeting) < -allowed:
             return False
         rest = PosedSurface(remains, at_rest[side].pose)
-        pieces = (VisibleSurface(own.vertices, own.faces[own.pieces == piece]) for piece in small)
-        return all(_nearer(piece, at_rest[1 - side], rest, meeting.margin) for piece in pieces)
+        strays = (VisibleSurface(own.vertices, own.faces[own.pieces == piece]) for piece in small)
+        return all(_nearer(stray, at_rest[1 - side], rest, meeting.margin) for stray in strays)
 
     return any(side_strayed(side) for side in (0, 1))
-
-
-def _small(surface: VisibleSurface, pieces: IntArray) -> IntArray:
-    areas = np.bincount(surface.pieces, weights=surface.areas)
-    small: IntArray = pieces[areas[pieces] < SMALL_SHARE * areas.sum()]
-    return small
 
 
 def _nearer(piece: VisibleSurface, other: PosedSurface, own: PosedSurface, margin: float) -> bool:

@@ -211,8 +211,7 @@ class CoupledOrbit:
         """Return what :meth:`Orbit.swept_bounds` does."""
         poses = self.path.poses(at)
         points = self.start @ poses[:, :3, :3].transpose(0, 2, 1) + poses[:, None, :3, 3]
-        margin = np.diff(at)[:, None] ** 2 / 8.0 * self.acceleration.max()
-        return boxed(points, margin)
+        return boxed(points, np.diff(at)[:, None] ** 2 / 8.0 * self.acceleration.max())
 
     def _heights(self, direction: FloatArray, at: FloatArray) -> FloatArray:
         poses = self.path.poses(at)

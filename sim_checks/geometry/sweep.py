@@ -129,9 +129,8 @@ class Sweep:
         self.places = np.linspace(0.0, path.length, steps + 1)
         self.looks = 0
         self._budget = budget
-        starts = [collider.pose for collider in moving]
+        self._start_poses = starts = [collider.pose for collider in moving]
         backwards = path.inverse()
-        self._start_poses = starts
         # Of every hull that comes near another, and of that alone.
         self._orbit = cache(lambda i: path.orbit(placed(moving[i].local.vertices, starts[i])))
         self._swept = cache(lambda i: self._orbit(i).swept_bounds(self.places))
@@ -142,8 +141,7 @@ class Sweep:
         still = np.array([collider.bounds for collider in self.standing]).reshape(-1, 2, 3)
         close = boxes_near(self._reached(), still, floor + ROUNDING)
         for index in np.flatnonzero(close.any(axis=1)).tolist():
-            around = box_around([self._swept(index)])
-            close[index] = boxes_near(around[None], still, floor)[0]
+            close[index] = boxes_near(box_around([self._swept(index)])[None], still, floor)[0]
         return close
 
     def _reached(self) -> FloatArray:

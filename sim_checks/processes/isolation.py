@@ -14,7 +14,6 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from multiprocessing.reduction import ForkingPickler
 from pathlib import Path
@@ -293,12 +292,17 @@ class _Process:
         """Return its answer, or how there is none."""
         if self.answered:
             os.truncate(self._log, 0)
+        self.answered += 1
         try:
             self._connection.send_bytes(question)
-        except OSError:
+            if not self._connection.poll(wall_s):
+                return Failure.TIMEOUT
+            answer: Answer = self._connection.recv()
+        except (EOFError, OSError):
             return Failure.CRASHED
-        answer = _receive(self._connection, wall_s)
-        self.answered += 1
+        except Exception as error:  # noqa: BLE001 - some exceptions pickle and do not unpickle
+            detail = f"its answer cannot be read: {type(error).__name__}: {error}"
+            return Answer(error=RuntimeError(detail))
         return answer
 
     def kill(self) -> None:
@@ -315,7 +319,11 @@ class _Process:
 
     def output(self) -> str:
         """Return the end of the output during the last question."""
-        return _tail(self._log)
+        if not self.has_started:
+            return ""
+        with self._log.open("rb") as file:
+            file.seek(max(0, self._log.stat().st_size - OUTPUT_TAIL_BYTES))
+            return file.read().decode("utf-8", "replace").strip()
 
     def end(self, patience_s: float = 0.0) -> tuple[int | None, str, str]:
         """Kill it and all that it started; leave nothing behind.
@@ -333,24 +341,10 @@ class _Process:
             os.killpg(self.pid, signal.SIGKILL)
         self._process.kill()
         self._process.join()
-        exit_code = self._process.exitcode
+        told = self._process.exitcode, self.output(), place_in(self.folder)
         self._process.close()
-        told = _tail(self._log), place_in(self.folder)
         shutil.rmtree(self.folder, ignore_errors=True)
-        return exit_code, *told
-
-
-def _receive(connection: Connection, wall_s: float) -> Answer | Failure:
-    if not connection.poll(wall_s):
-        return Failure.TIMEOUT
-    try:
-        answer: Answer = connection.recv()
-    except (EOFError, OSError):
-        return Failure.CRASHED
-    except Exception as error:  # noqa: BLE001 - some exceptions pickle and do not unpickle
-        detail = f"its answer cannot be read: {type(error).__name__}: {error}"
-        return Answer(error=RuntimeError(detail))
-    return answer
+        return told
 
 
 def _failure_sentence(failure: Failure, exit_code: int | None, limits: Limits) -> str:
@@ -379,12 +373,3 @@ def _resident_bytes(pid: int) -> int:
         return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * resource.getpagesize()
     except OSError:
         return 0
-
-
-def _tail(path: Path) -> str:
-    if not path.exists():
-        return ""
-    size = path.stat().st_size
-    with path.open("rb") as file:
-        file.seek(max(0, size - OUTPUT_TAIL_BYTES))
-        return file.read().decode("utf-8", "replace").strip()

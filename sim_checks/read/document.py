@@ -50,8 +50,7 @@ def read_document(path: Path, most: int = MAX_DOCUMENT_BYTES) -> bytes:
         raise DescriptionError("missing_file", f"{path.name}: is not there", (path,)) from error
     except OSError as error:
         if error.errno == errno.EFBIG:
-            size = path.stat().st_size
-            message = f"{path.name}: {size} bytes of XML, at most {most} are read"
+            message = f"{path.name}: {path.stat().st_size} bytes of XML, at most {most} are read"
             raise DescriptionError("too_large", message) from error
         message = f"{path.name}: cannot be read: {error.strerror}"
         raise DescriptionError("unreadable", message) from error

@@ -76,7 +76,9 @@ def gather(path: Path, folder: Path, options: ReadOptions) -> Gathered:
     stem = path.name.removesuffix(path.suffix).removesuffix(".urdf")
     target = copies.folder / (f"{stem}.urdf" if made else path.name)
     if document.tag == "mujoco":
-        _copy_mjcf(path, document, copies, target)
+        models = follow_models(path, document, allows=roots.allows)
+        for number, model in enumerate(models):
+            _copy_model(model, copies, copies.place(model.main) if number else target)
     else:
         _copy_urdf(path, document, copies, target)
         # One that somebody names may lie anywhere.
@@ -133,14 +135,8 @@ def _copy_urdf(path: Path, document: ET.Element, copies: Copies, target: Path) -
     copies.write(document, path, target)
 
 
-def _copy_mjcf(path: Path, document: ET.Element, copies: Copies, target: Path) -> None:
-    """Write a model to ``target``, what it includes and attaches, and every file these name."""
-    for number, model in enumerate(follow_models(path, document, allows=copies.roots.allows)):
-        _copy_model(model, copies, copies.place(model.main) if number else target)
-
-
 def _copy_model(model: MujocoModel, copies: Copies, target: Path) -> None:
-    """Write a model's own file to ``target``, and what it includes."""
+    """Write a model's own file to ``target``, and what it includes; copy every file it names."""
     for named in model.named:
         place = Path(os.path.relpath(_copied(named, copies), target.parent))
         named.element.set(named.key, place.as_posix())

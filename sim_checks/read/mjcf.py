@@ -10,14 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..description import (
-    DescribedShape,
-    Description,
-    FloatArray,
-    IntArray,
-    JointLine,
-    Link,
-)
+from ..description import DescribedShape, Description, FloatArray, IntArray, JointLine, Link
 from ..geometry.kinematics import rotation_about
 from ..geometry.placing import placed, rigid
 from .mjcf_compiler import compile_model
@@ -41,8 +34,7 @@ def read_mjcf(path: Path, document: ET.Element) -> Description:
         DescriptionError: with MuJoCo's own words.
     """
     refuse_multiplied(path.name, follow_models(path, document))
-    model = compile_model(path)
-    return _Describer(model, path.parent.resolve()).describe(path)
+    return _Describer(compile_model(path), path.parent.resolve()).describe(path)
 
 
 class _Describer:

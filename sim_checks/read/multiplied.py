@@ -6,7 +6,8 @@ import math
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterable
-from functools import cache
+from functools import cache, reduce
+from operator import or_
 from pathlib import Path
 
 from ..description import DescriptionError
@@ -34,9 +35,8 @@ def refuse_multiplied(name: str, models: Iterable[MujocoModel]) -> None:
     counts = _ElementCount(models).all
     for what, most in MOST.items():
         if counts[what] > most:
-            becomes = f"{counts[what]:,} {what} once compiled"
-            message = f"{name}: {becomes}, at most {most:,} are read"
-            raise DescriptionError("too_large", message)
+            becomes = f"{name}: {counts[what]:,} {what} once compiled"
+            raise DescriptionError("too_large", f"{becomes}, at most {most:,} are read")
 
 
 class _ElementCount:
@@ -78,8 +78,7 @@ class _ElementCount:
         elif element.tag in _GRIDS:
             own["bodies"] = math.prod(map(_whole, element.get("count", "").split()))
         elif element.tag == "include":
-            inner = self._models[main].inner.get(element, ())
-            own |= _most(self._of(main, each) for each in inner)
+            own |= _most(self._of(main, each) for each in self._models[main].inner.get(element, ()))
         elif element.tag == "attach":
             own |= self._attachable(main)
             own["copies"] = own["elements"]
@@ -91,10 +90,7 @@ class _ElementCount:
 
 
 def _most(counts: Iterable[Counter[str]]) -> Counter[str]:
-    most: Counter[str] = Counter()
-    for each in counts:
-        most |= each
-    return most
+    return reduce(or_, counts, Counter())
 
 
 def _whole(text: str) -> int:

@@ -96,9 +96,8 @@ class MujocoModel:
             return [base / reference for base in bases]
         own = self.settings("texturedir" if element.tag == "texture" else "meshdir")
         folders = [_plain(folder) for folder in (*own, *self.settings("assetdir"))] or [""]
-        names = [reference]
-        if "true" in self.settings("strippath"):
-            names.insert(0, Path(reference).name)
+        stripped = [Path(reference).name] if "true" in self.settings("strippath") else []
+        names = [*stripped, reference]
         return [base / folder / name for name in names for folder in folders for base in bases]
 
 
@@ -107,10 +106,7 @@ def _plain(reference: str) -> str:
 
 
 def follow_models(
-    path: Path,
-    document: ET.Element,
-    parse: Parser = parse_document,
-    allows: Allows | None = None,
+    path: Path, document: ET.Element, parse: Parser = parse_document, allows: Allows | None = None
 ) -> list[MujocoModel]:
     """Return an MJCF model and those that it attaches, with every file that they name.
 

@@ -56,8 +56,7 @@ class _Shapes:
         self.triangles += triangles
         if self.triangles > MAX_TRIANGLES:
             brings = f"{where}: brings the shapes to {self.triangles} triangles"
-            message = f"{brings}, at most {MAX_TRIANGLES} are read"
-            raise DescriptionError("too_large", message)
+            raise DescriptionError("too_large", f"{brings}, at most {MAX_TRIANGLES} are read")
 
 
 def read_urdf(path: Path, robot: ET.Element) -> Description:

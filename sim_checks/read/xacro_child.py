@@ -58,9 +58,8 @@ def _expanded(
     substitution_args._eval_find = lambda name: str(roots.package_folder(name))
     xacro.safe_eval = _evaluated
     _close(roots)
-    document = xacro.process_file(str(path), mappings=dict(arguments))
+    text = xacro.process_file(str(path), mappings=dict(arguments)).toxml()
     files = dict.fromkeys(map(os.path.realpath, xacro.all_includes))
-    text = document.toxml()
     if len(text) > MAX_DOCUMENT_BYTES:
         raise NotAllowed(f"it makes {len(text)} characters, at most {MAX_DOCUMENT_BYTES} are read")
     return {"text": text, "files": list(files)}

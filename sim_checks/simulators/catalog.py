@@ -26,9 +26,8 @@ def simulator(name: str) -> Simulator:
     Raises:
         ValueError: naming those that exist, and the nearest.
     """
-    found = SIMULATORS.get(name)
-    if found is not None:
-        return found
+    if name in SIMULATORS:
+        return SIMULATORS[name]
     near = difflib.get_close_matches(name, SIMULATORS, n=1)
     hint = f"; did you mean {near[0]!r}?" if near else ""
     raise ValueError(f"no simulator {name!r}, there are {', '.join(SIMULATORS)}{hint}")

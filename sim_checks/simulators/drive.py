@@ -288,9 +288,7 @@ class _DriveTrack:
         self, opened: Joints, bound: float, blocked_by: tuple[str, str] | None, gain: Gain
     ) -> JointMotion:
         """Return all of it."""
-        shares = np.array(
-            [share(m, s) for m, s in zip(self._moved, self._world.span.size, strict=True)]
-        )
+        shares = np.array([*map(share, self._moved, self._world.span.size)])
         shares[self._together] = 0.0
         most = int(np.argmax(shares))
         names = [joint.name for joint in self._world.joints]

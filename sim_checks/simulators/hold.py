@@ -18,10 +18,7 @@ SHARES = (0.25, 0.5, 0.75)
 
 
 def hold(
-    world: World,
-    motions: tuple[JointMotion, ...],
-    config: MotionConfig,
-    apart: Groups = (),
+    world: World, motions: tuple[JointMotion, ...], config: MotionConfig, apart: Groups = ()
 ) -> tuple[HoldMotion, ...]:
     """Leave every joint that opened alone at three values of its range, the others balanced.
 

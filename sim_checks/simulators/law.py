@@ -97,7 +97,9 @@ def drive_law(world: World, mass: FloatArray, indices: Sequence[int], config: Mo
         passed_on = config.inertia_margin * np.abs(mass[:, index]) * peak
         passed_on[index] = 0.0
         bound += passed_on
-        for other in _riders(world, index):
+        # The joints with a range that this one carries.
+        inner = (i for i, carried in enumerate(world.carried) if carried < world.carried[index])
+        for other in (i for i in inner if span.size[i] > 0.0):
             ride = peak * (RIDING_ARM_M if slides[other] else 1.0)
             size = float(span.size[other])
             stiff = math.sqrt(ride / ((BUTTON_SHARE if size < BUTTON_M else RIDING_SHARE) * size))
@@ -115,12 +117,6 @@ def drive_law(world: World, mass: FloatArray, indices: Sequence[int], config: Mo
     np.fill_diagonal(coupled, val=True)
     lag = FRICTION_LAG * span.size + 1e-6
     return Law(frequency**2, 2.0 * frequency, damping, friction, lag, bound, coupled)
-
-
-def _riders(world: World, index: int) -> list[int]:
-    """Return the joints with a range that this one carries."""
-    inner = (i for i, carried in enumerate(world.carried) if carried < world.carried[index])
-    return [other for other in inner if world.span.size[other] > 0.0]
 
 
 def _hangs_loose(world: World, index: int, other: int) -> bool:

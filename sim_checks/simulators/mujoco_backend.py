@@ -66,13 +66,9 @@ class MujocoSimulator(Simulator):
         # A hand-written file may need the smaller step that it asks for.
         own_step = config.time_step_s if is_urdf else model.opt.timestep
         model.opt.timestep = min(config.time_step_s, own_step)
-        flags = mujoco.mjtDisableBit
-        model.opt.disableflags |= int(flags.mjDSBL_ACTUATION) | int(flags.mjDSBL_AUTORESET)
         # What sleeps does not show that it would still creep.
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-        if config.parents_touch:
-            model.opt.disableflags |= int(flags.mjDSBL_FILTERPARENT)
-        return MujocoWorld(mujoco, model, read_model(model), config.parents_touch)
+        return MujocoWorld(mujoco, model, read_model(model), config)
 
 
 def _fix_base(spec: Any, mujoco: Any) -> None:
@@ -87,11 +83,15 @@ def _fix_base(spec: Any, mujoco: Any) -> None:
 class MujocoWorld(World):
     """A compiled model, by the names that are read of it, and its state."""
 
-    def __init__(self, mujoco: Any, model: Any, held: CompiledModel, parents_touch: bool) -> None:
+    def __init__(self, mujoco: Any, model: Any, held: CompiledModel, config: MotionConfig) -> None:
+        flags = mujoco.mjtDisableBit
+        model.opt.disableflags |= int(flags.mjDSBL_ACTUATION) | int(flags.mjDSBL_AUTORESET)
+        if config.parents_touch:
+            # Else a link, and what is fixed to it, would pass through all that is jointed to it.
+            model.opt.disableflags |= int(flags.mjDSBL_FILTERPARENT)
         self._mujoco = mujoco
         self._model = model
         self._data = mujoco.MjData(model)
-        flags = mujoco.mjtDisableBit
         self._forces = int(flags.mjDSBL_GRAVITY) | int(flags.mjDSBL_SPRING)
         # What the file itself turns off stays off.
         self._own = int(model.opt.disableflags) & self._forces
@@ -103,7 +103,8 @@ class MujocoWorld(World):
         links = tuple(_link(model, held, i) for i in range(model.nbody))
         # Without the flag MuJoCo keeps a link and a moving parent apart, but not a link and the
         # unmoved base.
-        rules = PairRules(parents_touch, static_parent=True, excluded=_excluded(held, links))
+        touch = config.parents_touch
+        rules = PairRules(touch, static_parent=True, excluded=_excluded(held, links))
         self.model = LoadedModel(links, every, rules)
         self.time_step = float(model.opt.timestep)
         self.carried = tuple(_below(held, held.joints[i].body) for i in pushed)

@@ -65,20 +65,17 @@ class NewtonSimulator(Simulator):
                 raise ValueError(f"{type(error).__name__}: {error}") from error
         model = solver.mj_model
         model.opt.timestep = config.time_step_s
-        flags = mujoco.mjtDisableBit
-        model.opt.disableflags |= int(flags.mjDSBL_ACTUATION) | int(flags.mjDSBL_AUTORESET)
-        if config.parents_touch:
-            # What is fixed to a link would pass through all that is jointed to that link.
-            model.opt.disableflags |= int(flags.mjDSBL_FILTERPARENT)
-        return NewtonWorld(mujoco, model, loaded, int(newton.ShapeFlags.COLLIDE_SHAPES))
+        return NewtonWorld(mujoco, model, loaded, int(newton.ShapeFlags.COLLIDE_SHAPES), config)
 
 
 class NewtonWorld(MujocoWorld):
     """What Newton's solver made of its model; links and joints by the file's names."""
 
-    def __init__(self, mujoco: Any, model: Any, loaded: Any, solid: int) -> None:
+    def __init__(
+        self, mujoco: Any, model: Any, loaded: Any, solid: int, config: MotionConfig
+    ) -> None:
         held = _renamed(read_model(model), loaded)
-        super().__init__(mujoco, model, held, parents_touch=False)
+        super().__init__(mujoco, model, held, config)
         frictions = _frictions(loaded, solid, held.names[0])
         moved = frozenset[str]().union(*self.carried)
         links = tuple(

@@ -41,13 +41,10 @@ def observe(
     said = tuple(timeless(line, path) for line in chatter)
     try:
         poses = tuple(_pose(world, values) for values in samples)
-        alone = rest(world, config)
-        falling = fall(world, config)
+        alone = (rest(world, config), fall(world, config))
         motions = sweep(world, config, apart)
         holds = hold(world, motions, config, apart)
-        return Observation(
-            world.model, poses, alone, falling, motions, world.warnings(), holds, said
-        )
+        return Observation(world.model, poses, *alone, motions, world.warnings(), holds, said)
     finally:
         world.close()
 

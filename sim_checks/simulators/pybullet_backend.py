@@ -254,9 +254,8 @@ class PybulletWorld(World):
         # Bullet holds the axis in the principal frame of the link, here given by its turn.
         inertial = self._turn(bullet.getDynamicsInfo(self._body, info[0])[4])
         axis = triple(inertial @ np.array(info[13])) if info[2] in words else None
-        mimic = mimics.get(name)
-        forced = mimic is not None
-        return LoadedJoint(name, kind, lower, upper, damping, friction, axis, mimic, forced)
+        told = (kind, lower, upper, damping, friction, axis)
+        return LoadedJoint(name, *told, mimics.get(name), forced_by_judge=name in mimics)
 
 
 def _disconnect(bullet: BulletClient) -> None:

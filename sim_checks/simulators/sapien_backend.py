@@ -162,8 +162,7 @@ class SapienWorld(World):
             a, b = sorted((body.entity.name for body in contact.bodies), key=order.__getitem__)
             impulse = sum(np.asarray(point.impulse, np.float64) for point in contact.points)
             depth = max(-float(point.separation) for point in contact.points)
-            force = float(np.linalg.norm(impulse)) / self.time_step
-            found.add((a, b), force, depth)
+            found.add((a, b), float(np.linalg.norm(impulse)) / self.time_step, depth)
         return found
 
     def link_poses(self) -> dict[str, FloatArray]:
@@ -186,8 +185,7 @@ def _actor_model(actor: Any) -> LoadedModel:
 
     body = next(c for c in actor.components if isinstance(c, sapien.physx.PhysxRigidBaseComponent))
     held = (actor.name, 0.0, len(body.collision_shapes), None)
-    link = LoadedLink(*held, static=True, friction=_friction(body))
-    return LoadedModel((link,), ())
+    return LoadedModel((LoadedLink(*held, static=True, friction=_friction(body)),), ())
 
 
 def couple_as_written(builder: Any) -> frozenset[str]:

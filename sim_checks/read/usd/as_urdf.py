@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
+from operator import attrgetter
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -77,10 +78,8 @@ class _Urdf:
         if body.inertia is not None:
             _write_inertia(link, body.inertia, back)
         own = [surface for surface in self._stage.surfaces if surface.body == body.path]
-        visuals = [surface for surface in own if surface.seen]
-        collisions = [surface for surface in own if surface.touched]
-        for what, surfaces in (("visual", visuals), ("collision", collisions)):
-            for number, surface in enumerate(surfaces):
+        for what, counts in (("visual", attrgetter("seen")), ("collision", attrgetter("touched"))):
+            for number, surface in enumerate(filter(counts, own)):
                 file = f"{self._names[body.path]}_{what}_{number}.obj"
                 _write_obj(self._folder / file, surface, back)
                 shape = ElementTree.SubElement(link, what, name=surface.name)

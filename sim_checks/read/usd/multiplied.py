@@ -84,9 +84,8 @@ class _PrimCount:
             while not holding and not path.isEmpty:
                 # What a reference brings stands under no path of its own: all that holds it counts.
                 holding = [name for name, own in self._layers.items() if own.GetObjectAtPath(path)]
-                found = max((self._of(name, path) for name in holding), default=0)
+                self._targets[key] = max((self._of(name, path) for name in holding), default=0)
                 path = path.GetParentPath()
-            self._targets[key] = found
         return self._targets[key]
 
     def _found(self, layer: str, assets: Iterable[str]) -> list[str]:
