@@ -37,7 +37,8 @@ def range_findings(description: Description, tree: Tree | None, config: LintConf
         yield from _drive_findings(joint)
         if tree is not None:
             yield from _place_findings(joint, tree, poses, boxes, config)
-            yield from _oblique_findings(joint, tree, poses, description, config)
+    if tree is not None:
+        yield from _oblique_findings(description, tree, poses, config)
 
 
 def _size_findings(joint: JointLine, length: float, across: float, config: LintConfig) -> Findings:
@@ -115,25 +116,24 @@ def _place_findings(
 
 
 def _oblique_findings(
-    joint: JointLine,
-    tree: Tree,
-    poses: Mapping[str, FloatArray],
-    description: Description,
-    config: LintConfig,
+    description: Description, tree: Tree, poses: Mapping[str, FloatArray], config: LintConfig
 ) -> Findings:
-    line = joint_axis(joint, poses[joint.child])
-    names = tree.parts[tree.part_of()[joint.child]]
-    own = (link for link in description.links if link.name in names)
-    mesh = joined((shape, poses[n.name]) for n in own for shape in n.visuals or n.collisions)
-    edge = edge_meant(*mesh, line.axis) if mesh is not None and line.turning else None
-    angle = 0.0 if edge is None else math.degrees(math.acos(min(float(edge @ line.axis), 1.0)))
-    if angle > config.oblique_deg:
-        message = (
-            f"the axis of joint {joint.name!r} is {angle:.1f} deg off every edge of the box that "
-            f"it turns, want at most {config.oblique_deg:g}: doors and lids turn along an edge"
-        )
-        told = rounded(angle, "deg", config.oblique_deg)
-        yield error("axis_oblique", message, **about(joint), **told)
+    links = {link.name: link for link in description.links}
+    parts = tree.part_of()
+    most = config.oblique_deg
+    for joint in tree.moving:
+        line = joint_axis(joint, poses[joint.child])
+        own = ((links[name], poses[name]) for name in tree.parts[parts[joint.child]])
+        shapes = ((shape, at) for link, at in own for shape in link.visuals or link.collisions)
+        mesh = joined(shapes) if line.turning else None
+        edge = None if mesh is None else edge_meant(*mesh, line.axis)
+        angle = 0.0 if edge is None else math.degrees(math.acos(min(float(edge @ line.axis), 1.0)))
+        if angle > most:
+            message = (
+                f"the axis of joint {joint.name!r} is {angle:.1f} deg off every edge of the box "
+                f"that it turns, want at most {most:g}: doors and lids turn along an edge"
+            )
+            yield error("axis_oblique", message, **about(joint), **rounded(angle, "deg", most))
 
 
 def _beside(line: JointAxis, corners: FloatArray) -> float:

@@ -81,9 +81,11 @@ def planes_of_panels(
 
 def surface_points(work: Workpiece, part: int) -> FloatArray:
     """Return the points of a part's surface, close enough for its pieces [m], shape [n, 3]."""
+    if part in work.points:
+        return work.points[part]
     corners = work.skin.of_part(part)
-    if part in work.points or not len(corners):
-        return work.points.get(part, np.zeros((0, 3)))
+    if not len(corners):
+        return np.zeros((0, 3))
     step = SPACING * work.lattice.step
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     parts = np.clip(np.ceil(longest / step).astype(np.int64), 1, 64)
@@ -93,9 +95,8 @@ def surface_points(work: Workpiece, part: int) -> FloatArray:
         grid = [(i, j, count - i - j) for i in range(count + 1) for j in range(count + 1 - i)]
         weights = np.array(grid) / count
         found.append(np.einsum("kc,ncd->nkd", weights, some).reshape(-1, 3))
-    points = np.round(np.concatenate(found), 7)
-    work.points[part] = np.asarray(points[distinct_rows(points)[0]], dtype=np.float64)
-    return work.points[part]
+    points = np.asarray(np.round(np.concatenate(found), 7), dtype=np.float64)
+    return work.points.setdefault(part, points[distinct_rows(points)[0]])
 
 
 def carve_panel(work: Workpiece, part: int) -> None:

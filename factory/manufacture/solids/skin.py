@@ -39,9 +39,7 @@ def skin_parts(articulation: Articulation) -> tuple[int, ...]:
     vertices = articulation.mesh.vertices
     edges, both = border(articulation.mesh, face_parts(articulation))
     length = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
-    shared = np.zeros(len(articulation.parts))
-    for column in range(2):
-        np.add.at(shared, both[:, column], length)
+    shared = np.bincount(both.T.ravel(), np.tile(length, 2), len(articulation.parts))
     return tuple(
         joint.child
         for joint in articulation.joints
