@@ -80,17 +80,7 @@ class Dynamics:
 
     def kinetic(self, position: FloatArray, velocity: FloatArray) -> float:
         """Return the kinetic energy [J]."""
-        matrix = self._matrix(position)
-        if matrix is not None:
-            return 0.5 * float(velocity @ matrix @ velocity)
-        links = list(self._mass)
-        states = self._bullet.getLinkStates(self._body, links, computeLinkVelocity=1)
-        total = 0.0
-        for link, state in zip(links, states, strict=True):
-            spin = self._turn(state).T @ np.array(state[7])
-            total += 0.5 * self._mass[link] * float(np.dot(state[6], state[6]))
-            total += 0.5 * float(self._moments[link] @ spin**2)
-        return total
+        return 0.5 * float(velocity @ self.mass_matrix(position) @ velocity)
 
     def _matrix(self, position: FloatArray) -> FloatArray | None:
         if self._refuses:
