@@ -1,4 +1,4 @@
-"""How large triangles are, which way they face, and how far they reach."""
+"""How large triangles are, which way they face, how far they reach, and points within them."""
 
 from __future__ import annotations
 
@@ -73,3 +73,18 @@ def meet_box(corners: FloatArray, low: FloatArray, high: FloatArray) -> npt.NDAr
         & (offsets <= np.abs(normals) @ half)
         & ((lowest <= reach) & (highest >= -reach)).all(axis=1)
     )
+
+
+def points_within(corners: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
+    """Return a point within each triangle [m], shape [n, 3]; even if the shares are.
+
+    Args:
+        corners: positions [m], shape [n, 3, 3].
+        u: shares of its side to the second corner, 0 to 1, shape [n].
+        v: likewise, to the third.
+    """
+    over = u + v > 1.0
+    u = np.where(over, 1.0 - u, u)[:, None]
+    v = np.where(over, 1.0 - v, v)[:, None]
+    first = corners[:, 0]
+    return first + u * (corners[:, 1] - first) + v * (corners[:, 2] - first)

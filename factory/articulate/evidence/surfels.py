@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry.triangles import doubled_normals
+from ...geometry.triangles import doubled_normals, points_within
 from ...mesh import BoolArray, FloatArray, IntArray
-from ..geometric.sweep import points_within
 
 
 @dataclass(frozen=True)

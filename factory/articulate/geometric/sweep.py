@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...articulation import rotation_about
-from ...geometry.triangles import doubled_normals
+from ...geometry.triangles import doubled_normals, points_within
 from ...mesh import FloatArray, IntArray
 from .scene import Scene
 
@@ -28,21 +28,6 @@ def surface_points(scene: Scene, most: int = 20000) -> tuple[FloatArray, IntArra
     corners = triangles.reshape(-1, 3)[::stride]
     corner_owner = np.repeat(scene.labels, 3)[::stride]
     return np.concatenate([corners, inner]), np.concatenate([corner_owner, scene.labels[owner]])
-
-
-def points_within(corners: FloatArray, u: FloatArray, v: FloatArray) -> FloatArray:
-    """Return a point within each triangle [m], shape [n, 3]; even if the shares are.
-
-    Args:
-        corners: positions [m], shape [n, 3, 3].
-        u: shares of its side to the second corner, 0 to 1, shape [n].
-        v: likewise, to the third.
-    """
-    over = u + v > 1.0
-    u = np.where(over, 1.0 - u, u)[:, None]
-    v = np.where(over, 1.0 - v, v)[:, None]
-    first = corners[:, 0]
-    return first + u * (corners[:, 1] - first) + v * (corners[:, 2] - first)
 
 
 def free_turn(

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from ...errors import InputRejected
+from ...geometry.triangles import points_within
 from ...mesh import BoolArray, FloatArray, IntArray
 from .frames import UnitBox
 from .surface import Surface
@@ -121,13 +122,9 @@ def _on_edges(surface: Surface, count: int, rng: np.random.Generator) -> Cloud:
 
 
 def _on_faces(surface: Surface, faces: IntArray, rng: np.random.Generator) -> Cloud:
-    a, b, c = (surface.vertices[surface.faces[faces, k]] for k in range(3))
-    u, v = rng.random((2, len(faces), 1))
-    over = u + v > 1.0
-    u = np.where(over, 1.0 - u, u)
-    v = np.where(over, 1.0 - v, v)
+    shares = rng.random((2, len(faces)))
     return Cloud(
-        points=a + u * (b - a) + v * (c - a),
+        points=points_within(surface.vertices[surface.faces[faces]], *shares),
         normals=surface.normals[faces],
         faces=faces,
         sharp=np.zeros(len(faces), dtype=np.bool_),

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind
-from asset_factory.factory.geometry.triangles import face_areas
+from asset_factory.factory.geometry.triangles import face_areas, points_within
 from asset_factory.factory.mesh import FloatArray, IntArray, read_only
 
 from ...bodies import bodies_of
@@ -76,10 +76,7 @@ def cloud_of(articulation: Articulation, seed: int, count: int = POINTS) -> Scor
     rng = np.random.default_rng(seed)
     reach = np.cumsum(face_areas(mesh))
     faces = np.minimum(np.searchsorted(reach, rng.uniform(0.0, reach[-1], count)), len(reach) - 1)
-    u, v = rng.uniform(size=(2, count))
-    u, v = np.where(u + v > 1.0, [1.0 - u, 1.0 - v], [u, v])
-    a, b, c = (mesh.vertices[mesh.faces[faces, corner]] for corner in range(3))
-    points = a + u[:, None] * (b - a) + v[:, None] * (c - a)
+    points = points_within(mesh.vertices[mesh.faces[faces]], *rng.uniform(size=(2, count)))
     return ScoredCloud(
         points=(points - middle) / size,
         labels=bodies.labels[faces],
