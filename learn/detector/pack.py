@@ -69,10 +69,7 @@ def write_pack(
     Real objects that open are added so often as made ``one_piece``, others once at most.
     """
     descriptions = () if described is None else described_objects(described)
-    with (
-        zipfile.ZipFile(out, "w") as pack,
-        get_context("spawn").Pool(workers) as pool,
-    ):
+    with zipfile.ZipFile(out, "w") as pack, get_context("spawn").Pool(workers) as pool:
         forming = partial(_with_forms, count=one_piece)
         found_in = chain.from_iterable(map(real_objects, real))
         shown = pool.imap(forming, enumerate(found_in))

@@ -14,10 +14,7 @@ PENALTIES = {"giou": -1.0, "miou": 0.0}
 
 
 def compared(
-    true: ScoredCloud,
-    predicted: ScoredCloud,
-    at: tuple[FloatArray, FloatArray],
-    matching: Matching,
+    true: ScoredCloud, predicted: ScoredCloud, at: tuple[FloatArray, FloatArray], matching: Matching
 ) -> dict[str, float]:
     """Return the agreement of boxes and points (true, predicted) of parts matched at rest.
 

@@ -9,16 +9,7 @@ from functools import partial
 from ..kit.assembly import Assembly
 from ..kit.boards import cornice, put_top, slab, stand
 from ..kit.casework import Casework, furniture
-from ..kit.layouts import (
-    Node,
-    column,
-    divided,
-    drawers,
-    filling,
-    grid,
-    random_node,
-    row,
-)
+from ..kit.layouts import Node, column, divided, drawers, filling, grid, random_node, row
 from ..kit.looks import BLACK, GREEN, OAK, WALNUT, WHITE, wood
 from ..kit.shapes import box
 from ..kit.spans import Span, ends, size, span, upto, within
