@@ -10,7 +10,7 @@ import io
 import json
 import lzma
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from itertools import chain
@@ -109,9 +109,7 @@ def _with_forms(
     return found, [replace(found.sides, color=each.color, depth=each.depth) for each in seen]
 
 
-def _add(
-    pack: zipfile.ZipFile, name: str, note: Mapping[str, object], sides: LabelledSides
-) -> None:
+def _add(pack: zipfile.ZipFile, name: str, note: dict[str, object], sides: LabelledSides) -> None:
     picture = Image.fromarray(sides.color.reshape(-1, CANVAS, 3))
     depth = np.where(sides.depth == NOTHING, NOTHING, sides.depth // COARSE)
     pack.writestr(f"{name}/color.webp", _small(picture))

@@ -115,14 +115,13 @@ def sliding_door(a: Assembly) -> None:
         return
     metal = any_metal(a)
     body = a.body(any_color(a))
-    body.add(*frame((-0.08, width + 0.08), (0.0, 0.1), (0.0, height), 0.08, False))
+    opening = (0.0, width)
+    body.add(*frame(within(opening, -0.08), (0.0, 0.1), (0.0, height), 0.08, False))
     rail = height + 0.12
     away = a.sign()
-    reach = within(
-        (0.0, width), -0.1 if away > 0.0 else -0.1 - width, -0.1 - max(away, 0.0) * width
-    )
+    reach = within(opening, -0.1 if away > 0.0 else -0.1 - width, -0.1 - max(away, 0.0) * width)
     body.add(box(reach, (-0.02, -0.012), span(rail, 0.04)), look=metal)
-    brackets = ends(within((0.0, width), -0.08), 0.04)
+    brackets = ends(within(opening, -0.08), 0.04)
     body.add(*(box(bracket, (-0.012, 0.1), (height, rail + 0.03)) for bracket in brackets))
     x = (-0.03, width + 0.03)
     y = span(-0.012, -thick)

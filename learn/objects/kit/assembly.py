@@ -171,13 +171,9 @@ class Assembly(Chance):
     def articulation(self) -> Articulation:
         """Return the object, standing on z = 0, centred over the origin, everything at rest."""
         drafts = [self.root, *self.parts]
-        whole = concatenate(
-            [
-                Mesh.from_triangles(_shrunk(form.vertices, self.hairline), form.faces, look)
-                for draft in drafts
-                for form, look in draft.forms
-            ]
-        )
+        looked = (each for draft in drafts for each in draft.forms)
+        short = ((_shrunk(form.vertices, self.hairline), form.faces, look) for form, look in looked)
+        whole = concatenate([Mesh.from_triangles(*each) for each in short])
         low, high = whole.bounds
         middle = (low + high) / 2
         offset = -np.array([middle[0], middle[1], low[2]])

@@ -155,7 +155,10 @@ class Casework:
             furthest = 90.0
         width = size(front.x if upright else front.z)
         turn = swing(self.a, style.front, width, rooms, style.taste, furthest)
-        x, z = turn.trimmed(front.x, front.z, side)
+        margins = [0.0] * 4
+        margins[near ^ 1] = turn.trim
+        x = within(front.x, *margins[:2])
+        z = within(front.z, *margins[2:])
         name = self._name(cell, "door" if upright else "flap")
         depth = self.face + turn.setback
         door = self.a.swung(name, side, x, z, depth, turn.upper, look=style.face)
