@@ -10,7 +10,7 @@ import io
 import json
 import lzma
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from itertools import chain
@@ -69,10 +69,7 @@ def write_pack(
     Real objects that open are added so often as made ``one_piece``, others once at most.
     """
     descriptions = () if described is None else described_objects(described)
-    with (
-        zipfile.ZipFile(out, "w") as pack,
-        get_context("spawn").Pool(workers) as pool,
-    ):
+    with zipfile.ZipFile(out, "w") as pack, get_context("spawn").Pool(workers) as pool:
         forming = partial(_with_forms, count=one_piece)
         found_in = chain.from_iterable(map(real_objects, real))
         shown = pool.imap(forming, enumerate(found_in))
@@ -112,9 +109,7 @@ def _with_forms(
     return found, [replace(found.sides, color=each.color, depth=each.depth) for each in seen]
 
 
-def _add(
-    pack: zipfile.ZipFile, name: str, note: Mapping[str, object], sides: LabelledSides
-) -> None:
+def _add(pack: zipfile.ZipFile, name: str, note: dict[str, object], sides: LabelledSides) -> None:
     picture = Image.fromarray(sides.color.reshape(-1, CANVAS, 3))
     depth = np.where(sides.depth == NOTHING, NOTHING, sides.depth // COARSE)
     pack.writestr(f"{name}/color.webp", _small(picture))

@@ -49,15 +49,15 @@ def _line(row: Row) -> dict[str, Any]:
 def _table(lines: Sequence[dict[str, Any]]) -> str:
     """Write a column per value; those of parts become their means, blank without any."""
     fixed = ("method", "case", "repeat", "source", "category", "pose", "yaw", "failure")
-    values = list(dict.fromkeys(name for line in lines for name in line["values"]))
-    parts = list(dict.fromkeys(name for line in lines for name in line["parts"]))
+    values = dict.fromkeys(name for line in lines for name in line["values"])
+    parts = dict.fromkeys(name for line in lines for name in line["parts"])
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*fixed, *values, *parts])
+    columns = [*fixed, *values, *parts]
+    writer = csv.DictWriter(text, columns, extrasaction="ignore", lineterminator="\n")
+    writer.writeheader()
     for line in lines:
-        cells = [line[name] for name in fixed] + [line["values"].get(name, "") for name in values]
-        numbers = [line["parts"].get(name, ()) for name in parts]
-        writer.writerow(cells + [rounded(np.mean(each)) if each else "" for each in numbers])
+        means = {name: rounded(np.mean(each)) for name, each in line["parts"].items() if each}
+        writer.writerow(line | line["values"] | means)
     return text.getvalue()
 
 

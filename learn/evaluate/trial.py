@@ -7,13 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from asset_factory.factory.errors import ConfigError, InputRejected
-from asset_factory.sim_checks.processes.isolation import (
-    Failure,
-    Limits,
-    Outcome,
-    WarmChild,
-    preload,
-)
+from asset_factory.sim_checks.processes.isolation import Failure, Limits, WarmChild, preload
 
 from ..children import ask_children
 from .cases import Request, make_case
@@ -90,19 +84,16 @@ def run_trials(trials: Iterable[Trial], workers: int, limits: Limits) -> Iterato
         outcome = child.call(score_trial, trial, limits=limits)
         if outcome.failure is None:
             return Row(trial, outcome.value)
-        if isinstance(outcome.error, ConfigError):
-            raise outcome.error
+        error = outcome.error
+        if isinstance(error, ConfigError):
+            raise error
+        reason = f"{outcome.failure}: {outcome.detail}"
+        if isinstance(error, InputRejected):
+            reason = f"{error.code}: {error}"
         if outcome.failure is Failure.TIMEOUT or outcome.killed:
-            return Row(trial, None, _reason(outcome))
+            return Row(trial, None, reason)
         naively = replace(trial, method=replace(trial.method, name=NAIVE))
         instead = child.call(score_trial, naively, limits=limits)
-        return Row(trial, instead.value, _reason(outcome))
+        return Row(trial, instead.value, reason)
 
     return ask_children(ask, trials, workers, RESIDENT_BYTES)
-
-
-def _reason(outcome: Outcome[Score]) -> str:
-    error = outcome.error
-    if isinstance(error, InputRejected):
-        return f"{error.code}: {error}"
-    return f"{outcome.failure}: {outcome.detail}"

@@ -12,21 +12,9 @@ import numpy.typing as npt
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.mesh import FloatArray
 
+from . import surfaces
 from .details import lettered, without_handles, without_hidden, without_hidden_pieces
 from .labelled import Labelled
-from .surfaces import (
-    bevelled,
-    curved,
-    doubled,
-    exploded,
-    flattened,
-    flipped,
-    opened,
-    patched,
-    snapped,
-    subdivided,
-    without_sides,
-)
 from .united import all_united, parts_united
 
 Pass = Callable[[Labelled, np.random.Generator], Labelled]
@@ -52,26 +40,26 @@ PASSES: tuple[tuple[Pass, tuple[float, float, float]], ...] = (
     (without_hidden_pieces, (0.25, 0.35, 0.4)),
     (without_handles, (0.1, 0.1, 0.2)),
     (lettered, (0.12, 0.15, 0.15)),
-    (snapped, (0.5, 0.4, 0.3)),
-    (bevelled, (0.35, 0.0, 0.0)),
-    (partial(bevelled, share=0.5), (0.0, 0.5, 0.0)),
-    (partial(flattened, share=0.2), (0.0, 0.15, 0.0)),
-    (partial(flattened, share=0.8), (0.0, 0.0, 0.9)),
+    (surfaces.snapped, (0.5, 0.4, 0.3)),
+    (surfaces.bevelled, (0.35, 0.0, 0.0)),
+    (partial(surfaces.bevelled, share=0.5), (0.0, 0.5, 0.0)),
+    (partial(surfaces.flattened, share=0.2), (0.0, 0.15, 0.0)),
+    (partial(surfaces.flattened, share=0.8), (0.0, 0.0, 0.9)),
     (_spaced, (0.2, 0.0, 0.0)),
     (_merged, (0.2, 0.75, 0.0)),
     (without_hidden, (0.0, 0.4, 0.2)),
-    (without_sides, (0.0, 0.3, 0.0)),
-    (partial(opened, share=0.2), (0.0, 0.15, 0.0)),
-    (partial(opened, share=0.7), (0.0, 0.0, 0.7)),
-    (partial(exploded, share=0.2), (0.0, 0.1, 0.0)),
-    (partial(exploded, share=0.5), (0.0, 0.0, 0.4)),
-    (patched, (0.1, 0.35, 0.3)),
-    (subdivided, (0.3, 0.3, 0.3)),
-    (curved, (0.3, 0.4, 0.2)),
-    (partial(flipped, share=0.15), (0.1, 0.0, 0.0)),
-    (flipped, (0.0, 0.0, 0.3)),
-    (partial(doubled, share=0.2), (0.15, 0.0, 0.0)),
-    (doubled, (0.0, 0.85, 0.6)),
+    (surfaces.without_sides, (0.0, 0.3, 0.0)),
+    (partial(surfaces.opened, share=0.2), (0.0, 0.15, 0.0)),
+    (partial(surfaces.opened, share=0.7), (0.0, 0.0, 0.7)),
+    (partial(surfaces.exploded, share=0.2), (0.0, 0.1, 0.0)),
+    (partial(surfaces.exploded, share=0.5), (0.0, 0.0, 0.4)),
+    (surfaces.patched, (0.1, 0.35, 0.3)),
+    (surfaces.subdivided, (0.3, 0.3, 0.3)),
+    (surfaces.curved, (0.3, 0.4, 0.2)),
+    (partial(surfaces.flipped, share=0.15), (0.1, 0.0, 0.0)),
+    (surfaces.flipped, (0.0, 0.0, 0.3)),
+    (partial(surfaces.doubled, share=0.2), (0.15, 0.0, 0.0)),
+    (surfaces.doubled, (0.0, 0.85, 0.6)),
 )
 #: How often an object is one of boards, of shells and of sheets.
 STYLES = (0.4, 0.5, 0.1)

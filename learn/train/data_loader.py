@@ -68,12 +68,7 @@ class _Worker:
     """One process and what it draws ahead; another takes its place when it dies."""
 
     def __init__(
-        self,
-        given: bytes,
-        ahead: int,
-        step: int,
-        numbers: Sequence[int],
-        say: Callable[[str], None],
+        self, given: bytes, ahead: int, step: int, numbers: range, say: Callable[[str], None]
     ) -> None:
         self._given = given
         self._numbers = tuple(numbers)

@@ -42,12 +42,7 @@ _FREE = ("run", "held_out", "validation")
 
 
 def run_training(
-    config: TrainConfig,
-    recipe: str,
-    output: Path,
-    *,
-    resume: bool,
-    start: Path | None,
+    config: TrainConfig, recipe: str, output: Path, *, resume: bool, start: Path | None
 ) -> bool:
     """Train a network, and leave everything about it in a folder; returns whether it is done.
 

@@ -60,12 +60,10 @@ def _permutation(cost: Any, root_first: bool) -> Any:
 
 
 def arranged(tensor: Tensor, queries: Tensor) -> Tensor:
-    """Return the rows of [batch, parts, ...] in the order that :func:`match` found."""
-    deep = tensor.shape[2:]
-    index = queries.reshape(*queries.shape, *[1] * len(deep)).expand(*queries.shape, *deep)
-    return tensor.gather(1, index)
+    """Return the rows of [batch, parts, n] in the order that :func:`match` found."""
+    return tensor.take_along_dim(queries[..., None], 1)
 
 
 def arranged_columns(tensor: Tensor, queries: Tensor) -> Tensor:
     """Return the columns of [batch, n, parts] in the order that :func:`match` found."""
-    return tensor.gather(2, queries[:, None].expand(-1, tensor.shape[1], -1))
+    return tensor.take_along_dim(queries[:, None], 2)

@@ -10,7 +10,6 @@ from asset_factory.factory.mesh import Material
 from asset_factory.learn.objects.kit.assembly import Assembly
 from asset_factory.learn.objects.kit.axes import FRONT, facing_front
 from asset_factory.learn.objects.kit.boards import carcass, tray
-from asset_factory.learn.objects.kit.casework import swung
 from asset_factory.learn.objects.kit.controls import ControlPanel
 from asset_factory.learn.objects.kit.pulls import Pull, add_pull
 from asset_factory.learn.objects.kit.shapes import box
@@ -47,7 +46,7 @@ def _placed(made: Articulation) -> Articulation:
 def cupboard(hinge: str = "left") -> Articulation:
     """A door over the front, its handle across from the hinge."""
     a = _cabinet(Z)
-    door = swung(a, "door", hinge, FRONT_X, (0.002, 0.698), FACE, 1.8)
+    door = a.swung("door", hinge, FRONT_X, (0.002, 0.698), FACE, 1.8)
     door.add(box(FRONT_X, FRONT_Y, (0.002, 0.698)))
     at = (0.24 if hinge == "left" else -0.24, 0.35)
     add_pull(door, _bar(0.15), at, facing_front(FACE), 1.0, True)
@@ -67,7 +66,7 @@ def chest() -> Articulation:
 def oven() -> Articulation:
     """A door that drops, and a knob above it."""
     a = _cabinet(Z)
-    door = swung(a, "door", "bottom", FRONT_X, (0.01, 0.55), FACE, float(np.radians(88)))
+    door = a.swung("door", "bottom", FRONT_X, (0.01, 0.55), FACE, float(np.radians(88)))
     door.add(box(FRONT_X, FRONT_Y, (0.01, 0.55)))
     add_pull(door, _bar(0.4), (0.0, 0.5), facing_front(FACE), 1.0)
     a.root.add(box(FRONT_X, FRONT_Y, (0.56, 0.698)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -37,7 +38,7 @@ class ScoredCloud:
         object.__setattr__(self, "points", read_only(self.points))
         object.__setattr__(self, "labels", read_only(self.labels, np.int64))
 
-    @property
+    @cached_property
     def present(self) -> IntArray:
         """Return the parts that have points, ascending."""
         return np.unique(self.labels)

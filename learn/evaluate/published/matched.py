@@ -14,11 +14,11 @@ from .cloud import ScoredCloud
 
 @dataclass(frozen=True)
 class Matching:
-    """Rows of (predicted, true) positions in the clouds' ``present`` lists, of so many parts."""
+    """Two clouds, and rows of (predicted, true) positions in their ``present`` lists."""
 
+    true: ScoredCloud
+    predicted: ScoredCloud
     pairs: IntArray
-    predicted: int
-    true: int
 
     def scored(self, values: FloatArray, back: FloatArray, penalty: float | None) -> float:
         """Return the mean over predicted and mean over true parts, averaged.
@@ -28,8 +28,10 @@ class Matching:
         """
         if penalty is None:
             return float(values.mean() + back.mean()) / 2.0
-        of_predicted = (values.sum() + penalty * (self.predicted - len(values))) / self.predicted
-        of_true = (back.sum() + penalty * (self.true - len(back))) / self.true
+        ours = len(self.predicted.present)
+        theirs = len(self.true.present)
+        of_predicted = (values.sum() + penalty * (ours - len(values))) / ours
+        of_true = (back.sum() + penalty * (theirs - len(back))) / theirs
         return float(of_predicted + of_true) / 2.0
 
     def each(self, ask: Callable[[int, int], float]) -> FloatArray:
@@ -42,10 +44,8 @@ def matched(true: ScoredCloud, predicted: ScoredCloud) -> Matching:
     from scipy.optimize import linear_sum_assignment
     from scipy.spatial.distance import cdist
 
-    ours = _centres(predicted)
-    theirs = _centres(true)
-    rows, columns = linear_sum_assignment(cdist(ours, theirs))
-    return Matching(np.stack([rows, columns], axis=1), len(ours), len(theirs))
+    pairs = linear_sum_assignment(cdist(_centres(predicted), _centres(true)))
+    return Matching(true, predicted, np.stack(pairs, axis=1))
 
 
 def _centres(cloud: ScoredCloud) -> FloatArray:

@@ -33,8 +33,8 @@ def release(true: ScoredCloud, predicted: ScoredCloud, seed: int = 0) -> Score:
         states, in which the later states' ``giou`` counts twice.
     """
     matching = matched(true, predicted)
-    rest = compared(true, predicted, (true.points, predicted.points), matching)
-    states = per_state(true, predicted, matching, np.random.default_rng(seed))
+    rest = compared(matching)
+    states = per_state(matching, np.random.default_rng(seed))
     mean = {}
     for name in rest:
         values = [state[name] for state in states]
@@ -44,15 +44,13 @@ def release(true: ScoredCloud, predicted: ScoredCloud, seed: int = 0) -> Score:
     return Score({**rest, **mean})
 
 
-def per_state(
-    true: ScoredCloud, predicted: ScoredCloud, matching: Matching, rng: np.random.Generator
-) -> list[dict[str, float]]:
+def per_state(matching: Matching, rng: np.random.Generator) -> list[dict[str, float]]:
     """Return the metrics in each of ``STATES``."""
     states = []
     for share in STATES:
-        scores = compared(true, predicted, (true.at(share), predicted.at(share)), matching)
+        scores = compared(matching, share)
         if share > 0.0:
-            there, back = solid_giou(true, predicted, matching, share, rng)
+            there, back = solid_giou(matching, share, rng)
             scores["giou"] = matching.scored(there, back, PENALTIES["giou"])
             scores["giou_matched"] = matching.scored(there, back, None)
         states.append(scores)
@@ -60,17 +58,12 @@ def per_state(
 
 
 def solid_giou(
-    true: ScoredCloud,
-    predicted: ScoredCloud,
-    matching: Matching,
-    share: float,
-    rng: np.random.Generator,
+    matching: Matching, share: float, rng: np.random.Generator
 ) -> tuple[FloatArray, FloatArray]:
     """Return each pair's, seen from the predicted part and from the true one."""
-    ours = [box_of(part) for part in predicted.parts(predicted.points)]
-    theirs = [box_of(part) for part in true.parts(true.points)]
-    moved = predicted.poses(share, as_released=True)[predicted.present]
-    truly = true.poses(share, as_released=True)[true.present]
+    clouds = (matching.predicted, matching.true)
+    ours, theirs = ([box_of(part) for part in each.parts(each.points)] for each in clouds)
+    moved, truly = (each.poses(share, as_released=True)[each.present] for each in clouds)
     there = matching.each(lambda i, j: _overlap(ours[i], theirs[j], moved[i], truly[j], rng))
     back = matching.each(lambda i, j: _overlap(theirs[j], ours[i], moved[i], truly[j], rng))
     return there, back

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from asset_factory.factory.mesh import FloatArray
-
 from ..score import Score
 from .boxes import box_of, giou, iou
 from .cloud import ScoredCloud
@@ -13,20 +11,18 @@ from .matched import Matching, chamfer, half_diagonal, matched
 PENALTIES = {"giou": -1.0, "miou": 0.0}
 
 
-def compared(
-    true: ScoredCloud,
-    predicted: ScoredCloud,
-    at: tuple[FloatArray, FloatArray],
-    matching: Matching,
-) -> dict[str, float]:
-    """Return the agreement of boxes and points (true, predicted) of parts matched at rest.
+def compared(matching: Matching, share: float | None = None) -> dict[str, float]:
+    """Return the agreement of boxes and points of parts matched at rest.
+
+    Joints are at this share from lower to upper; ``None``: at rest.
 
     Returns:
         ``giou``, ``miou`` (of boxes along the axes), ``pc`` (Chamfer distance of parts), each also
         with ``_matched``, which leaves parts without partner out; ``oc`` (of the whole).
     """
-    theirs = true.parts(at[0])
-    ours = predicted.parts(at[1])
+    clouds = (matching.true, matching.predicted)
+    at = [cloud.points if share is None else cloud.at(share) for cloud in clouds]
+    theirs, ours = (cloud.parts(points) for cloud, points in zip(clouds, at, strict=True))
     their_boxes = [box_of(part) for part in theirs]
     our_boxes = [box_of(part) for part in ours]
     values = {
@@ -34,7 +30,7 @@ def compared(
         "miou": matching.each(lambda i, j: iou(our_boxes[i], their_boxes[j])),
         "pc": matching.each(lambda i, j: chamfer(ours[i], theirs[j])),
     }
-    penalties = {**PENALTIES, "pc": half_diagonal(predicted)}
+    penalties = {**PENALTIES, "pc": half_diagonal(matching.predicted)}
     scores = {"oc": chamfer(at[1], at[0])}
     for name, of_pair in values.items():
         scores[name] = matching.scored(of_pair, of_pair, penalties[name])
@@ -51,6 +47,5 @@ def paper(true: ScoredCloud, predicted: ScoredCloud) -> Score:
     with ``articulated_`` at the upper limits.
     """
     matching = matched(true, predicted)
-    rest = compared(true, predicted, (true.points, predicted.points), matching)
-    full = compared(true, predicted, (true.at(1.0), predicted.at(1.0)), matching)
-    return Score({**rest, **{f"articulated_{name}": value for name, value in full.items()}})
+    full = compared(matching, 1.0)
+    return Score(compared(matching) | {f"articulated_{name}": full[name] for name in full})

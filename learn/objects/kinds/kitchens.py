@@ -19,12 +19,12 @@ from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
 from ..kit.pulls import any_pull
 from ..kit.shapes import box, cylinder, frustum, hoop, lathe
 from ..kit.spans import Span, about, between, ends, mid, shares, size, span, upto, within
-from ..kit.styles import Style, any_color, any_metal, any_style, convex_style
+from ..kit.styles import HIGH, Style, any_color, any_metal, any_style, convex_style
 
 
 def _style(a: Assembly, panels: Mapping[str, float]) -> Style:
     skin = a.pick(WHITE, STEEL, BLACK, STEEL)
-    pull = any_pull(a, any_metal(a), ("bar", "rail", "bow", "recess"))
+    pull = any_pull(a, any_metal(a), "bar", "rail", "bow", "recess")
     style = any_style(a, panels, 0.0, 0.72, (0.5,))
     board, front, gap, rail, length = a.draws(
         (0.012, 0.03), (0.018, 0.045), (0.0015, 0.006), (0.06, 0.11), (0.25, 0.6)
@@ -316,7 +316,7 @@ def _oven_style(style: Style) -> Style:
 def kitchen(a: Assembly) -> None:
     """Build two to five base units, a worktop with a sink or a hob; at times wall units."""
     depth, base, height = a.draws((0.5, 0.65), (0.07, 0.15), (0.65, 0.78))
-    style = any_style(a, None, 0.12, pull_at=(0.85, 0.8))
+    style = any_style(a, None, 0.12, pull_at=HIGH)
     style = replace(style, covered=True, crowded=True, reveal=0.0, shelves=2)
     y = (0.0, depth)
     z = span(base, height)

@@ -159,21 +159,15 @@ def _drum(
 
 
 def _blades(
-    a: Assembly,
-    axis: Point,
-    at: Point,
-    count: int,
-    hub: float,
-    radius: float,
-    wide: float,
-    pitch: float,
+    a: Assembly, axis: Point, at: Point, count: int, radii: Span, wide: float, pitch: float
 ) -> list[Form]:
-    """Build twisted blades around an axis, Y or Z, from the hub out to ``radius`` [m]."""
+    """Build twisted blades around an axis, Y or Z, between the ``radii`` of hub and tips [m]."""
     share = np.linspace(0.0, 1.0, 5)
     half = 0.5 * wide * (0.45 + 0.55 * np.sin(np.pi * (0.25 + 0.55 * share)) ** 2)
     sweep = a.draw(-0.3, 0.3) * wide * share
     twist = pitch * (1.3 - 0.6 * share)
-    reach = 0.6 * hub + (radius - 0.6 * hub) * share
+    hub, tip = radii
+    reach = 0.6 * hub + (tip - 0.6 * hub) * share
     corners = []
     for edge, face in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
         across = sweep + edge * half * np.cos(twist)
@@ -213,7 +207,7 @@ def fan(a: Assembly) -> None:
     spinning.add(lathe(core, center, Y, 20))
     pitch = a.draw(0.25, 0.5)
     broad = min(1.4 * depth / np.sin(1.3 * pitch), radius * a.draw(0.5, 0.9))
-    spinning.add(*_blades(a, BACK, center, a.count(3, 5), hub, 0.86 * radius, broad, pitch))
+    spinning.add(*_blades(a, BACK, center, a.count(3, 5), (hub, 0.86 * radius), broad, pitch))
     style = a.weighted({"none": 0.3, "knob": 0.28, "buttons": 0.42})
     panel = ControlPanel(a, facing_up(thick), metal)
     if style == "knob":
@@ -257,7 +251,7 @@ def ceiling_fan(a: Assembly) -> None:
     shell = [(0.5 * hub, -0.035), (hub, -0.02), (hub, 0.02), (0.6 * hub, 0.05)]
     bore = [(0.013, 0.05), (0.013, -0.035)]
     spinning.add(lathe([*shell, *bore], center, sides=32, looped=True), look=metal)
-    spinning.add(*_blades(a, UP, center, a.count(3, 6), 1.2 * hub, radius, wide, pitch))
+    spinning.add(*_blades(a, UP, center, a.count(3, 6), (1.2 * hub, radius), wide, pitch))
     low = level - 0.04
     if a.happens(0.6):
         lamp = ((0.6, -0.01), (0.8, -0.03), (0.7, -0.07), (0.3, -0.1))

@@ -32,16 +32,11 @@ _KNOB = ((0.45, 0.0), (0.4, 0.3), (0.9, 0.4), (1.0, 0.7), (0.6, 1.0))
 
 
 def _framed(
-    a: Assembly,
-    panels: dict[str, float],
-    bar: float,
-    thick: float,
-    rail: float,
-    kinds: tuple[str, ...],
+    a: Assembly, panels: dict[str, float], bar: float, thick: float, rail: float, *kinds: str
 ) -> Style:
     """Return a style of leaves in a frame: inset, at the front of it, with pulls of some kinds."""
     style = any_style(a, panels, 1.0)
-    pull = any_pull(a, any_metal(a), kinds)
+    pull = any_pull(a, any_metal(a), *kinds)
     return replace(
         style, board=bar, front=thick, recess=0.0, gap=a.draw(0.0015, 0.005), rail=rail, pull=pull,
         taste=a.pick(0.0, -0.2, -0.1), hollow=True, shelves=0, backless=True, drawer=style.panel,
@@ -74,7 +69,7 @@ def door(a: Assembly) -> None:
     height, bar, wall, thick = a.draws((1.85, 2.3), (0.025, 0.09), (0.06, 0.2), (0.03, 0.06))
     kinds = ("none",) if levers or a.happens(0.3) else ("bar", "rail", "bow", "knob", "ball")
     rail = min(0.13, 0.2 * width / (2.0 if double else 1.0))
-    style = _framed(a, LEAVES, bar, thick, rail, kinds)
+    style = _framed(a, LEAVES, bar, thick, rail, *kinds)
     style = replace(style, sill=sill)
     body = a.body(style.body)
     x = (-bar, width + bar)
@@ -114,20 +109,19 @@ def sliding_door(a: Assembly) -> None:
     panels = LEAVES | {"glazed": 0.5}
     if a.happens(0.5):
         bar = a.draw(0.04, 0.08)
-        style = _framed(a, panels, bar, thick, bar, ("recess", "bar"))
+        style = _framed(a, panels, bar, thick, bar, "recess", "bar")
         a.body(style.body)
         _on_tracks(a, style, 2 * width, height, "sliding")
         return
     metal = any_metal(a)
     body = a.body(any_color(a))
-    body.add(*frame((-0.08, width + 0.08), (0.0, 0.1), (0.0, height), 0.08, False))
+    opening = (0.0, width)
+    body.add(*frame(within(opening, -0.08), (0.0, 0.1), (0.0, height), 0.08, False))
     rail = height + 0.12
     away = a.sign()
-    reach = within(
-        (0.0, width), -0.1 if away > 0.0 else -0.1 - width, -0.1 - max(away, 0.0) * width
-    )
+    reach = within(opening, -0.1 if away > 0.0 else -0.1 - width, -0.1 - max(away, 0.0) * width)
     body.add(box(reach, (-0.02, -0.012), span(rail, 0.04)), look=metal)
-    brackets = ends(within((0.0, width), -0.08), 0.04)
+    brackets = ends(within(opening, -0.08), 0.04)
     body.add(*(box(bracket, (-0.012, 0.1), (height, rail + 0.03)) for bracket in brackets))
     x = (-0.03, width + 0.03)
     y = span(-0.012, -thick)
@@ -138,7 +132,7 @@ def sliding_door(a: Assembly) -> None:
     for v in (0.1, width - 0.1):
         leaf.add(box(about(0.015, v), strap, (height - 0.1, rail + 0.08)), look=metal)
         leaf.add(cylinder(Y, (v, rail + 0.063), 0.022, (strap[1], -0.008)), look=metal)
-    pull = any_pull(a, metal, ("bar", "rail", "recess"))
+    pull = any_pull(a, metal, "bar", "rail", "recess")
     edge = x[1] - 0.06 if away < 0 else x[0] + 0.06
     add_pull(leaf, pull, (edge, 1.0), facing_front(y[0]), 0.6, True)
 
@@ -157,7 +151,7 @@ def window(a: Assembly) -> None:
     panels = {"mullion": 0.3, "glazed": 0.7}
     kind = a.weighted(SASHES)
     slides = kind in ("sliding", "hung")
-    style = _framed(a, panels, bar, thick, bar if slides else rail, ("recess", "bar"))
+    style = _framed(a, panels, bar, thick, bar if slides else rail, "recess", "bar")
     body = a.body(style.body)
     if slides:
         _on_tracks(a, style, width, height, kind)

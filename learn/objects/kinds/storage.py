@@ -9,20 +9,11 @@ from functools import partial
 from ..kit.assembly import Assembly
 from ..kit.boards import cornice, put_top, slab, stand
 from ..kit.casework import Casework, furniture
-from ..kit.layouts import (
-    Node,
-    column,
-    divided,
-    drawers,
-    filling,
-    grid,
-    random_node,
-    row,
-)
+from ..kit.layouts import Node, column, divided, drawers, filling, grid, random_node, row
 from ..kit.looks import BLACK, GREEN, OAK, WALNUT, WHITE, wood
 from ..kit.shapes import box
 from ..kit.spans import Span, ends, size, span, upto, within
-from ..kit.styles import any_color, any_style, convex_style
+from ..kit.styles import HIGH, any_color, any_style, convex_style
 
 LEGS = {
     "plinth": 0.25, "feet": 0.2, "tapered": 0.15, "round": 0.1, "turned": 0.05, "sled": 0.05,
@@ -252,12 +243,7 @@ PLANS: dict[str, CaseworkPlan] = {
     "wardrobe": _P(_wardrobe, ((0.5, 2.4), (0.45, 0.65), (1.6, 2.4)), LEGS, (0.03, 0.12), CROWN),
     "sideboard": _P(_sideboard, ((0.9, 2.2), (0.35, 0.55), (0.45, 0.95)), LEGS, (0.05, 0.28)),
     "base_cabinet": _P(
-        _base,
-        ((0.3, 2.4), (0.5, 0.65), (0.65, 0.8)),
-        KICK,
-        (0.07, 0.15),
-        inset=0.15,
-        pulls=(0.85, 0.8),
+        _base, ((0.3, 2.4), (0.5, 0.65), (0.65, 0.8)), KICK, (0.07, 0.15), inset=0.15, pulls=HIGH
     ),
     "sink_cabinet": _P(
         _sink, ((0.5, 1.2), (0.5, 0.62), (0.65, 0.8)), KICK, (0.05, 0.15), SINK, 0.15

@@ -10,7 +10,7 @@ import numpy as np
 from ..kit.assembly import Assembly, PartDraft
 from ..kit.axes import BACK, FRONT, LEFT, Y, Z, facing_front
 from ..kit.boards import carcass, ring_of_boards, stand, tray
-from ..kit.casework import Casework, Leaf, furniture, swung
+from ..kit.casework import Casework, Leaf, furniture
 from ..kit.controls import ControlPanel
 from ..kit.layouts import Cell, Node, column, row
 from ..kit.looks import BLACK, GLASS, RED, STEEL, WHITE
@@ -47,7 +47,7 @@ def _front(a: Assembly, width: float, height: float) -> Node:
 def _style(a: Assembly, glazed: bool) -> Style:
     skin = any_color(a)
     panel = "glazed" if glazed else a.weighted({"slab": 0.6, "bevel": 0.25, "bowed": 0.15})
-    pull = any_pull(a, any_metal(a), ("bar", "rail", "bow", "recess", "none"))
+    pull = any_pull(a, any_metal(a), "bar", "rail", "bow", "recess", "none")
     style = any_style(a, {panel: 1.0}, 0.0, 1.0 if glazed else 0.7, (0.3, 0.5, 0.7))
     board, front, gap, rail, length = a.draws(
         (0.025, 0.06), (0.03, 0.08), (0.002, 0.008), (0.05, 0.09), (0.15, 0.9)
@@ -108,7 +108,7 @@ def _inner(a: Assembly, case: Casework, cell: Cell, levels: list[float]) -> None
     x = within(x, 0.004)
     z = (levels[-1] + 0.008, z[1] - 0.004)
     front = y[0] - 0.02
-    ice = swung(a, f"inner_{number}", "top", x, z, front, np.radians(88), look=WHITE)
+    ice = a.swung(f"inner_{number}", "top", x, z, front, np.radians(88), look=WHITE)
     ice.add(box(x, span(front, 0.016), z))
 
 
@@ -145,7 +145,7 @@ def _on_door(a: Assembly, face: float, door: Leaf) -> None:
         paddle.add(box(about(0.03, at[0]), (face - 0.014, face - 0.006), span(at[2], 0.08)))
         return
     y = (face - 0.016, face - 0.002)
-    flap = swung(a, "door_in_door", "bottom", x, z, y[0], np.radians(80), on=door.part, look=STEEL)
+    flap = a.swung("door_in_door", "bottom", x, z, y[0], np.radians(80), on=door.part, look=STEEL)
     flap.add(box(x, y, z))
 
 
@@ -221,7 +221,7 @@ def _porthole(a: Assembly, at: Flat, radius: float) -> None:
     setback = a.pick(0.0, 0.5, 1.0) * size(y)
     # Behind its face the axis swings the hinge edge into the front beside it.
     upper = a.degrees(80, 90) if setback else a.degrees(85, 164)
-    door = swung(a, "door", side, x, z, y[0] + setback, upper, look=look)
+    door = a.swung("door", side, x, z, y[0] + setback, upper, look=look)
     if a.happens(0.75):
         rim = a.draw(0.7, 0.88) * radius
         bowl = [(0.55 * radius, y[0] + 0.3 * size(y)), (rim + 0.004, y[0] + 0.6 * size(y))]
@@ -230,7 +230,7 @@ def _porthole(a: Assembly, at: Flat, radius: float) -> None:
     else:
         door.add(box(x, y, z))
         door.add(cylinder(Y, at, 0.7 * radius, span(y[0], -0.002), 28), look=GLASS)
-    pull = any_pull(a, any_metal(a), ("bar", "bow", "recess", "rail"))
+    pull = any_pull(a, any_metal(a), "bar", "bow", "recess", "rail")
     far = at[0] + (0.92 if side == "left" else -0.92) * radius
     pull = replace(pull, length=0.35 * radius)
     add_pull(door, pull, (far, at[1]), facing_front(y[0]), radius, True)

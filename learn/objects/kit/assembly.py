@@ -12,14 +12,16 @@ import numpy.typing as npt
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
 from asset_factory.factory.mesh import FloatArray, Material, Mesh, concatenate
 
-from .axes import UP, Place
+from .axes import DOWN, LEFT, RIGHT, UP, Place, Point
 from .chance import Chance
 from .looks import WHITE, laid_over
 from .shapes import Form
-from .spans import Span
+from .spans import Span, mid
 
 #: Three numbers, in whatever form.
 Vector = npt.ArrayLike
+#: Edges of a front, and which way one turns that is hinged there; positive angles open towards -Y.
+EDGES: dict[str, Point] = {"left": DOWN, "right": UP, "bottom": RIGHT, "top": LEFT}
 
 
 @dataclass(eq=False)
@@ -110,6 +112,18 @@ class Assembly(Chance):
             part.carry = _after(turn, part.carry)
         return part
 
+    def swung(
+        self, name: str, side: str, x: Span, z: Span, y: float, upper: float, **how: Unpack[Hanging]
+    ) -> PartDraft:
+        """Add a door or flap over ``x`` and ``z`` [m] that turns about an edge, towards -Y.
+
+        ``side`` is the edge of the hinge, seen from the front: ``left``, ``right``, ``top`` or
+        ``bottom``; its axis is at ``y`` [m], ``upper`` fully open [rad].
+        """
+        along = {"left": x[0], "right": x[1]}.get(side, mid(x))
+        level = {"bottom": z[0], "top": z[1]}.get(side, mid(z))
+        return self.hinge(name, EDGES[side], (along, y, level), upper, **how)
+
     def spin(
         self, name: str, axis: Vector, at: Vector, slide: float = 0.0, **how: Unpack[Hanging]
     ) -> PartDraft:
@@ -123,16 +137,10 @@ class Assembly(Chance):
         return self._hung(name, JointKind.PRISMATIC, axis, at, (0.0, upper), **how)
 
     def screw(
-        self,
-        name: str,
-        axis: Vector,
-        at: Vector,
-        reach: float,
-        turns: float,
-        **how: Unpack[Hanging],
+        self, name: str, axis: Vector, at: Vector, reach: float, spin: float, **how: Unpack[Hanging]
     ) -> PartDraft:
-        """Add a part that slides by up to ``reach`` [m], and in a share of cases turns too."""
-        if self.happens(turns):
+        """Add a part that slides by up to ``reach`` [m], in a share ``spin`` of cases turns too."""
+        if self.happens(spin):
             return self.spin(name, axis, at, reach, **how)
         return self.slider(name, axis, at, reach, **how)
 
@@ -163,13 +171,9 @@ class Assembly(Chance):
     def articulation(self) -> Articulation:
         """Return the object, standing on z = 0, centred over the origin, everything at rest."""
         drafts = [self.root, *self.parts]
-        whole = concatenate(
-            [
-                Mesh.from_triangles(_shrunk(form.vertices, self.hairline), form.faces, look)
-                for draft in drafts
-                for form, look in draft.forms
-            ]
-        )
+        looked = (each for draft in drafts for each in draft.forms)
+        short = ((_shrunk(form.vertices, self.hairline), form.faces, look) for form, look in looked)
+        whole = concatenate([Mesh.from_triangles(*each) for each in short])
         low, high = whole.bounds
         middle = (low + high) / 2
         offset = -np.array([middle[0], middle[1], low[2]])

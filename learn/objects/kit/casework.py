@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import NamedTuple, Unpack
+from typing import NamedTuple
 
 import numpy as np
 
 from asset_factory.factory.mesh import Material
 
-from .assembly import Assembly, Hanging, PartDraft
-from .axes import DOWN, FRONT, LEFT, RIGHT, UP, Point, X, facing_front
+from .assembly import EDGES, Assembly, PartDraft
+from .axes import DOWN, FRONT, LEFT, RIGHT, UP, X, facing_front
 from .boards import carcass, stand, tray
 from .hinges import swing
 from .layouts import Cell, Node, divided
@@ -19,9 +19,6 @@ from .pulls import add_pull
 from .shapes import box, cylinder
 from .spans import Span, about, between, mid, shares, size, span, within
 from .styles import Style
-
-#: Edges of a front, and which way one turns that is hinged there; positive angles open towards -Y.
-EDGES: dict[str, Point] = {"left": DOWN, "right": UP, "bottom": RIGHT, "top": LEFT}
 
 
 @dataclass(frozen=True)
@@ -142,9 +139,9 @@ class Casework:
         seam = mid(front.x) + self.a.pick(0.0, 0.0, self.a.draw(-0.1, 0.1)) * size(front.x)
         one = _Front((front.x[0], seam - gap / 2), front.z, (left, gap, *others))
         other = _Front((seam + gap / 2, front.x[1]), front.z, (gap, right, *others))
-        near, far = cell.halves(seam, self.style.board / 2)
-        self._door(near, one, "left")
-        self._door(far, other, "right")
+        apart = self.style.board / 2
+        self._door(cell.piece(0, (cell.x[0], seam), None, apart), one, "left")
+        self._door(cell.piece(0, (seam, cell.x[1]), apart, None), other, "right")
 
     def _door(self, cell: Cell, front: _Front, side: str) -> None:
         style = self.style
@@ -158,10 +155,13 @@ class Casework:
             furthest = 90.0
         width = size(front.x if upright else front.z)
         turn = swing(self.a, style.front, width, rooms, style.taste, furthest)
-        x, z = turn.trimmed(front.x, front.z, side)
+        margins = [0.0] * 4
+        margins[near ^ 1] = turn.trim
+        x = within(front.x, *margins[:2])
+        z = within(front.z, *margins[2:])
         name = self._name(cell, "door" if upright else "flap")
         depth = self.face + turn.setback
-        door = swung(self.a, name, side, x, z, depth, turn.upper, look=style.face)
+        door = self.a.swung(name, side, x, z, depth, turn.upper, look=style.face)
         self.doors.append(Leaf(door, cell, side, x, z))
         kind = style.upper if sum(cell.z) > sum(self.z) else style.panel
         panel(door, kind, x, span(self.face, style.front), z, style.rail)
@@ -284,23 +284,3 @@ def furniture(
     case = Casework(a, style, (0.0, width), (0.0, depth), span(base, height)).build(node)
     stand(a, support, case.x, case.y, base, look or style.body)
     return case
-
-
-def swung(
-    a: Assembly,
-    name: str,
-    side: str,
-    x: Span,
-    z: Span,
-    depth: float,
-    upper: float,
-    **how: Unpack[Hanging],
-) -> PartDraft:
-    """Return a door or flap over ``x`` and ``z`` [m] that turns about an edge and opens towards -Y.
-
-    ``side`` is the edge of the hinge, seen from the front: ``left``, ``right``, ``top`` or
-    ``bottom``; ``depth`` the y of its axis [m], ``upper`` fully open [rad].
-    """
-    along = {"left": x[0], "right": x[1]}.get(side, mid(x))
-    level = {"bottom": z[0], "top": z[1]}.get(side, mid(z))
-    return a.hinge(name, EDGES[side], (along, depth, level), upper, **how)

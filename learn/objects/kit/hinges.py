@@ -27,12 +27,6 @@ class Swing:
     trim: float
     upper: float
 
-    def trimmed(self, x: Span, z: Span, side: str) -> tuple[Span, Span]:
-        """Return the spans of a front hinged at a ``side``, less the trim."""
-        t = self.trim
-        x = {"left": (x[0], x[1] - t), "right": (x[0] + t, x[1])}.get(side, x)
-        return x, {"bottom": (z[0], z[1] - t), "top": (z[0] + t, z[1])}.get(side, z)
-
 
 def swing(
     chance: Chance, thickness: float, width: float, rooms: Span, taste: float, furthest: float

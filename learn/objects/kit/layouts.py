@@ -48,12 +48,16 @@ class Cell:
         left, right, bottom, top = self.walls
         return (self.x[0] + left, self.x[1] - right), (self.z[0] + bottom, self.z[1] - top)
 
-    def halves(self, seam: float, apart: float) -> tuple[Cell, Cell]:
-        """Return the halves left and right of x = ``seam``, each ``apart`` from it [m]."""
-        near = replace(self, x=(self.x[0], seam), walls=(self.walls[0], apart, *self.walls[2:]))
-        far = replace(self, x=(seam, self.x[1]), walls=(apart, *self.walls[1:]))
-        own = (self.outer[0], False, *self.outer[2:])
-        return replace(near, outer=own), replace(far, outer=(False, *self.outer[1:]))
+    def piece(self, along: int, own: Span, *walls: float | None) -> Cell:
+        """Return the part over a span of x (``along`` 0) or z (1), between ``walls`` of board [m].
+
+        ``None``: it ends where the cell does.
+        """
+        inner = {2 * along + end: wall for end, wall in enumerate(walls) if wall is not None}
+        x, z = (self.x, own) if along else (own, self.z)
+        edges = tuple(inner.get(edge, wall) for edge, wall in enumerate(self.walls))
+        outer = tuple(mine and edge not in inner for edge, mine in enumerate(self.outer))
+        return replace(self, x=x, z=z, walls=edges, outer=outer)
 
 
 def divided(
@@ -67,34 +71,25 @@ def divided(
     cells: list[Cell] = []
     boards: list[tuple[Span, Span]] = []
 
-    def cut(
-        node: Node, spans: tuple[Span, Span], walls: tuple[float, ...], outer: tuple[bool, ...]
-    ) -> None:
+    def cut(node: Node, cell: Cell) -> None:
         if isinstance(node, str):
             kind, _, name = node.partition(":")
-            cells.append(Cell(kind, name, *spans, walls, outer))
+            cells.append(replace(cell, kind=kind, name=name))
             return
         way, children = node
         along = 0 if way == "h" else 1
-        span = spans[along]
-        other = spans[1 - along]
+        span, other = (cell.x, cell.z)[:: 1 - 2 * along]
         parts = np.cumsum([0.0, *(share for share, _ in children)])
         ends = (span[0] + (span[1] - span[0]) * parts / parts[-1]).tolist()
         thin = [bare and way == "v" and a == b == "drawer" for (_, a), (_, b) in pairwise(children)]
+        walls = [None, *(BARE if each else board / 2 for each in thin), None]
         for i, (_, child) in enumerate(children):
-            edges = list(walls)
-            mine = list(outer)
-            for edge, seam in ((2 * along, i - 1), (2 * along + 1, i)):
-                if 0 <= seam < len(thin):
-                    edges[edge] = BARE if thin[seam] else board / 2
-                    mine[edge] = False
             if i and not thin[i - 1]:
                 seen = (about(board / 2, ends[i]), within(other, board / 2))
                 boards.append(seen if way == "h" else seen[::-1])
-            own = (ends[i], ends[i + 1])
-            cut(child, (own, other) if way == "h" else (other, own), tuple(edges), tuple(mine))
+            cut(child, cell.piece(along, (ends[i], ends[i + 1]), walls[i], walls[i + 1]))
 
-    cut(node, (x, z), (board,) * 4, (True,) * 4)
+    cut(node, Cell("", "", x, z, (board,) * 4, (True,) * 4))
     return cells, boards
 
 

@@ -95,22 +95,16 @@ PANES = ("glazed", "mullion")
 
 
 def panel(
-    part: PartDraft,
-    style: str,
-    x: Span,
-    y: Span,
-    z: Span,
-    rail: float,
-    look: Material | None = None,
+    part: PartDraft, kind: str, x: Span, y: Span, z: Span, rail: float, look: Material | None = None
 ) -> None:
     """Add a front that fills its spans [m] and never leaves them.
 
-    Its style is one of :data:`STYLES`, a slab if too small for a frame of ``rail`` width [m].
+    Its kind is one of :data:`STYLES`, a slab if too small for a frame of ``rail`` width [m].
     """
-    framed = style not in ("slab", "bevel", "bowed")
+    framed = kind not in ("slab", "bevel", "bowed")
     if framed and min(size(x), size(z)) < max(FRAMED_FROM, 3 * rail):
-        style = "slab"
-    part.add(*STYLES[style](x, y, z, rail), look=look)
-    if style in PANES:
+        kind = "slab"
+    part.add(*STYLES[kind](x, y, z, rail), look=look)
+    if kind in PANES:
         glass = about(0.002, mid(y))
         part.add(box(within(x, rail - 0.004), glass, within(z, rail - 0.004)), look=GLASS)

@@ -44,7 +44,7 @@ class Pull:
     root: float = 0.008
 
 
-def any_pull(chance: Chance, look: Material, kinds: tuple[str, ...] = ()) -> Pull:
+def any_pull(chance: Chance, look: Material, *kinds: str) -> Pull:
     """Return a pull of the given kinds, or of any."""
     kind = chance.weighted({name: KINDS[name] for name in kinds or KINDS})
     length, reach, thickness = chance.draws((0.08, 0.32), (0.018, 0.045), (0.006, 0.016))

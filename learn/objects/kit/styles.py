@@ -20,6 +20,8 @@ PANELS: dict[str, float] = {
     "slab": 0.42, "bevel": 0.08, "shaker": 0.16, "raised": 0.09, "glazed": 0.06, "mullion": 0.03,
     "louvre": 0.04, "planks": 0.05, "bowed": 0.02, "two_fields": 0.05,
 }  # fmt: skip
+#: Heights of pulls on doors below a worktop, as shares of a door's.
+HIGH = (0.85, 0.8)
 
 
 @dataclass(frozen=True)

@@ -48,7 +48,7 @@ def bracket(x: float, y: float, radius: float, wide: float, top: float) -> list[
 def castor(
     a: Assembly,
     name: str,
-    at: tuple[float, float, float],
+    at: Point,
     radius: float,
     wide: float,
     heading: float,

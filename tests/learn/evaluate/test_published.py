@@ -91,7 +91,7 @@ def test_the_release_is_met_in_every_number(example):
 
 def test_each_state_of_the_release(example):
     true, predicted, said, _ = example
-    states = per_state(true, predicted, matched(true, predicted), np.random.default_rng(2))
+    states = per_state(matched(true, predicted), np.random.default_rng(2))
     names = {"pc": "chamfer_distances", "miou": "mIoU", "oc": "overall_chamfer_distances"}
     for ours, theirs in names.items():
         found = [state[ours] for state in states]
@@ -106,7 +106,7 @@ def test_the_random_boxes_of_the_release_agree_on_average(example):
     for number, share in list(enumerate(STATES))[1:]:
         drawn = []
         for seed in range(SEEDS):
-            there, back = solid_giou(true, predicted, matching, share, np.random.default_rng(seed))
+            there, back = solid_giou(matching, share, np.random.default_rng(seed))
             drawn.append(matching.scored(there, back, -1.0))
         # The release's mean is over as many: the two differ by less than five standard errors.
         apart = 5.0 * giou["std"][number] * np.sqrt(2.0 / SEEDS) + 1e-6

@@ -5,15 +5,9 @@ import pytest
 
 from asset_factory.factory.articulation import JointKind
 from asset_factory.factory.geometry.posing import posed
+from asset_factory.learn.objects.kit import axes
 from asset_factory.learn.objects.kit.assembly import Assembly
-from asset_factory.learn.objects.kit.axes import (
-    LEFT,
-    RIGHT,
-    UP,
-    facing_front,
-    facing_side,
-    facing_up,
-)
+from asset_factory.learn.objects.kit.axes import LEFT, RIGHT, UP
 from asset_factory.learn.objects.kit.looks import BLACK, STEEL, wood
 from asset_factory.learn.objects.kit.shapes import box
 
@@ -89,10 +83,10 @@ def test_an_object_left_open_closes_to_what_was_described():
 @pytest.mark.parametrize(
     ("place", "outwards", "level"),
     [
-        (facing_front(0.4), (0.0, -1.0, 0.0), -0.4),
-        (facing_up(0.4), (0.0, 0.0, 1.0), 0.4),
-        (facing_side(0.4), (1.0, 0.0, 0.0), 0.4),
-        (facing_side(-0.4), (-1.0, 0.0, 0.0), 0.4),
+        (axes.facing_front(0.4), (0.0, -1.0, 0.0), -0.4),
+        (axes.facing_up(0.4), (0.0, 0.0, 1.0), 0.4),
+        (axes.facing_side(0.4), (1.0, 0.0, 0.0), 0.4),
+        (axes.facing_side(-0.4), (-1.0, 0.0, 0.0), 0.4),
     ],
 )
 def test_a_face_is_described_as_if_it_looked_to_the_front(place, outwards, level):

@@ -6,22 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from asset_factory.learn.objects.kit import shapes
 from asset_factory.learn.objects.kit.axes import X, Y, Z
 from asset_factory.learn.objects.kit.outlines import arc, rounded
-from asset_factory.learn.objects.kit.shapes import (
-    ball,
-    block,
-    box,
-    cylinder,
-    frustum,
-    hoop,
-    lathe,
-    loft,
-    pipe,
-    prism,
-    ribbon,
-    stack,
-)
 from asset_factory.learn.objects.kit.spans import about, between, shares, span, within
 
 SQUARE = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])
@@ -45,29 +32,29 @@ def polygon(sides):
 
 @given(st.integers(0, 2), st.integers(3, 40), st.floats(0.01, 2.0), st.floats(0.01, 2.0))
 def test_a_lathed_frustum_has_the_volume_of_a_frustum(axis, sides, low, high):
-    body = solid(lathe([(low, 0.0), (high, 0.7)], (1.0, 2.0, 3.0), axis, sides))
+    body = solid(shapes.lathe([(low, 0.0), (high, 0.7)], (1.0, 2.0, 3.0), axis, sides))
     expected = polygon(sides) * 0.7 * (low * low + low * high + high * high) / 3.0
     assert body.volume() == pytest.approx(expected, rel=1e-9)
 
 
 def test_a_vessel_is_its_outside_less_its_inside():
-    cup = lathe([(0.5, 0.0), (0.5, 1.0), (0.4, 1.0), (0.4, 0.1)], sides=32)
+    cup = shapes.lathe([(0.5, 0.0), (0.5, 1.0), (0.4, 1.0), (0.4, 0.1)], sides=32)
     assert solid(cup).volume() == pytest.approx(polygon(32) * (0.25 * 1.0 - 0.16 * 0.9), rel=1e-9)
 
 
 def test_a_ring_is_outward_whichever_way_its_profile_runs():
     profile = [(1.0, 0.0), (1.2, 0.0), (1.2, 0.3), (1.0, 0.3)]
     for order, axis in ((profile, Z), (profile[::-1], Z), (profile, Y), (profile[::-1], X)):
-        ring = solid(lathe(order, axis=axis, looped=True))
+        ring = solid(shapes.lathe(order, axis=axis, looped=True))
         assert ring.volume() == pytest.approx(polygon(24) * (1.44 - 1.0) * 0.3, rel=1e-9)
         assert ring.genus() == 1
 
 
 def test_a_straight_pipe_is_a_prism_and_a_looped_one_has_a_hole():
-    straight = solid(pipe([(0, 0, 0), (0.5, 0, 0), (2, 0, 0)], 0.1, 12))
+    straight = solid(shapes.pipe([(0, 0, 0), (0.5, 0, 0), (2, 0, 0)], 0.1, 12))
     assert straight.volume() == pytest.approx(2.0 * 0.01 * polygon(12), rel=1e-9)
     line = arc((0.0, 0.0), 1.0, 0.0, 2 * np.pi, 65)[:-1]
-    torus = solid(pipe(np.column_stack([line, np.zeros(64)]), 0.1, 12, looped=True))
+    torus = solid(shapes.pipe(np.column_stack([line, np.zeros(64)]), 0.1, 12, looped=True))
     assert torus.genus() == 1
     assert torus.volume() == pytest.approx(2 * np.pi * 0.01 * polygon(12), rel=0.01)
 
@@ -76,22 +63,22 @@ def test_a_ribbon_between_two_lines_has_the_area_between_them_times_its_thicknes
     x = np.linspace(0.0, 1.0, 9)
     wavy = np.stack([x, np.sin(3 * x)], axis=1)
     for axis in range(3):
-        plate = solid(ribbon(wavy, wavy + np.array([0.0, 0.2]), (-0.1, 0.2), axis))
+        plate = solid(shapes.ribbon(wavy, wavy + np.array([0.0, 0.2]), (-0.1, 0.2), axis))
         assert plate.volume() == pytest.approx(0.2 * 0.3, rel=1e-9)
-    frame = solid(ribbon(SQUARE, 0.5 * SQUARE, (0.0, 0.1), looped=True))
+    frame = solid(shapes.ribbon(SQUARE, 0.5 * SQUARE, (0.0, 0.1), looped=True))
     assert frame.volume() == pytest.approx((4.0 - 1.0) * 0.1, rel=1e-9)
 
 
 def test_a_rounded_block_fills_its_spans_and_loses_only_its_corners():
-    brick = block((0.0, 2.0), (0.0, 1.0), (0.0, 0.5), 0.1)
+    brick = shapes.block((0.0, 2.0), (0.0, 1.0), (0.0, 0.5), 0.1)
     np.testing.assert_allclose(bounds(brick), [[0, 2], [0, 1], [0, 0.5]], atol=1e-12)
     lost = 1.0 - solid(brick).volume()
     assert 0.5 * (4.0 - np.pi) * 0.01 <= lost < 0.02
     for axis in (X, Y, Z):
-        soft = block((0.0, 2.0), (0.0, 1.0), (0.0, 0.5), 0.2, 0.05, axis)
+        soft = shapes.block((0.0, 2.0), (0.0, 1.0), (0.0, 0.5), 0.2, 0.05, axis)
         np.testing.assert_allclose(bounds(soft), [[0, 2], [0, 1], [0, 0.5]], atol=1e-12)
         assert solid(soft).volume() < 1.0 - lost
-    leaning = solid(block((0.0, 2.0), (0.0, 1.0), (0.0, 0.5), 0.1, taper=0.5))
+    leaning = solid(shapes.block((0.0, 2.0), (0.0, 1.0), (0.0, 0.5), 0.1, taper=0.5))
     assert 0.5 < leaning.volume() < 0.6
 
 
@@ -102,7 +89,7 @@ def test_a_radius_too_large_for_its_rectangle_is_cut_down_to_fit():
 
 
 def test_turning_shifting_and_mirroring_move_every_corner_and_keep_the_volume():
-    before = ball((0.0, 0.0, 0.0), 0.3)
+    before = shapes.ball((0.0, 0.0, 0.0), 0.3)
     after = before.turned((0, 0, 1), np.pi / 2, (1.0, 0.0, 0.0)).shifted((0.0, 0.0, 2.0))
     x, y, z = before.vertices.T
     np.testing.assert_allclose(after.vertices.T, [1.0 - y, x - 1.0, z + 2.0], atol=1e-12)
@@ -113,28 +100,28 @@ def test_turning_shifting_and_mirroring_move_every_corner_and_keep_the_volume():
 
 
 def test_outlines_may_change_on_the_way_up():
-    pyramid = solid(stack([(SQUARE, 0.0), (0.5 * SQUARE, 1.0)]))
+    pyramid = solid(shapes.stack([(SQUARE, 0.0), (0.5 * SQUARE, 1.0)]))
     assert pyramid.volume() == pytest.approx((4.0 + 2.0 + 1.0) / 3.0, rel=1e-9)
-    same = solid(frustum((about(1.0), about(1.0)), (about(0.5), about(0.5)), (0.0, 1.0)))
+    same = solid(shapes.frustum((about(1.0), about(1.0)), (about(0.5), about(0.5)), (0.0, 1.0)))
     assert same.volume() == pytest.approx(pyramid.volume(), rel=1e-9)
-    skin = loft(np.stack([np.column_stack([SQUARE, np.full(4, z)]) for z in (1.0, 0.0)]))
+    skin = shapes.loft(np.stack([np.column_stack([SQUARE, np.full(4, z)]) for z in (1.0, 0.0)]))
     assert solid(skin).volume() == pytest.approx(4.0)
 
 
 @pytest.mark.parametrize("axis", [X, Y, Z])
 def test_boxes_cylinders_hoops_and_prisms_have_the_volume_of_their_outlines(axis):
     along = (0.2, 0.5)
-    rod = solid(cylinder(axis, (0.1, -0.2), 0.05, along, 12))
+    rod = solid(shapes.cylinder(axis, (0.1, -0.2), 0.05, along, 12))
     assert rod.volume() == pytest.approx(0.3 * 0.05**2 * polygon(12))
-    ring = solid(hoop(axis, (0.1, 0.3), (0.04, 0.06), along))
+    ring = solid(shapes.hoop(axis, (0.1, 0.3), (0.04, 0.06), along))
     assert ring.volume() == pytest.approx(0.3 * (0.06**2 - 0.04**2) * polygon(24))
     for outline in ([(0, 0), (2, 0), (0, 1)], [(0, 1), (2, 0), (0, 0)]):
-        wedge = prism(outline, (0, 3), axis)
+        wedge = shapes.prism(outline, (0, 3), axis)
         assert solid(wedge).volume() == pytest.approx(3.0)
         spans = [(0.0, 2.0), (0.0, 1.0)]
         spans.insert(axis, (0.0, 3.0))
         np.testing.assert_allclose(bounds(wedge), spans, atol=1e-12)
-    assert solid(box((0, 1), (1, 3), (2, 5))).volume() == pytest.approx(6.0)
+    assert solid(shapes.box((0, 1), (1, 3), (2, 5))).volume() == pytest.approx(6.0)
 
 
 @given(st.integers(0, 2), st.floats(0.02, 0.2), st.booleans())
@@ -146,7 +133,7 @@ def test_pipes_face_outwards_whichever_way_they_bend(axis, bulge, flip):
     path[:, (axis + 1) % 3] = bulge * (1 - t**2) * (-1 if flip else 1)
     length = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
     wanted = length * 0.005**2 * polygon(8)
-    assert solid(pipe(path, 0.005, 8)).volume() == pytest.approx(wanted, rel=0.15)
+    assert solid(shapes.pipe(path, 0.005, 8)).volume() == pytest.approx(wanted, rel=0.15)
 
 
 def test_spans_are_ordered_whichever_way_they_are_said():

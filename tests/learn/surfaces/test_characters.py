@@ -19,28 +19,9 @@ from asset_factory.factory.mesh import Material, Mesh
 from asset_factory.factory.models.particulate.surface import Surface
 from asset_factory.learn.objects import artist_like, fused_like, make_object
 from asset_factory.learn.objects.mixture import in_character
-from asset_factory.learn.surfaces import skin_like, stretched
+from asset_factory.learn.surfaces import details, skin_like, stretched, surfaces
 from asset_factory.learn.surfaces.artist import LEFT_FOR_RIGHT, PASSES
-from asset_factory.learn.surfaces.details import (
-    hidden_faces,
-    lettered,
-    without_handles,
-    without_hidden_pieces,
-)
 from asset_factory.learn.surfaces.labelled import KEPT_SHARE, Labelled, joined
-from asset_factory.learn.surfaces.surfaces import (
-    bevelled,
-    curved,
-    doubled,
-    exploded,
-    flattened,
-    opened,
-    patched,
-    quartered,
-    snapped,
-    subdivided,
-    without_sides,
-)
 from asset_factory.learn.surfaces.united import all_united, parts_united
 
 GREY = Material("grey")
@@ -137,21 +118,21 @@ def test_growing_moves_every_side_by_as_much_and_nothing_turns_inside_out():
 
 def test_doubling_leaves_no_volume_and_twice_the_surface_in_as_many_components():
     mesh = solids(UNIT, BESIDE)
-    twice = doubled(mesh, rng())
+    twice = surfaces.doubled(mesh, rng())
     assert volume(twice) == pytest.approx(0.0, abs=1e-12)
     assert twice.areas.sum() == pytest.approx(2.0 * mesh.areas.sum())
     assert component_count(twice) == component_count(mesh)
 
 
 def test_exploding_makes_every_side_a_component_of_its_own():
-    mesh = exploded(solids(UNIT), rng(), share=1.0)
+    mesh = surfaces.exploded(solids(UNIT), rng(), share=1.0)
     assert component_count(mesh) == 6
     assert len(mesh.faces) == 12
 
 
 def test_a_side_cut_finer_than_its_neighbours_comes_off_and_a_whole_piece_does_not():
-    assert component_count(patched(solids(UNIT), rng(1), share=0.5)) > 1
-    whole = subdivided(solids(UNIT), rng(), share=1.0)
+    assert component_count(surfaces.patched(solids(UNIT), rng(1), share=0.5)) > 1
+    whole = surfaces.subdivided(solids(UNIT), rng(), share=1.0)
     assert component_count(whole) == 1
     assert len(whole.faces) in {48, 192}
     assert volume(whole) == pytest.approx(1.0)
@@ -159,7 +140,7 @@ def test_a_side_cut_finer_than_its_neighbours_comes_off_and_a_whole_piece_does_n
 
 def test_quartering_some_faces_keeps_area_and_labels():
     mesh = solids(UNIT, BESIDE)
-    finer = quartered(mesh, mesh.part == 1)
+    finer = surfaces.quartered(mesh, mesh.part == 1)
     assert len(finer.faces) == 12 + 48
     areas = np.bincount(mesh.part, mesh.areas)
     np.testing.assert_allclose(np.bincount(finer.part, finer.areas), areas)
@@ -167,7 +148,7 @@ def test_quartering_some_faces_keeps_area_and_labels():
 
 def test_a_flattened_panel_is_one_sheet_in_the_plane_of_its_front():
     panel = ((0.0, 1.0), (0.0, 0.02), (0.0, 1.0))
-    mesh = flattened(solids(UNIT, panel, part=(0, 1)), rng(), share=1.0)
+    mesh = surfaces.flattened(solids(UNIT, panel, part=(0, 1)), rng(), share=1.0)
     sheet = mesh.corners[mesh.part == 1]
     assert len(sheet) == 2
     assert (sheet[:, :, 1] == 0.0).all()
@@ -175,19 +156,20 @@ def test_a_flattened_panel_is_one_sheet_in_the_plane_of_its_front():
 
 
 def test_opening_drops_whole_sides_of_boxes():
-    kept = np.bincount(opened(solids(*[UNIT] * 40, part=(0,) * 40), rng(), share=1.0).piece)
+    boxes = solids(*[UNIT] * 40, part=(0,) * 40)
+    kept = np.bincount(surfaces.opened(boxes, rng(), share=1.0).piece)
     assert set(kept) <= {2, 4, 6, 8, 10, 12}
     assert (kept < 12).mean() > 0.5
 
 
 def test_no_part_is_dropped_however_hidden_it_is():
     both = solids(UNIT, INNER)
-    hidden = hidden_faces(both, rng())
+    hidden = details.hidden_faces(both, rng())
     assert hidden[12:].all()
     assert not hidden[:12].any()
-    assert set(without_hidden_pieces(both, rng()).part) == {0, 1}
-    assert set(without_hidden_pieces(solids(UNIT, INNER, part=(0, 0)), rng()).piece) == {0}
-    assert set(without_sides(both, rng()).part) == {0, 1}
+    assert set(details.without_hidden_pieces(both, rng()).part) == {0, 1}
+    assert set(details.without_hidden_pieces(solids(UNIT, INNER, part=(0, 0)), rng()).piece) == {0}
+    assert set(surfaces.without_sides(both, rng()).part) == {0, 1}
 
 
 def test_a_part_that_would_lose_nearly_all_loses_nothing():
@@ -202,7 +184,7 @@ def test_a_part_that_would_lose_nearly_all_loses_nothing():
 
 
 def test_bevelled_boxes_stay_closed_and_inside_their_box():
-    mesh = bevelled(solids(UNIT, BESIDE), rng(), share=1.0)
+    mesh = surfaces.bevelled(solids(UNIT, BESIDE), rng(), share=1.0)
     assert component_count(mesh) == 2
     assert len(mesh.faces) == 88
     assert 0.99 < volume(mesh) / 1.5 < 1.0
@@ -210,14 +192,14 @@ def test_bevelled_boxes_stay_closed_and_inside_their_box():
 
 
 def test_a_curved_front_bulges_forwards_and_the_body_does_not():
-    mesh = curved(solids(UNIT, ((0.0, 1.0), (-0.02, 0.0), (0.0, 1.0))), rng(), share=1.0)
+    mesh = surfaces.curved(solids(UNIT, ((0.0, 1.0), (-0.02, 0.0), (0.0, 1.0))), rng(), share=1.0)
     body, front = (mesh.corners[mesh.part == part][:, :, 1].min() for part in (0, 1))
     assert -0.05 < front < -0.024
     assert body == 0.0
 
 
 def test_snapping_lays_vertices_on_a_grid_and_leaves_no_face_without_area():
-    mesh = snapped(Labelled.of(oven()), rng())
+    mesh = surfaces.snapped(Labelled.of(oven()), rng())
     steps = mesh.vertices[np.unique(mesh.faces)] / 0.001
     np.testing.assert_allclose(steps, np.round(steps), atol=1e-6)
     assert mesh.areas.min() > 0.0
@@ -225,7 +207,7 @@ def test_snapping_lays_vertices_on_a_grid_and_leaves_no_face_without_area():
 
 def test_lettering_lies_just_outside_and_looks_outwards():
     for seed in range(8):
-        mesh = lettered(solids(UNIT), rng(seed))
+        mesh = details.lettered(solids(UNIT), rng(seed))
         corners = mesh.corners[12:]
         out = np.abs(corners - 0.5).max(axis=2).min(axis=1)
         assert ((out > 0.5) & (out < 0.502)).all()
@@ -236,7 +218,7 @@ def test_handles_go_and_doors_stay():
     door = ((0.0, 1.0), (-0.02, 0.0), (0.0, 1.0))
     grip = ((0.4, 0.6), (-0.06, -0.02), (0.5, 0.52))
     mesh = solids(UNIT, door, grip, part=(0, 1, 1))
-    gone = [set(without_handles(mesh, rng(seed)).piece) for seed in range(12)]
+    gone = [set(details.without_handles(mesh, rng(seed)).piece) for seed in range(12)]
     assert {0, 1} in gone
     assert {0, 1, 2} in gone
 

@@ -15,15 +15,7 @@ from asset_factory.learn.samples.batches import Batch
 from asset_factory.learn.train import data_loader as feeding
 from asset_factory.learn.train import dataset as supplying
 from asset_factory.learn.train.data_loader import DataLoader
-from asset_factory.learn.train.dataset import (
-    Dataset,
-    Generator,
-    digest,
-    find_pools,
-    held_out_samples,
-    source_counts,
-    source_lines,
-)
+from asset_factory.learn.train.dataset import Dataset, Generator, find_pools, held_out_samples
 from asset_factory.learn.train.recipes import parse_train_config
 from asset_factory.learn.train.settings import DataSource
 
@@ -154,9 +146,9 @@ def test_what_was_passed_over_is_told_and_counted(tmp_path):
     read = len(pools[0].paths)
     assert read > 0
     told = f"description: {read} of {read + 1} objects read, {read} of them new"
-    assert source_lines(pools)[0] == told
-    assert source_counts(pools)[0]["sampled"] == read
-    assert sum(source_counts(pools)[0]["skipped"].values()) == 1
+    assert supplying.source_lines(pools)[0] == told
+    assert supplying.source_counts(pools)[0]["sampled"] == read
+    assert sum(supplying.source_counts(pools)[0]["skipped"].values()) == 1
 
 
 def test_a_generator_makes_each_object_once_and_uses_it_as_often_as_asked(config, monkeypatch):
@@ -184,7 +176,7 @@ def test_a_split_names_the_files_and_the_digest_tells_them(config, tmp_path):
     (tmp_path / "split.txt").write_text("box-1\nbox-3.npz\n")
     some = find_pools([replace(config.data[0], split=str(tmp_path / "split.txt"))], tmp_path)
     assert [path.name for path in some[0].paths] == ["box-1.npz", "box-3.npz"]
-    assert digest(some) != digest(find_pools(config.data, tmp_path))
+    assert supplying.digest(some) != supplying.digest(find_pools(config.data, tmp_path))
 
 
 def test_a_folder_with_nothing_in_it_is_refused(tmp_path):

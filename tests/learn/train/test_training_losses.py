@@ -18,17 +18,8 @@ from asset_factory.factory.models.network.transformer import PartArticulationTra
 from asset_factory.factory.models.particulate.model import load_model
 from asset_factory.learn.samples.batches import Batch, collate
 from asset_factory.learn.samples.sample import DrawSettings, draw
-from asset_factory.learn.train.losses import (
-    NAMES,
-    Answers,
-    Counts,
-    count,
-    forward,
-    losses,
-    targets_of,
-    taught,
-    total,
-)
+from asset_factory.learn.train import losses
+from asset_factory.learn.train.losses import NAMES, Counts, count, forward, targets_of, taught
 from asset_factory.learn.train.matching import arranged_columns, assignment_costs, match
 from asset_factory.learn.train.settings import LossSettings
 
@@ -63,7 +54,7 @@ def found_losses(network, batch, settings, counts=None, said=None):
     targets = targets_of(batch, settings)
     answers, early = forward(network, batch, settings)
     counts = counts or Counts(*count(batch, targets, settings))
-    return losses(said or answers, early, batch, targets, counts, settings)
+    return losses.losses(said or answers, early, batch, targets, counts, settings)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -135,7 +126,7 @@ def test_nothing_that_moves_and_no_edge_teach_nothing_wrong(network):
     )
     settings = LossSettings(dice=1.0, auxiliary=1.0, sign_free=True)
     found = found_losses(network, still, settings)
-    total(found, settings).backward()
+    losses.total(found, settings).backward()
     assert all(np.isfinite(found[name].item()) for name in NAMES)
     for name in (*moving, "closest_points"):
         assert found[name].item() == 0.0
@@ -165,7 +156,7 @@ def test_an_opposite_direction_is_as_good_where_the_range_reads_the_same_from_bo
     batch = replace(batch, revolute_direction=direction, **turning)
     answers, _ = forward(network, batch, LossSettings())
     said = replace(answers.parts, revolute_direction=-direction)
-    answers = Answers(answers.queries, answers.mask_logits, said, answers.closest_points)
+    answers = losses.Answers(answers.queries, answers.mask_logits, said, answers.closest_points)
     for settings, wrong in ((LossSettings(), 6), (LossSettings(sign_free=True), 2)):
         found = found_losses(network, batch, settings, said=answers)
         # Opposite unit vectors along a coordinate differ by 2 in one coordinate of three.
