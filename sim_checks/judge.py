@@ -13,7 +13,7 @@ from .checks.disagreement import disagreements
 from .checks.result import CheckResult
 from .config import CheckConfig
 from .description import Description, DescriptionError
-from .processes.isolation import Failure, Outcome, WarmChild
+from .processes.isolation import Failure, Outcome, WarmChild, preload
 from .read.gather import Gathered, gather
 from .read.native import ask_of
 from .read.roots import OWN_PACKAGE, ReadOptions
@@ -22,6 +22,11 @@ from .read.usd.layers import is_usd
 from .report import KILLED, OUT_OF_TIME, Finding, Report, Severity
 
 DEFAULT_CONFIG = CheckConfig()
+#: Imported once for all children that a validator asks.
+COMMON_MODULES = (
+    "asset_factory.sim_checks.checks.catalog",
+    "asset_factory.sim_checks.simulators.observe",
+)
 #: Codes of simulators that were asked and are no witnesses.
 ABSENT = frozenset({"format_not_loaded", "simulator_missing"})
 
@@ -54,6 +59,7 @@ class Judge:
         self._config = config
         self._workers = workers
         self._children: dict[str, WarmChild] = {}
+        preload(COMMON_MODULES)
 
     def __enter__(self) -> Judge:
         return self

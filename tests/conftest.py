@@ -1,6 +1,7 @@
 """The same examples every time: a failure that depends on a seed or on load proves nothing."""
 
 import os
+from multiprocessing import forkserver
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,16 @@ def pytest_addoption(parser):
     group.add_argument(
         "--fixtures", dest="fixtures_dir", type=Path, default=BESIDE_THE_REPOSITORY, metavar="DIR"
     )
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _children():
+    """Fork children of all tests from one process, which loads these once for all of them."""
+    modules = ("checks.catalog", "simulators.observe", "simulators.warm")
+    named = [f"asset_factory.sim_checks.{name}" for name in modules]
+    named += ["asset_factory.factory.jobs.worker", "mujoco", "pytest", "torch"]
+    forkserver.set_forkserver_preload(named)
+    forkserver.ensure_running()
 
 
 @pytest.fixture(scope="session")

@@ -43,7 +43,7 @@ def said(tree):
 def asked(tree):
     """Codes that a finding's code is compared with."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Compare) and ast.unparse(node.left).endswith(".code"):
+        if isinstance(node, ast.Compare) and getattr(node.left, "attr", "") == "code":
             for value in ast.walk(ast.Tuple(node.comparators)):
                 if isinstance(value, ast.Constant) and isinstance(value.value, str):
                     yield value.value

@@ -17,7 +17,7 @@ def main() -> int:
     """Exit codes as the command's."""
     inputs = tuple(sorted(Path(sys.argv[1]).glob("*.stl")))
     job_module.build_here = pretend
-    job_module.modules_for = lambda config: ()
+    job_module.modules_for = lambda config: ("job_samples",)
     budget = Budget(max_s=float(sys.argv[-1]) if "--max-s" in sys.argv else None)
     executor = LocalExecutor(1 if "--one" in sys.argv else 2)
     job = job_module.Job(inputs, Path(sys.argv[2]), PLAIN, executor, budget)

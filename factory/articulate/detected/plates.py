@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage, stats
+from scipy import ndimage
 
 from ...mesh import BoolArray, FloatArray, IntArray
 from ...views.raster import Raster, Side
@@ -149,7 +149,11 @@ def _fitted(
     steps = np.floor((points - middle) @ along / (2.0 * pixel)).astype(np.int64)
     each = np.unique(steps)
     offs = ndimage.median((points - middle) @ left, steps, each)
-    slope, off, *_ = stats.theilslopes(offs, (each + 0.5) * 2.0 * pixel)
+    places = (each + 0.5) * 2.0 * pixel
+    # Theil and Sen's line; loading scipy.stats for it would take a second.
+    rises, runs = (np.subtract.outer(values, values) for values in (offs, places))
+    slope = np.median(rises[runs > 0.0] / runs[runs > 0.0])
+    off = np.median(offs) - slope * np.median(places)
     middle = middle + off * left
     along = (along + slope * left) / np.hypot(1.0, slope)
     length = (points - middle) @ along

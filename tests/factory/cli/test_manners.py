@@ -9,8 +9,7 @@ import pytest
 
 from asset_factory import __version__
 from asset_factory.factory.cli import flags as flags_module
-from asset_factory.factory.cli import run
-from asset_factory.factory.cli.commands import parse
+from asset_factory.factory.cli.commands import parse, run
 from asset_factory.factory.cli.edit import _said
 from asset_factory.factory.report import machine
 from asset_factory.factory.report.machine import Ability, Health, Library, abilities

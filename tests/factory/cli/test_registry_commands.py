@@ -16,8 +16,8 @@ from registry_samples import BAD_REPORT, REJECTED, named, publish, three_entries
 from shown_registry import HOSTILE, make_registry
 
 from asset_factory.factory.cli import console
-from asset_factory.factory.cli import run as factory
 from asset_factory.factory.cli.build import Build, idle_retries
+from asset_factory.factory.cli.commands import run as factory
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.runtime.store import Store
 from asset_factory.factory.runtime.terminal import Terminal

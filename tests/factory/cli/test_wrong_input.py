@@ -5,8 +5,7 @@ import shlex
 import pytest
 from shown_registry import make_registry
 
-from asset_factory.factory.cli import run
-from asset_factory.factory.cli.commands import COMMANDS
+from asset_factory.factory.cli.commands import COMMANDS, run
 
 pytest.importorskip("mani_skill", reason="solve and demos want it")
 

@@ -18,6 +18,5 @@ def builds_are(monkeypatch):
 
     def replace_by(function):
         monkeypatch.setattr(job_module, "build_here", function)
-        monkeypatch.setattr(job_module, "modules_for", lambda config: ())
 
     return replace_by

@@ -7,7 +7,7 @@ import trimesh
 from job_samples import job
 
 from asset_factory.envs.assets import read_registry
-from asset_factory.factory.cli import run
+from asset_factory.factory.cli.commands import run
 from asset_factory.factory.registry import Registry
 from asset_factory.factory.registry.aside import superseded
 

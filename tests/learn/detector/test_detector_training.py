@@ -1,5 +1,7 @@
 """What the detector learns from: sides with their truth, and looks that keep it true."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -26,16 +28,21 @@ from asset_factory.learn.detector.targets import loss_of, targets_of  # noqa: E4
 FRONT, TOP = 0, SIDES.index("top")
 
 
+@cache
+def labelled(kind, number):
+    return labelled_sides(make_object(kind, number))
+
+
 def rows_of(sides, sort):
     table = sides.table
     return table[(table[:, 6] == SORTS.index(sort)) & (table[:, 9] == 0)]
 
 
 def test_doors_are_labelled_on_the_side_where_they_are_and_lids_on_all():
-    fridge = rows_of(labelled_sides(make_object("fridge", 1)), Sort.DOOR)
+    fridge = rows_of(labelled("fridge", 1), Sort.DOOR)
     assert set(fridge[:, 0]) == {FRONT}
     assert len(fridge) == len(make_object("fridge", 1).movable_joints)
-    chest = rows_of(labelled_sides(make_object("chest", 1)), Sort.LID)
+    chest = rows_of(labelled("chest", 1), Sort.LID)
     assert sorted(chest[:, 0]) == [0, 1, 2, 3, 4]
     ways = {SIDES[int(row[0])].value: WAYS[int(row[7])] for row in chest}
     assert ways["front"] is PanelWay.TOP
@@ -47,7 +54,7 @@ def test_doors_are_labelled_on_the_side_where_they_are_and_lids_on_all():
 def test_an_open_lid_is_said_to_be_open():
     chest = make_object("chest", 1)
     (joint,) = chest.movable_joints
-    assert rows_of(labelled_sides(chest), Sort.LID)[:, 8].max() == 0.0
+    assert rows_of(labelled("chest", 1), Sort.LID)[:, 8].max() == 0.0
     assert rows_of(labelled_sides(chest, {joint.name: 0.8}), Sort.LID)[:, 8] == pytest.approx(0.8)
 
 
@@ -71,7 +78,7 @@ def shown_as(kind, objects, seed):
 
 @pytest.fixture(scope="module")
 def shown():
-    return shown_as("dresser", [labelled_sides(make_object("dresser", n)) for n in range(4)], 3)
+    return shown_as("dresser", [labelled("dresser", n) for n in range(4)], 3)
 
 
 def test_boxes_follow_objects_that_are_stretched_mirrored_and_turned(shown):
@@ -89,7 +96,7 @@ def test_boxes_follow_objects_that_are_stretched_mirrored_and_turned(shown):
 
 
 def test_tops_turn_with_their_objects():
-    made = shown_as("chest", [labelled_sides(make_object("chest", 1))] * 8, 0)
+    made = shown_as("chest", [labelled("chest", 1)] * 8, 0)
     # Where the front is, seen from above, and the edge away from it, where the hinge is.
     hinge = {0: PanelWay.TOP, 1: PanelWay.LEFT, 2: PanelWay.BOTTOM, 3: PanelWay.RIGHT}
     for number, table in enumerate(made.table):

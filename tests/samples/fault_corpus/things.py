@@ -5,6 +5,7 @@ Written as URDF and MJCF.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -221,7 +222,7 @@ def _write(body: Body, folder: Path, *, looks: bool = False) -> list[str]:
     pieces = body.pieces if body.looks is None or not looks else body.looks
     files = []
     for index, corners in enumerate(pieces):
-        hull = trimesh.convex.convex_hull(_local(body, corners))
+        hull = _hull(body, corners)
         file = f"{body.name}_{'seen' if looks else 'hull'}_{index}.obj"
         (folder / file).write_text(obj(hull.vertices, hull.faces))
         files.append(file)
@@ -231,15 +232,19 @@ def _write(body: Body, folder: Path, *, looks: bool = False) -> list[str]:
 def _inertia(body: Body) -> tuple[FloatArray, FloatArray]:
     """Centre [m] and tensor about it [kg m2] of the pieces at one density, in the link's frame."""
     pieces = body.pieces or (box((0, 0, 0), [0.1] * 3),)
-    solid = trimesh.util.concatenate(
-        [trimesh.convex.convex_hull(_local(body, corners)) for corners in pieces]
-    )
+    solid = trimesh.util.concatenate([_hull(body, corners) for corners in pieces])
     solid.density = body.mass / solid.volume
     return solid.center_mass, solid.moment_inertia
 
 
-def _local(body: Body, corners: FloatArray) -> FloatArray:
-    return placed(corners, np.linalg.inv(body.frame))
+def _hull(body: Body, corners: FloatArray) -> trimesh.Trimesh:
+    """A piece in its link's frame; most are written three times, and by many exhibits."""
+    return _hull_of(placed(corners, np.linalg.inv(body.frame)).tobytes())
+
+
+@cache
+def _hull_of(points: bytes) -> trimesh.Trimesh:
+    return trimesh.convex.convex_hull(np.frombuffer(points).reshape(-1, 3))
 
 
 def _body(thing: Thing, name: str) -> Body:
