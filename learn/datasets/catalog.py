@@ -18,6 +18,7 @@ from .description import (
     read_description,
 )
 from .item import SourceItem
+from .labelled import find_labelled, read_labelled
 from .predictions import find_predictions, read_prediction_item
 from .published import find_published, read_published
 from .settings import SourceSettings
@@ -46,6 +47,9 @@ SOURCES: Mapping[str, SourceKind] = {
     "description": SourceKind(
         find_descriptions, read_description, "a folder with a URDF or an MJCF each",
         modules=("mujoco",),
+    ),
+    "labelled": SourceKind(
+        find_labelled, read_labelled, "a folder with an inventory of meshes that were labelled"
     ),
     "partnet": SourceKind(
         find_partnet, read_description, "PartNet-Mobility folders (mobility.urdf, meta.json)", "-x"

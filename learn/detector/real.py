@@ -49,18 +49,23 @@ def real_objects(folder: Path, held_out: bool = False) -> Iterator[RealObject]:
 
     With ``held_out`` only those that are kept for measuring.
     """
-    with (folder / "INVENTORY.csv").open(newline="") as rows:
-        files = {Path(row["file"]).stem: row["file"] for row in csv.DictReader(rows)}
     labels = labelled_objects()
-    for name, file in files.items():
+    for name, file in files_of(folder).items():
         label = labels.get(name)
         if label is None or (held_out and not is_held_out(name)):
             continue
-        mesh = load(folder / file, IntakeConfig()).mesh
+        mesh = load(file, IntakeConfig()).mesh
         part = np.zeros((len(SIDES), CANVAS, CANVAS), np.uint8)
         seen = look_at(mesh)
         sides = LabelledSides(seen.color, seen.depth, part, _on_canvas(label.parts, mesh))
         yield RealObject(name, label, mesh, sides)
+
+
+def files_of(folder: Path) -> dict[str, Path]:
+    """Return the meshes that the ``INVENTORY.csv`` of a folder lists, by name."""
+    with (folder / "INVENTORY.csv").open(newline="") as rows:
+        files = [folder / row["file"] for row in csv.DictReader(rows)]
+    return {file.stem: file for file in files}
 
 
 def _on_canvas(parts: Sequence[LabelledPart], mesh: Mesh) -> FloatArray:

@@ -31,7 +31,9 @@ class DrawSettings:
         points: per example.
         context: further points of the object, from which its box and what its components look like
             are measured.
-        sharp_share: of them on sharp edges, where there are any.
+        even_share: of them fall on all components alike, whatever their size; the others by length
+            and area.
+        sharp_share: of those others on sharp edges, where there are any.
         scale: lower and upper factor of the size.
         shift: standard deviation of the place, per axis.
         closed_share: of the examples have every joint closed; in the others each joint is closed as
@@ -48,6 +50,7 @@ class DrawSettings:
 
     points: Count = 2048
     context: Whole = 3072
+    even_share: Share = 0.0
     sharp_share: Share = 0.5
     scale: tuple[Factor, Factor] = (0.95, 1.05)
     shift: Amount = 0.02
@@ -241,16 +244,32 @@ def _placed(body: _Body, yaw: float, rng: np.random.Generator, settings: DrawSet
 
 
 def _chosen(sampled: SampledObject, rng: np.random.Generator, settings: DrawSettings) -> IntArray:
-    """Return rows of the pool: some on sharp edges, the rest on faces; repeated only if too few."""
+    """Return rows of the pool: evenly over components, on sharp edges, and the rest on faces.
+
+    Of the latter two none is drawn twice, unless there are too few.
+    """
+    evenly = int(settings.even_share * settings.points)
     on_edge = np.flatnonzero(sampled.sharp)
     on_face = np.flatnonzero(~sampled.sharp)
-    wanted = int(settings.sharp_share * settings.points) if len(on_edge) else 0
+    others = settings.points - evenly
+    wanted = int(settings.sharp_share * others) if len(on_edge) else 0
     picked = [
         rng.choice(pool, count, replace=count > len(pool))
-        for pool, count in ((on_edge, wanted), (on_face, settings.points - wanted))
+        for pool, count in ((on_edge, wanted), (on_face, others - wanted))
         if count
     ]
+    if evenly:
+        picked.append(_evenly(sampled.components, evenly, rng))
     return np.concatenate(picked)
+
+
+def _evenly(components: IntArray, count: int, rng: np.random.Generator) -> IntArray:
+    """Return rows of points, each of a component drawn from all of them alike."""
+    order = np.argsort(components, kind="stable")
+    _, starts, sizes = np.unique(components[order], return_index=True, return_counts=True)
+    which = rng.integers(0, len(sizes), count)
+    within = (rng.random(count) * sizes[which]).astype(np.int64)
+    return np.asarray(order[starts[which] + within])
 
 
 def _components(

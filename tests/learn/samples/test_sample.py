@@ -103,6 +103,21 @@ def test_a_mirrored_door_still_opens_outwards():
             assert moved[:, 1].mean() < sample.points[mine][:, 1].mean() - 0.02
 
 
+def test_points_spread_evenly_over_components_show_the_small_ones():
+    boxes = {
+        "base": [box_between((0, 0, 0), (1, 1, 1))],
+        "knob": [box_between((2, 0, 0), (2.1, 0.1, 0.1))],
+    }
+    slide = Joint("slide", JointKind.PRISMATIC, 0, 1, [1.0, 0, 0], np.zeros(3), 0.0, 0.3)
+    found = sampled_from(parted(boxes, slide), "knob", 3000, np.random.default_rng(0))
+    wanted = replace(EXACT, even_share=1.0)
+    shown = draw(found, np.random.default_rng(0), wanted).part_ids
+    assert shown.mean() == pytest.approx(0.5, abs=0.1)
+    usual = draw(found, np.random.default_rng(0), EXACT).part_ids
+    assert len(usual) == len(shown) == EXACT.points
+    assert usual.mean() < 0.2
+
+
 def test_half_of_the_points_lie_on_sharp_edges_and_the_same_seed_draws_the_same():
     one, two = (draw(CABINET, np.random.default_rng(3), BUSY) for _ in range(2))
     assert np.array_equal(one.points, two.points)
