@@ -34,7 +34,7 @@ def _children():
     """Fork children of all tests from one process, which loads these once for all of them."""
     modules = ("checks.catalog", "simulators.observe", "simulators.warm")
     named = [f"asset_factory.sim_checks.{name}" for name in modules]
-    named += ["asset_factory.factory.jobs.worker", "mujoco", "pytest", "torch"]
+    named += ["asset_factory.factory.jobs.worker", "mujoco", "pytest"]
     forkserver.set_forkserver_preload(named)
     forkserver.ensure_running()
 

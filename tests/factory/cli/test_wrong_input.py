@@ -111,7 +111,7 @@ TABLE = {
     "nightly --input folder --output new --sim no": "no simulator 'no'; there are sapien",
     "nightly --input text.txt --output new --name a/b": "--name: is 'a/b', want letters, digits",
     "evaluate --output new --set nothing": "invalid choice 'nothing'",
-    "train nothing": "no recipe 'nothing'; there are laptop, paper",
+    "train nothing": "no recipe 'nothing'; there are further, laptop, paper",
     "train nowhere.toml": "recipe 'nowhere.toml': No such file or directory",
 }
 
