@@ -1,8 +1,8 @@
-"""Real meshes whose openings people labelled by eye, side by side: the detector's training set."""
+"""Real meshes whose openings people labelled by eye on every side, as the detector learns them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -34,12 +34,18 @@ _QUARTERS = {Side.FRONT: 0, Side.RIGHT: -1, Side.BACK: 2, Side.LEFT: 1}
 
 
 def find_labelled(root: Path) -> tuple[SourceItem, ...]:
-    """Return the labelled meshes of a folder with ``INVENTORY.csv`` that training may see."""
+    """Return the labelled meshes of a folder with ``INVENTORY.csv`` that training may see.
+
+    Files out of ``root`` do not exist.
+    """
     labels = labelled_objects()
+    listed = files_of(root) if (root / "INVENTORY.csv").is_file() else {}
+    real = root.resolve()
     return tuple(
         SourceItem(name, path, (path,))
-        for name, path in sorted(files_of(root).items())
+        for name, path in sorted(listed.items())
         if name in labels and labels[name].opens and not is_held_out(name)
+        if path.resolve().is_relative_to(real)
     )
 
 
@@ -64,12 +70,11 @@ def read_labelled(item: SourceItem, settings: SourceSettings) -> Articulation:
     return turned(found, _QUARTERS[label.front] * np.pi / 2.0)
 
 
-def _seen_once(parts: Iterable[LabelledPart]) -> Iterator[LabelledPart]:
-    """Yield every part but lids of which a better side tells, too: the front, or another side."""
-    told = list(parts)
-    lids = {part.side for part in told if part.sort is Sort.LID}
+def _seen_once(parts: Sequence[LabelledPart]) -> list[LabelledPart]:
+    """Return every part but lids of which a better side tells, too: the front, or another side."""
+    lids = [part.side for part in parts if part.sort is Sort.LID]
     best = min(lids, key=lambda side: (side is Side.TOP, side is not Side.FRONT), default=None)
-    return (part for part in told if part.sort is not Sort.LID or part.side is best)
+    return [part for part in parts if part.sort is not Sort.LID or part.side is best]
 
 
 def _stated(part: LabelledPart) -> StatedPart:

@@ -49,7 +49,13 @@ def folder(tmp_path, monkeypatch):
 def test_only_what_opens_and_is_not_kept_for_measuring_is_learned_from(folder):
     opens = {"opens": True, "parts": [DOOR]}
     labels = {NAMES[0]: opens, NAMES[1]: {"opens": False}, KEPT: opens}
-    assert [item.name for item in find_labelled(folder(labels))] == [NAMES[0]]
+    there = folder(labels)
+    assert [item.name for item in find_labelled(there)] == [NAMES[0]]
+    (there / f"{NAMES[0]}.obj").unlink()
+    (there / f"{NAMES[0]}.obj").symlink_to(__file__)
+    assert not find_labelled(there)
+    (there / "INVENTORY.csv").unlink()
+    assert not find_labelled(there)
 
 
 def test_the_labelled_part_moves_and_the_front_comes_to_the_front(folder):
