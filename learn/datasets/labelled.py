@@ -16,8 +16,7 @@ from asset_factory.factory.intake.stated import Hinge, Stated, StatedKind, State
 from asset_factory.factory.models.detector.canvas import Sort
 from asset_factory.factory.views.raster import Side
 
-from ..detector.labelled import LabelledPart, labelled_objects
-from ..detector.real import files_of, is_held_out
+from ..labelled import LabelledPart, files_of, is_held_out, labelled_objects
 from .item import SourceItem
 from .settings import SourceSettings
 

@@ -27,9 +27,10 @@ from asset_factory.factory.models.detector.canvas import CANVAS, NOTHING, SIDES,
 from asset_factory.factory.runtime.terminal import say
 
 from ..datasets.objects import described as described_objects
+from ..labelled import is_held_out
 from ..surfaces import coloured_skin
 from .kinds import kind_number
-from .real import RealObject, is_held_out, real_objects
+from .real import RealObject, real_objects
 from .sides import COLUMNS, IGNORED, VIEW, LabelledSides, WholeTruth, labelled_sides
 
 #: Pixels along a texture.

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,11 +20,8 @@ from asset_factory.factory.models.detector.canvas import (
     on_canvas,
 )
 
-from .labelled import LabelledObject, LabelledPart, labelled_objects
+from ..labelled import LabelledObject, LabelledPart, files_of, is_held_out, labelled_objects
 from .sides import COLUMNS, LabelledSides
-
-#: Of the meshes of a folder every so many is kept for measuring.
-HELD_OUT = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,11 +32,6 @@ class RealObject:
     label: LabelledObject
     mesh: Mesh
     sides: LabelledSides
-
-
-def is_held_out(name: str) -> bool:
-    """Tell whether the mesh of a name is kept for measuring."""
-    return zlib.crc32(name.encode()) % HELD_OUT == 0
 
 
 def real_objects(folder: Path, held_out: bool = False) -> Iterator[RealObject]:
@@ -59,13 +49,6 @@ def real_objects(folder: Path, held_out: bool = False) -> Iterator[RealObject]:
         seen = look_at(mesh)
         sides = LabelledSides(seen.color, seen.depth, part, _on_canvas(label.parts, mesh))
         yield RealObject(name, label, mesh, sides)
-
-
-def files_of(folder: Path) -> dict[str, Path]:
-    """Return the meshes that the ``INVENTORY.csv`` of a folder lists, by name."""
-    with (folder / "INVENTORY.csv").open(newline="") as rows:
-        files = [folder / row["file"] for row in csv.DictReader(rows)]
-    return {file.stem: file for file in files}
 
 
 def _on_canvas(parts: Sequence[LabelledPart], mesh: Mesh) -> FloatArray:

@@ -23,7 +23,9 @@ from asset_factory.factory.models.detector.canvas import (
     look_at,
 )
 from asset_factory.factory.models.detector.decode import shared_areas
-from asset_factory.factory.views.raster import Raster, Side
+from asset_factory.factory.views.raster import Raster
+
+from ..labelled import way_toward
 
 #: A part that turns as a panel fills so much of its box; a lid covers so much of the top.
 FILLED = 0.35
@@ -187,20 +189,6 @@ def _meanings(articulation: Articulation, part: npt.NDArray[np.uint8]) -> dict[i
         if counts[view] and way is not None:
             found[joint.child] = _Meaning(_PANELS[way], {view: way})
     return found
-
-
-def way_toward(direction: FloatArray, side: Side) -> PanelWay:
-    """Return the edge, as a side shows it, at which a lid is hinged.
-
-    ``direction`` is from the middle of the lid to its hinge, shape [3]; its height does not count.
-    """
-    right, up, away = side.frame
-    level = direction * np.array([1.0, 1.0, 0.0])
-    sideways = float(level @ right)
-    depth = float(level @ (up if side is Side.TOP else away))
-    if abs(sideways) > abs(depth):
-        return PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT
-    return PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM
 
 
 def _way(mask: BoolArray, raster: Raster, joint: Joint) -> PanelWay | None:

@@ -20,7 +20,7 @@ import tyro
 
 from asset_factory.factory.runtime.terminal import say
 
-from .labelled import labelled_objects
+from ..labelled import labelled_objects
 
 #: Beginning of meshes' names, and terms, by library; the fifth one holds people only.
 LIBRARIES = {

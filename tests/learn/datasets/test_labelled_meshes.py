@@ -8,12 +8,11 @@ from plain_solids import parted, sized_box
 
 from asset_factory.factory.errors import InputRejected
 from asset_factory.factory.mesh import Mesh
+from asset_factory.learn import labelled
 from asset_factory.learn.datasets.labelled import find_labelled, read_labelled
 from asset_factory.learn.datasets.settings import SourceSettings
-from asset_factory.learn.detector import labelled
-from asset_factory.learn.detector.labelled import labelled_objects
-from asset_factory.learn.detector.real import is_held_out
 from asset_factory.learn.evaluate.files import write_obj
+from asset_factory.learn.labelled import is_held_out, labelled_objects
 
 NAMES = [name for name in map("cupboard_{}".format, range(40)) if not is_held_out(name)]
 KEPT = next(name for name in map("cupboard_{}".format, range(40)) if is_held_out(name))

@@ -8,9 +8,9 @@ import pytest
 from asset_factory.factory.models.detector.canvas import CANVAS, SIDES, SORTS, WAYS, PanelWay, Sort
 from asset_factory.learn.detector.drawn import drawn_one_piece, drawn_sides
 from asset_factory.learn.detector.kinds import kind_number
-from asset_factory.learn.detector.labelled import LabelledObject, LabelledPart
 from asset_factory.learn.detector.sides import WholeTruth, labelled_sides
 from asset_factory.learn.detector.still import STILL, make_still
+from asset_factory.learn.labelled import LabelledObject, LabelledPart
 from asset_factory.learn.objects import make_object
 
 torch = pytest.importorskip("torch")

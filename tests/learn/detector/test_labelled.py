@@ -11,9 +11,10 @@ from asset_factory.factory.config import IntakeConfig
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.models.detector.canvas import KINDS, WAYS, PanelWay, Sort
 from asset_factory.factory.views.raster import Side
-from asset_factory.learn.detector import labelled, sweethome3d
-from asset_factory.learn.detector.labelled import EITHER, LabelledPart, labelled_objects
+from asset_factory.learn import labelled
+from asset_factory.learn.detector import sweethome3d
 from asset_factory.learn.detector.real import real_objects
+from asset_factory.learn.labelled import EITHER, LabelledPart, labelled_objects
 
 
 def test_every_label_of_the_package_can_be_learned_from():

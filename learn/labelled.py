@@ -1,21 +1,26 @@
-"""Labels of real meshes as their sides show them: ``labels/*.json``, by the mesh's name."""
+"""Labels of real meshes as their sides show them: ``detector/labels/*.json``, by mesh."""
 
 from __future__ import annotations
 
+import csv
+import zlib
 from functools import cache
 from pathlib import Path
 
 import msgspec
+import numpy as np
 
+from asset_factory.factory.mesh import FloatArray
 from asset_factory.factory.models.detector.canvas import WAYS, PanelWay, Sort
 from asset_factory.factory.views.raster import Side
 
-from ..bounds import Share
-from .sides import way_toward
+from .bounds import Share
 
-LABELS = Path(__file__).with_name("labels")
+LABELS = Path(__file__).parent / "detector" / "labels"
 #: The way of a part that may be hinged at either edge.
 EITHER = -1
+#: Of the meshes of a folder every so many is kept for measuring.
+HELD_OUT = 5
 
 
 class LabelledPart(msgspec.Struct, forbid_unknown_fields=True):
@@ -65,3 +70,29 @@ def labelled_objects() -> dict[str, LabelledObject]:
     read = msgspec.json.Decoder(dict[str, LabelledObject]).decode
     files = sorted(LABELS.glob("*.json"))
     return {name: each for file in files for name, each in read(file.read_bytes()).items()}
+
+
+def way_toward(direction: FloatArray, side: Side) -> PanelWay:
+    """Return the edge, as a side shows it, at which a lid is hinged.
+
+    ``direction`` is from the middle of the lid to its hinge, shape [3]; its height does not count.
+    """
+    right, up, away = side.frame
+    level = direction * np.array([1.0, 1.0, 0.0])
+    sideways = float(level @ right)
+    depth = float(level @ (up if side is Side.TOP else away))
+    if abs(sideways) > abs(depth):
+        return PanelWay.RIGHT if sideways > 0.0 else PanelWay.LEFT
+    return PanelWay.TOP if depth > 0.0 else PanelWay.BOTTOM
+
+
+def is_held_out(name: str) -> bool:
+    """Tell whether the mesh of a name is kept for measuring."""
+    return zlib.crc32(name.encode()) % HELD_OUT == 0
+
+
+def files_of(folder: Path) -> dict[str, Path]:
+    """Return the meshes that the ``INVENTORY.csv`` of a folder lists, by name."""
+    with (folder / "INVENTORY.csv").open(newline="") as rows:
+        files = [folder / row["file"] for row in csv.DictReader(rows)]
+    return {file.stem: file for file in files}
