@@ -1,4 +1,4 @@
-"""Labels of real meshes as their sides show them: ``detector/labels/*.json``, by mesh."""
+"""Labels of real meshes as their sides show them: ``labels/*.json``, by the mesh's name."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from asset_factory.factory.views.raster import Side
 
 from .bounds import Share
 
-LABELS = Path(__file__).parent / "detector" / "labels"
+LABELS = Path(__file__).with_name("labels")
 #: The way of a part that may be hinged at either edge.
 EITHER = -1
 #: Of the meshes of a folder every so many is kept for measuring.

@@ -32,10 +32,11 @@ def pytest_addoption(parser):
 @pytest.fixture(scope="session", autouse=True)
 def _children():
     """Fork children of all tests from one process, which loads these once for all of them."""
-    modules = ("checks.catalog", "simulators.observe", "simulators.warm")
-    named = [f"asset_factory.sim_checks.{name}" for name in modules]
-    named += ["asset_factory.factory.jobs.worker", "mujoco", "pytest"]
-    forkserver.set_forkserver_preload(named)
+    from asset_factory.sim_checks.judge import COMMON_MODULES
+    from asset_factory.sim_checks.processes.isolation import preload
+
+    named = ("asset_factory.factory.jobs.worker", "asset_factory.sim_checks.simulators.warm")
+    preload((*COMMON_MODULES, *named, "mujoco", "pytest"))
     forkserver.ensure_running()
 
 

@@ -265,11 +265,8 @@ def _chosen(sampled: SampledObject, rng: np.random.Generator, settings: DrawSett
 
 def _evenly(components: IntArray, count: int, rng: np.random.Generator) -> IntArray:
     """Return rows of points, each of a component drawn from all of them alike."""
-    order = np.argsort(components, kind="stable")
-    _, starts, sizes = np.unique(components[order], return_index=True, return_counts=True)
-    which = rng.integers(0, len(sizes), count)
-    within = (rng.random(count) * sizes[which]).astype(np.int64)
-    return np.asarray(order[starts[which] + within])
+    _, which, sizes = np.unique(components, return_inverse=True, return_counts=True)
+    return rng.choice(len(components), count, p=1.0 / (len(sizes) * sizes[which]))
 
 
 def _components(

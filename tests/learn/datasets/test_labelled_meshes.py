@@ -20,14 +20,9 @@ DOOR = {"side": "front", "sort": "door", "box": [0, 0, 1, 1], "hinge": "left"}
 LID = {"side": "front", "sort": "lid", "box": [0, 0.8, 1, 1], "hinge": "back"}
 
 
-def cupboard(door):
-    """Return a box of 1 x 1 x 1 m with a slab before one of its sides."""
-    return parted({"base": [Mesh.from_triangles(*box) for box in (sized_box((1, 1, 1)), door)]})
-
-
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """Return a function that writes a folder of cupboards with these labels."""
+    """Return a function that writes cubes of 1 m with a slab before a side, and their labels."""
     monkeypatch.setattr(labelled, "LABELS", tmp_path)
     labelled_objects.cache_clear()
 
@@ -36,8 +31,9 @@ def folder(tmp_path, monkeypatch):
         (tmp_path / "some.json").write_text(json.dumps(whole))
         files = [f"{name}.obj" for name in labels]
         (tmp_path / "INVENTORY.csv").write_text("\n".join(["file", *files, "other.obj"]))
+        boxes = [Mesh.from_triangles(*sized_box(*each)) for each in (((1.0, 1.0, 1.0),), door)]
         for name in labels:
-            write_obj(tmp_path / f"{name}.obj", cupboard(sized_box(*door)).mesh)
+            write_obj(tmp_path / f"{name}.obj", parted({"base": boxes}).mesh)
             (tmp_path / f"{name}.toml").write_text('up = "z"\nscale = 1.0\n')
         return tmp_path
 

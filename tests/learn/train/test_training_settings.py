@@ -73,5 +73,6 @@ def test_mistakes_are_named(text, says):
 
 
 def test_an_unknown_recipe_is_told_which_there_are():
-    with pytest.raises(ConfigError, match="there are further, laptop, paper, skins"):
+    named = "there are further, laptop, paper, skins, small, or a path"
+    with pytest.raises(ConfigError, match=named):
         load_train_config("large")
