@@ -229,12 +229,6 @@ def test_what_a_plane_would_leave_of_a_hull_is_known_before_it_is_cut(seed):
     assert volumes_below(one, normals, offsets) == pytest.approx(volumes, abs=1e-9 * one.volume)
 
 
-def test_a_box_cut_by_planes_along_its_faces_leaves_its_share():
-    planes = np.array([[1.0, 0, 0]] * 4), np.array([4.5, 4.75, 5.5, 9.0])
-    shares = volumes_below(hull((1, 2, 3), (5, 0, 0)), *planes)
-    assert shares == pytest.approx([0.0, 1.5, 6.0, 6.0])
-
-
 PANEL = SolidPieces((hull((0.3, 0.3, 0.02)),), "exact")
 #: The panel in nine tiles, without the one in the middle.
 PLACES = [(x, y, 0.0) for x in (-0.1, 0.0, 0.1) for y in (-0.1, 0.0, 0.1) if (x, y) != (0.0, 0.0)]
