@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from asset_factory.factory.articulation import Joint, Part
 from asset_factory.factory.runtime.packing import pack, unpack
 from asset_factory.factory.runtime.store import Store
-from asset_factory.sim_checks import Disagreement, Finding, Report, Severity
 
 
 @dataclass(frozen=True)
@@ -73,17 +72,6 @@ def test_arrays_keep_their_bits_through_the_store(tmp_path):
     assert not same.origin.flags.writeable
     assert [part.confidence for part in back] == [None, 0.7]
     assert [part.faces.tolist() for part in back] == [part.faces.tolist() for part in parts]
-
-
-def test_a_report_comes_back_as_it_was():
-    where = {"joint": "hinge", "parts": ("a", "b")}
-    finding = Finding("tilted", Severity.WARNING, "leans", **where, value=1.5, unit="deg", limit=1)
-    said = ({"sapien": "pass"}, {"sapien": None})
-    split = Disagreement("opens", "hinge", *said, "rad", "nobody knows")
-    figures = {"lint": {"mass": [1, 2.5, None]}}
-    report = Report("asset.urdf", ("sapien",), (finding,), figures, (split,))
-    assert unpack(Report, pack(report)) == report
-    assert unpack(Report, pack(report)).to_json() == report.to_json()
 
 
 @dataclass(frozen=True)
