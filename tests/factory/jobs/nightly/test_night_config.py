@@ -65,10 +65,6 @@ def test_the_build_table_changes_what_it_names(tmp_path):
     ("text", "sentence"),
     [
         ("outputs = 'x'\n", "no setting 'outputs'; there are .*; did you mean 'output'"),
-        (
-            "[budget]\nmax_hour = 3\n",
-            "budget: no setting 'max_hour'; there are .*; did you mean 'max_hours'",
-        ),
         ("[build.decompose]\nerror = 1\n", "build: decompose: no setting 'error'"),
         ("[failure]\nyield_drop = 5\n", "failure.yield_drop must be a share from 0 to 1, not 5"),
         ("[failure]\nyield_drop = nan\n", "failure.yield_drop"),
@@ -78,7 +74,6 @@ def test_the_build_table_changes_what_it_names(tmp_path):
         ("sim = 'sapien,unity'\n", "no simulator 'unity'"),
         ("inputs = 'meshes'\n", "inputs must be"),
         ("inputs = []\n", "inputs: none"),
-        ("budget = 3\n", "must be a table"),
         ("build = 3\n", "must be a table"),
         ("preset = 'slow'\n", "no preset 'slow'"),
         ("executor = 'slurm'\n", "executor must be local or ray, not 'slurm'"),
