@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import trimesh
 from PIL import Image
 
 AXES = np.eye(3)
@@ -172,13 +173,8 @@ def write_stl(folder: Path, name: str = "cube.stl") -> Path:
 
 def write_stl_ascii(folder: Path, name: str = "cube.stl") -> Path:
     shape = cube()
-    facets = "".join(
-        "facet normal 0 0 0\n outer loop\n"
-        + "".join(f"  vertex {x} {y} {z}\n" for x, y, z in shape["positions"][face])
-        + " endloop\nendfacet\n"
-        for face in shape["faces"]
-    )
-    (folder / name).write_text(f"solid cube\n{facets}endsolid cube\n")
+    mesh = trimesh.Trimesh(shape["positions"], shape["faces"], process=False)
+    mesh.export(folder / name, file_type="stl_ascii")
     return folder / name
 
 
