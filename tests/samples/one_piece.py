@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import trimesh
 from manifold3d import CrossSection, Manifold
 from stated_parts import block
 
@@ -202,6 +203,16 @@ def bumpy(mesh):
 def plain_box(edge=EDGE):
     """Nothing opens."""
     return mesh_of(block((0.0, 0.0, 0.0), (0.6, 0.5, 0.9)), edge)
+
+
+def write_oven(folder):
+    """A plain box as GLB, a dishwasher without a seam: rejected as it is; returns the file."""
+    mesh = plain_box()
+    path = folder / "oven.glb"
+    # z up to glTF's y up.
+    y_up = [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
+    trimesh.Trimesh(mesh.vertices @ y_up, mesh.faces, process=False).export(path)
+    return path
 
 
 def table(edge=EDGE):

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 from browser import CONTRAST, LAPTOP, PHONE, until
-from edited_mesh import write_oven
+from one_piece import write_oven
 from shown_registry import make_registry
 from waiting import running
 

@@ -5,9 +5,8 @@ import json
 from pathlib import Path
 
 import pytest
-from edited_mesh import write_oven
 from msgspec import to_builtins
-from one_piece import doors, drawers, fridge
+from one_piece import doors, drawers, fridge, write_oven
 from shown_registry import make_registry
 from waiting import running
 
