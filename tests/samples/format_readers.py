@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from asset_factory.sim_checks.geometry.placing import rigid
+
 Frames = dict[str, np.ndarray]
 
 
@@ -43,7 +45,7 @@ def mujoco_mjcf(folder: Path) -> Read:
             data.joint(joint.name).qpos = values[joint.name]
         mujoco.mj_kinematics(model, data)
         return {
-            body.name: _pose(data.body(body.name).xmat.reshape(3, 3), data.body(body.name).xpos)
+            body.name: rigid(data.body(body.name).xmat.reshape(3, 3), data.body(body.name).xpos)
             for body in bodies
         }
 
@@ -280,8 +282,8 @@ def _animated(
     rows = _array(document, binary, sampler["output"])[:half]
     time = np.interp(values[joint["name"]], (joint["lower"], joint["upper"]), times[[0, -1]])
     if channel["target"]["path"] == "translation":
-        return _pose(np.eye(3), np.array([np.interp(time, times, along) for along in rows.T]))
-    return _pose(Slerp(times, Rotation.from_quat(rows))(time).as_matrix(), local[:3, 3])
+        return rigid(np.eye(3), np.array([np.interp(time, times, along) for along in rows.T]))
+    return rigid(Slerp(times, Rotation.from_quat(rows))(time).as_matrix(), local[:3, 3])
 
 
 def _array(document: dict[str, Any], binary: bytes, number: int) -> np.ndarray:
@@ -311,14 +313,7 @@ def _from_quaternion(*numbers: float) -> np.ndarray:
     """Pose of position and quaternion x, y, z, w."""
     from scipy.spatial.transform import Rotation
 
-    return _pose(Rotation.from_quat(numbers[3:]).as_matrix(), np.array(numbers[:3]))
-
-
-def _pose(rotation: np.ndarray, position: np.ndarray) -> np.ndarray:
-    pose = np.eye(4)
-    pose[:3, :3] = rotation
-    pose[:3, 3] = position
-    return pose
+    return rigid(Rotation.from_quat(numbers[3:]).as_matrix(), np.array(numbers[:3]))
 
 
 READERS = (
