@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from laid import laid
 from plain_solids import parted, sized_box
 
 from asset_factory.factory.articulation import Joint
@@ -17,19 +18,13 @@ from asset_factory.learn.evaluate.files import write_obj
 from asset_factory.learn.objects.export import write_annotation, write_sidecar
 
 
-def touch(path, text="<robot/>"):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
-    return path
-
-
 def test_folder_with_a_description_is_one_object(tmp_path):
-    touch(tmp_path / "kitchen" / "fridge_1" / "a.urdf")
-    touch(tmp_path / "kitchen" / "fridge_1" / "fridge_1.urdf")
-    touch(tmp_path / "kitchen" / "fridge_1" / "parts" / "door.urdf")
-    touch(tmp_path / "lamp-2" / "lamp.xml", "<mujoco/>")
-    touch(tmp_path / "lamp-2" / "notes.xml", "<notes/>")
-    touch(tmp_path / ".hidden" / "x.urdf")
+    laid(tmp_path / "kitchen" / "fridge_1" / "a.urdf")
+    laid(tmp_path / "kitchen" / "fridge_1" / "fridge_1.urdf")
+    laid(tmp_path / "kitchen" / "fridge_1" / "parts" / "door.urdf")
+    laid(tmp_path / "lamp-2" / "lamp.xml", "<mujoco/>")
+    laid(tmp_path / "lamp-2" / "notes.xml", "<notes/>")
+    laid(tmp_path / ".hidden" / "x.urdf")
     items = find_descriptions(tmp_path)
     names = [(item.name, item.main.name) for item in items]
     assert names == [("kitchen/fridge_1", "fridge_1.urdf"), ("lamp-2", "lamp.xml")]
@@ -38,24 +33,24 @@ def test_folder_with_a_description_is_one_object(tmp_path):
 
 def test_files_in_the_datasets_own_folder_are_an_object_each(tmp_path):
     for name in ("b", "a"):
-        touch(tmp_path / f"{name}.urdf")
+        laid(tmp_path / f"{name}.urdf")
     assert [item.name for item in find_descriptions(tmp_path)] == ["a", "b"]
 
 
 def test_links_out_of_the_dataset_do_not_exist(tmp_path):
     inside = tmp_path / "data" / "box_1"
-    touch(inside / "box.urdf")
-    (inside / "secret.obj").symlink_to(touch(tmp_path / "secret.obj"))
+    laid(inside / "box.urdf")
+    (inside / "secret.obj").symlink_to(laid(tmp_path / "secret.obj"))
     (tmp_path / "data" / "box_2").mkdir()
-    (tmp_path / "data" / "box_2" / "box.urdf").symlink_to(touch(tmp_path / "box.urdf"))
+    (tmp_path / "data" / "box_2" / "box.urdf").symlink_to(laid(tmp_path / "box.urdf"))
     (item,) = find_descriptions(tmp_path / "data")
     assert [path.name for path in item.files] == ["box.urdf"]
 
 
 def test_digest_is_of_contents_and_not_of_looks(tmp_path):
-    main = touch(tmp_path / "data" / "box_1" / "box.urdf")
-    image = touch(main.parent / "wood.png", "a")
-    mesh = touch(main.parent / "box.obj", "v 0 0 0")
+    main = laid(tmp_path / "data" / "box_1" / "box.urdf")
+    image = laid(main.parent / "wood.png", "a")
+    mesh = laid(main.parent / "box.obj", "v 0 0 0")
     before = find_descriptions(tmp_path / "data")[0].digest()
     image.write_text("b")
     assert find_descriptions(tmp_path / "data")[0].digest() == before
@@ -65,7 +60,7 @@ def test_digest_is_of_contents_and_not_of_looks(tmp_path):
 
 def test_partnet_objects_are_called_by_their_numbers(tmp_path):
     for folder, file in (("123", "mobility.urdf"), ("124", "mobility.urdf"), ("125", "other.urdf")):
-        touch(tmp_path / folder / file)
+        laid(tmp_path / folder / file)
     assert [item.name for item in find_partnet(tmp_path)] == ["123", "124"]
 
 
@@ -98,7 +93,7 @@ def test_labels_beside_a_mesh(tmp_path, named):
 def test_generated_meshes_in_one_folder_do_not_share_files(tmp_path):
     for name in ("chest_a", "chest_b"):
         write_obj(tmp_path / f"{name}.obj", chest().mesh)
-        touch(tmp_path / f"{name}.mtl", "")
+        laid(tmp_path / f"{name}.mtl", "")
         write_annotation(chest(), np.eye(4), tmp_path / f"{name}.pred.npz")
     items = find_predictions(tmp_path)
     assert [item.name for item in items] == ["chest_a", "chest_b"]
