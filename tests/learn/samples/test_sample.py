@@ -156,7 +156,9 @@ def test_files_that_say_they_are_huge_are_refused_unread(tmp_path, monkeypatch):
     monkeypatch.setattr(sampled_objects, "MOST_BYTES", 1_000_000)
     arrays = {**vars(box_sampled(0)), "points": np.zeros((200_000, 3))}
     np.savez_compressed(tmp_path / "bomb.npz", **arrays)
-    assert refusal(read_sampled, tmp_path / "bomb.npz").code == "too_large"
+    refused = refusal(read_sampled, tmp_path / "bomb.npz")
+    assert refused.code == "bad_sample"
+    assert "want at most 1000000" in refused.message
 
 
 def test_an_array_that_says_it_is_huge_and_is_not_is_refused(tmp_path):
