@@ -140,15 +140,12 @@ def _motions(name: str, chains: Sequence[tuple[Joint, ...]]) -> dict[str, Any]:
             raise InputRejected("unsupported_joint", said)
         told["motion"][row] = sum(1 if joint.turns else 2 for joint in chain)
         for joint in chain:
-            limits = (joint.lower, joint.upper)
+            way, limits = ("axis", "turn") if joint.turns else ("slide_direction", "slide")
+            told[way][row] = joint.axis
+            told[limits][row] = (joint.lower, joint.upper)
             if joint.turns:
-                told["axis"][row] = joint.axis
                 told["origin"][row] = joint.origin
-                told["turn"][row] = limits
                 told["endless"][row] = joint.kind == "continuous"
-            else:
-                told["slide_direction"][row] = joint.axis
-                told["slide"][row] = limits
     return told
 
 
