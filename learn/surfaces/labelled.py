@@ -163,17 +163,13 @@ class Labelled:
 
 def joined(several: Sequence[Labelled]) -> Labelled:
     """Join all faces of several meshes, in order; they share no vertices and no pieces."""
-    faces: list[IntArray] = []
-    label: list[IntArray] = []
-    vertex = 0
-    piece = 0
-    for each in several:
-        faces.append(each.faces + vertex)
-        label.append(each.label + np.array((0, piece, 0)))
-        vertex += len(each.vertices)
-        piece += each.piece_count
-    vertices = np.concatenate([each.vertices for each in several])
-    return Labelled(vertices, np.concatenate(faces), np.concatenate(label))
+    before = np.cumsum([(0, 0), *((len(m.vertices), m.piece_count) for m in several[:-1])], axis=0)
+    placed = list(zip(several, before.tolist(), strict=True))
+    return Labelled(
+        np.concatenate([each.vertices for each in several]),
+        np.concatenate([each.faces + vertex for each, (vertex, _) in placed]),
+        np.concatenate([each.label + np.array((0, piece, 0)) for each, (_, piece) in placed]),
+    )
 
 
 def plain(material: Material) -> Material:
