@@ -9,6 +9,7 @@ import trimesh
 
 from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.display.gltf import Y_UP
+from asset_factory.factory.geometry.posing import rotated
 from asset_factory.factory.mesh import Material, Mesh
 from asset_factory.learn.objects.export import write_annotation, write_glb, write_sidecar
 
@@ -72,7 +73,7 @@ def write_meshes(folder: Path, count: int, first: int = 0) -> None:
         made = small_cabinet(seed)
         name = f"cabinet_{seed:05d}"
         write_glb(made.mesh, folder / f"{name}.glb")
-        write_annotation(made, Y_UP, folder / f"{name}.pred.npz")
+        write_annotation(rotated(made, Y_UP[:3, :3]), folder / f"{name}.pred.npz")
         values = {
             "scale": 1.0,
             "annotation": f"{name}.pred.npz",

@@ -1,7 +1,4 @@
-"""Objects as files: GLB, sidecar and annotation. Same object, same bytes.
-
-A file's frame is the rotation and uniform scale from the object frame [m] to its own, shape [4, 4].
-"""
+"""Objects as files: GLB, sidecar and annotation. Same object, same bytes."""
 
 from __future__ import annotations
 
@@ -13,10 +10,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from asset_factory.factory.articulation import Articulation, JointKind
+from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.display.gltf import Y_UP, Buffer, gltf_materials, primitive
-from asset_factory.factory.geometry.posing import posed
-from asset_factory.factory.mesh import FloatArray, Mesh
+from asset_factory.factory.geometry.posing import posed, rotated
+from asset_factory.factory.mesh import Mesh
 
 from ..bodies import bodies_of
 
@@ -42,7 +39,7 @@ def write_sample(
     shown = posed(articulation, values or {})
     folder.mkdir(parents=True, exist_ok=True)
     write_glb(shown.mesh, folder / "object.glb")
-    write_annotation(shown, Y_UP, folder / "pred.npz")
+    write_annotation(rotated(shown, Y_UP[:3, :3]), folder / "pred.npz")
     sidecar: dict[str, str | float] = {"scale": 1.0, "annotation": "pred.npz", "license": LICENSE}
     write_sidecar(folder / "object.toml", sidecar)
 
@@ -69,15 +66,15 @@ def write_sidecar(path: Path, values: dict[str, str | float]) -> None:
     path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
 
 
-def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) -> None:
-    """Write ``pred.npz``, in the frame, units and face order of the mesh file beside it.
+def write_annotation(articulation: Articulation, path: Path) -> None:
+    """Write ``pred.npz`` for the file of a mesh in this frame, in the order of that file's faces.
 
     A part on a carrier, a part without faces, is one part that turns and slides.
 
     Fields: ``face_part_ids`` [face_count], ``motion_hierarchy`` [joint_count, 2] (parent, child),
     ``is_part_revolute`` and ``is_part_prismatic`` [part_count], ``revolute_plucker`` [part_count,
     6] (direction l, moment l x p of a point p on the axis), ``prismatic_axis`` [part_count, 3], and
-    the two ranges [part_count, 2] relative to the pose of the file [rad, file units].
+    the two ranges [part_count, 2] relative to this pose [rad, m].
 
     Raises:
         ValueError: a carrier does not carry exactly one part, or not by the other kind of joint;
@@ -90,8 +87,6 @@ def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) 
     if bodies.parts[0] != 0 or not once:
         wanted = "want one to carry one part that turns and slides by it, and faces on the root"
         raise ValueError(f"a part without faces: {wanted}")
-    turn = frame[:3, :3]
-    scale = float(np.cbrt(np.linalg.det(turn)))
     count = len(bodies)
     order = np.argsort(articulation.mesh.face_material, kind="stable")
     edges = [(parent, child) for child, parent in enumerate(bodies.parents) if child]
@@ -107,15 +102,12 @@ def write_annotation(articulation: Articulation, frame: FloatArray, path: Path) 
         "prismatic_range": np.zeros((count, 2), dtype=np.float32),
     }
     for child, joint in moves:
-        limits = np.array([joint.lower, joint.upper])
-        direction = turn @ joint.axis / scale
-        kind = "prismatic" if joint.kind is JointKind.PRISMATIC else "revolute"
-        if kind == "prismatic":
-            limits = limits * scale
-            arrays["prismatic_axis"][child] = np.round(direction, 9) + 0.0
+        kind = "revolute" if joint.turns else "prismatic"
+        if joint.turns:
+            line = [*joint.axis, *np.cross(joint.axis, joint.origin)]
+            arrays["revolute_plucker"][child] = np.round(line, 9) + 0.0
         else:
-            moment = np.cross(direction, turn @ joint.origin + frame[:3, 3])
-            arrays["revolute_plucker"][child] = np.round([*direction, *moment], 9) + 0.0
+            arrays["prismatic_axis"][child] = np.round(joint.axis, 9) + 0.0
         arrays[f"is_part_{kind}"][child] = True
-        arrays[f"{kind}_range"][child] = np.round(limits, 9)
+        arrays[f"{kind}_range"][child] = np.round([joint.lower, joint.upper], 9)
     np.savez(path, allow_pickle=False, **arrays)

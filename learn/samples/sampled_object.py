@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
-import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from graphlib import CycleError, TopologicalSorter
@@ -15,7 +13,7 @@ import numpy as np
 
 from asset_factory.factory.articulation import Articulation, Joint
 from asset_factory.factory.errors import InputRejected
-from asset_factory.factory.intake.limits import require_at_most
+from asset_factory.factory.intake.importers.prediction import load_fields
 from asset_factory.factory.mesh import BoolArray, FloatArray, IntArray, read_only
 from asset_factory.factory.models.particulate.prediction import MotionClass
 from asset_factory.factory.models.particulate.sampling import Cloud, draw
@@ -35,7 +33,6 @@ _TYPES: dict[str, Any] = {
     "part_ids": np.int16, "components": np.int32, "sharp": np.bool_, "endless": np.bool_,
     "parents": np.int16, "motion": np.int16,
 }  # fmt: skip
-_DAMAGED = (zipfile.BadZipFile, zlib.error)
 
 
 @dataclass(frozen=True)
@@ -143,15 +140,12 @@ def _motions(name: str, chains: Sequence[tuple[Joint, ...]]) -> dict[str, Any]:
             raise InputRejected("unsupported_joint", said)
         told["motion"][row] = sum(1 if joint.turns else 2 for joint in chain)
         for joint in chain:
-            limits = (joint.lower, joint.upper)
+            way, limits = ("axis", "turn") if joint.turns else ("slide_direction", "slide")
+            told[way][row] = joint.axis
+            told[limits][row] = (joint.lower, joint.upper)
             if joint.turns:
-                told["axis"][row] = joint.axis
                 told["origin"][row] = joint.origin
-                told["turn"][row] = limits
                 told["endless"][row] = joint.kind == "continuous"
-            else:
-                told["slide_direction"][row] = joint.axis
-                told["slide"][row] = limits
     return told
 
 
@@ -190,19 +184,12 @@ def read_sampled(path: Path) -> SampledObject:
     """Return a sampled object from its file.
 
     Raises:
-        InputRejected: ``bad_sample``: not such a file, or damaged; ``too_large``.
+        InputRejected: ``bad_sample``: not such a file, damaged, or too large.
     """
     try:
-        with path.open("rb") as file, zipfile.ZipFile(file) as archive:
-            size = sum(entry.file_size for entry in archive.infolist())
-            require_at_most(path.name, size, MOST_BYTES, "bytes")
-            file.seek(0)
-            stored = np.load(file, allow_pickle=False)
-            found: dict[str, Any] = {each.name: stored[each.name] for each in fields(SampledObject)}
+        found: Any = load_fields(path, MOST_BYTES, [each.name for each in fields(SampledObject)])
         return SampledObject(**found | {"name": str(found["name"])})
-    except InputRejected:
-        raise
-    except (OSError, ValueError, KeyError, EOFError, MemoryError, RuntimeError, *_DAMAGED) as error:
+    except (InputRejected, ValueError) as error:
         said = f"{path}: cannot be read as a sampled object: {error}"
         raise InputRejected("bad_sample", said) from error
 

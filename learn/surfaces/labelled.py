@@ -39,13 +39,11 @@ class Labelled:
         """Return an articulation's mesh; faces of a part that share vertices are one piece."""
         mesh = articulation.mesh
         part = face_parts(articulation)
-        key = part[:, None] * len(mesh.vertices) + mesh.faces
-        used, corners = np.unique(key, return_inverse=True)
-        faces = np.asarray(corners.reshape(-1, 3), dtype=np.int64)
-        edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
-        piece = label_linked(len(used), edges)[faces[:, 0]]
-        label = np.stack([part, piece, mesh.face_material], axis=1)
-        return cls(mesh.vertices[used % len(mesh.vertices)], faces, _numbered(label))
+        label = np.stack([part, part, mesh.face_material], axis=1)
+        own = cls(mesh.vertices, mesh.faces, label).with_own_vertices()
+        edges = np.concatenate([own.faces[:, [0, 1]], own.faces[:, [1, 2]]])
+        label[:, 1] = label_linked(len(own.vertices), edges)[own.faces[:, 0]]
+        return replace(own, label=_numbered(label))
 
     def articulation(self, original: Articulation, character: str) -> Articulation:
         """Return these faces with the parts and joints of ``original``, and a note."""
@@ -165,17 +163,13 @@ class Labelled:
 
 def joined(several: Sequence[Labelled]) -> Labelled:
     """Join all faces of several meshes, in order; they share no vertices and no pieces."""
-    faces: list[IntArray] = []
-    label: list[IntArray] = []
-    vertex = 0
-    piece = 0
-    for each in several:
-        faces.append(each.faces + vertex)
-        label.append(each.label + np.array((0, piece, 0)))
-        vertex += len(each.vertices)
-        piece += each.piece_count
-    vertices = np.concatenate([each.vertices for each in several])
-    return Labelled(vertices, np.concatenate(faces), np.concatenate(label))
+    before = np.cumsum([(0, 0), *((len(m.vertices), m.piece_count) for m in several[:-1])], axis=0)
+    placed = list(zip(several, before.tolist(), strict=True))
+    return Labelled(
+        np.concatenate([each.vertices for each in several]),
+        np.concatenate([each.faces + vertex for each, (vertex, _) in placed]),
+        np.concatenate([each.label + np.array((0, piece, 0)) for each, (_, piece) in placed]),
+    )
 
 
 def plain(material: Material) -> Material:

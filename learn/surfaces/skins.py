@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
 from scipy.spatial import cKDTree
 
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.geometry.components import connected_components
+from asset_factory.factory.intake.images import encode_png
 from asset_factory.factory.mesh import FloatArray, IntArray, Material, Mesh, Texture
 from asset_factory.factory.views.view import painted
 
@@ -72,12 +71,11 @@ def _coloured(vertices: FloatArray, faces: IntArray, colors: FloatArray) -> Mesh
     side = int(np.ceil(np.sqrt(len(faces))))
     pixels = np.zeros((side * side, 3), np.uint8)
     pixels[: len(faces)] = np.rint(255.0 * colors)
-    written = io.BytesIO()
-    Image.fromarray(pixels.reshape(side, side, 3)).save(written, "PNG")
+    image = encode_png(Image.fromarray(pixels.reshape(side, side, 3)))
     row, column = np.divmod(np.arange(len(faces)), side)
     middle = np.stack([(column + 0.5) / side, 1.0 - (row + 0.5) / side], axis=1)
     uv = np.broadcast_to(middle[:, None], (len(faces), 3, 2))
-    material = Material("skin", (1.0, 1.0, 1.0, 1.0), Texture(written.getvalue(), ".png"))
+    material = Material("skin", (1.0, 1.0, 1.0, 1.0), Texture(image, ".png"))
     return Mesh(vertices, faces, uv, None, np.zeros(len(faces), np.int64), (material,))
 
 

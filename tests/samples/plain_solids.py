@@ -11,7 +11,8 @@ from asset_factory.factory.articulation import Articulation, Joint, Part
 from asset_factory.factory.asset import Hull
 from asset_factory.factory.mesh import Material, Mesh, concatenate
 from asset_factory.factory.models.particulate.surface import Surface
-from asset_factory.learn.objects.kit import shapes
+from asset_factory.learn.objects.kit import boards, shapes
+from asset_factory.learn.objects.kit.spans import upto
 
 Span = tuple[float, float]
 
@@ -62,17 +63,8 @@ def surface_of(*meshes: trimesh.Trimesh) -> Surface:
 
 def carcass(width: float, depth: float, height: float) -> list[Mesh]:
     """Five boards of 20 mm around an inside that is open to the front, -Y [m]."""
-    board = 0.02
-    right = width - board
-    top = height - board
-    back = depth - board
-    return [
-        box_between((0.0, 0.0, 0.0), (board, depth, height)),
-        box_between((right, 0.0, 0.0), (width, depth, height)),
-        box_between((board, 0.0, 0.0), (right, depth, board)),
-        box_between((board, 0.0, top), (right, depth, height)),
-        box_between((board, back, board), (right, depth, top)),
-    ]
+    made = boards.carcass(*upto(width, depth, height), 0.02, 0.02)
+    return [box_between(each.vertices.min(axis=0), each.vertices.max(axis=0)) for each in made]
 
 
 def cylinder(

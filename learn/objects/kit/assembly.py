@@ -9,7 +9,7 @@ from typing import TypedDict, Unpack
 import numpy as np
 import numpy.typing as npt
 
-from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part, rotation_about
+from asset_factory.factory.articulation import Articulation, Joint, JointKind, Part
 from asset_factory.factory.mesh import FloatArray, Material, Mesh, concatenate
 
 from .axes import DOWN, LEFT, RIGHT, UP, Place, Point
@@ -105,9 +105,7 @@ class Assembly(Chance):
         limits = (lower - rest, upper - rest)
         part = self._hung(name, JointKind.REVOLUTE, axis, at, limits, slide, **how)
         if rest:
-            turn = np.eye(4)
-            turn[:3, :3] = rotation_about(part.axis, rest)
-            turn[:3, 3] = part.origin - turn[:3, :3] @ part.origin
+            turn = Joint(name, part.kind, 0, 1, part.axis, part.origin).motion(rest)
             part.pose = _after(turn, part.pose)
             part.carry = _after(turn, part.carry)
         return part

@@ -12,7 +12,7 @@ from asset_factory.factory.mesh import Material
 from .assembly import EDGES, Assembly, PartDraft
 from .axes import DOWN, FRONT, LEFT, RIGHT, UP, X, facing_front
 from .boards import carcass, stand, tray
-from .hinges import swing
+from .hinges import stop, swing
 from .layouts import Cell, Node, divided
 from .panels import panel
 from .pulls import add_pull
@@ -154,14 +154,15 @@ class Casework:
         if style.inset or stopped or behind:
             furthest = 90.0
         width = size(front.x if upright else front.z)
-        turn = swing(self.a, style.front, width, rooms, style.taste, furthest)
+        turn = swing(style.front, width, rooms, style.taste)
         margins = [0.0] * 4
         margins[near ^ 1] = turn.trim
         x = within(front.x, *margins[:2])
         z = within(front.z, *margins[2:])
         name = self._name(cell, "door" if upright else "flap")
         depth = self.face + turn.setback
-        door = self.a.swung(name, side, x, z, depth, turn.upper, look=style.face)
+        upper = stop(self.a, furthest)
+        door = self.a.swung(name, side, x, z, depth, upper, look=style.face)
         self.doors.append(Leaf(door, cell, side, x, z))
         kind = style.upper if sum(cell.z) > sum(self.z) else style.panel
         panel(door, kind, x, span(self.face, style.front), z, style.rail)

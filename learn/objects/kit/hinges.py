@@ -20,29 +20,23 @@ class Swing:
     Attributes:
         setback: of the axis behind the face [m]; negative for one in front of it.
         trim: taken off the free edge, so that its back corner passes its neighbours [m].
-        upper: fully open [rad].
     """
 
     setback: float
     trim: float
-    upper: float
 
 
-def swing(
-    chance: Chance, thickness: float, width: float, rooms: Span, taste: float, furthest: float
-) -> Swing:
+def swing(thickness: float, width: float, rooms: Span, taste: float) -> Swing:
     """Return a place for the axis of a front ``width`` wide [m].
 
     A corner at distance ``a`` across from an axis set back by ``s`` reaches ``sqrt(a^2 + b^2)``,
     ``b`` being the thickness behind the axis; in front of it the hinge edge swings out by ``s``.
 
     Args:
-        chance: draws the limit.
         thickness: of the front [m].
         width: from the hinge to the free edge [m].
         rooms: free beside the hinge edge and the free edge [m]; infinite where nothing is.
         taste: the wished setback in thicknesses: 0 for the front edge, 1 for the back edge.
-        furthest: limit of ``upper`` [degrees].
     """
     setback = taste * thickness
     if setback > rooms[0] + SLACK:
@@ -52,7 +46,7 @@ def swing(
         reach = width + rooms[1] + SLACK
         behind = thickness - setback
         trim = max(0.0, width - float(np.sqrt(max(0.0, reach**2 - behind**2))))
-    return Swing(setback, trim, stop(chance, furthest))
+    return Swing(setback, trim)
 
 
 def stop(chance: Chance, furthest: float) -> float:

@@ -144,11 +144,10 @@ def lathe(
     vertices[..., second] = at[second] + radius[:, None] * (stretch[1] * sine)
     vertices[..., axis] = at[axis] + height[:, None]
     line = points.tolist()
-    if not looped:
-        line = [(0.0, line[0][1]), *line, (0.0, line[-1][1])]
-    turn = sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise([*line, line[0]]))
+    steps = pairwise([*line, line[0]] if looped else line)
+    volume = sum((r * r + r * s + s * s) * (v - u) for (r, u), (s, v) in steps)
     # Across y, x and z in this order are a left-handed pair.
-    flipped = (turn < 0.0) != (axis == Y)
+    flipped = (volume < 0.0) != (axis == Y)
     return Form(vertices.reshape(-1, 3), _skin(len(points), sides, looped, flipped))
 
 

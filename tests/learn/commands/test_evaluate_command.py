@@ -73,7 +73,7 @@ def test_predictions_are_read_from_files_and_missing_ones_are_scored_as_naive(
     name, truth = first_of(cabinets)
     given = tmp_path / "given"
     given.mkdir()
-    write_annotation(truth, np.eye(4), given / f"{name}.npz")
+    write_annotation(truth, given / f"{name}.npz")
     flags = ("--method", "naive", "predictions", "--predictions", str(given))
     assert evaluate(cabinets, tmp_path / "out", *flags) == 0
     lines = {(line["method"], line["case"]): line for line in load(tmp_path / "out")["cases"]}

@@ -77,7 +77,7 @@ def test_labels_beside_a_mesh(tmp_path, named):
     folder.mkdir()
     write_obj(folder / "chest.obj", chest().mesh)
     labels = {"sidecar": "truth.npz", "stem": "chest.pred.npz", "alone": "pred.npz"}[named]
-    write_annotation(chest(), np.eye(4), folder / labels)
+    write_annotation(chest(), folder / labels)
     if named == "sidecar":
         write_sidecar(folder / "chest.toml", {"scale": 1.0, "annotation": labels})
     (item,) = find_predictions(tmp_path)
@@ -94,7 +94,7 @@ def test_generated_meshes_in_one_folder_do_not_share_files(tmp_path):
     for name in ("chest_a", "chest_b"):
         write_obj(tmp_path / f"{name}.obj", chest().mesh)
         laid(tmp_path / f"{name}.mtl", "")
-        write_annotation(chest(), np.eye(4), tmp_path / f"{name}.pred.npz")
+        write_annotation(chest(), tmp_path / f"{name}.pred.npz")
     items = find_predictions(tmp_path)
     assert [item.name for item in items] == ["chest_a", "chest_b"]
     names = {path.name for path in items[0].files}

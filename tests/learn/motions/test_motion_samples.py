@@ -48,7 +48,5 @@ def test_guesses_are_rough_but_not_wild():
     assert 0.5 < (cosine > 0.0).mean() < 0.9
 
 
-def test_generated_objects_are_named_and_the_same_again():
-    first, again = (list(generated([1], ["laptop"])) for _ in range(2))
-    assert first[0][0] == "generated/laptop_1"
-    assert (first[0][1].mesh.vertices == again[0][1].mesh.vertices).all()
+def test_generated_objects_are_named():
+    assert [name for name, _ in generated([1], ["laptop"])] == ["generated/laptop_1"]

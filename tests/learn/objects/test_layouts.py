@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asset_factory.learn.objects.kit.chance import Chance
-from asset_factory.learn.objects.kit.hinges import SLACK, swing
+from asset_factory.learn.objects.kit.hinges import SLACK, stop, swing
 from asset_factory.learn.objects.kit.layouts import column, divided, drawers, random_node, row
 
 MIX = dict.fromkeys(("drawer", "drawers", "door", "double", "open", "lift", "flap"), 1.0)
@@ -50,8 +50,9 @@ SIZES = (st.floats(0.01, 0.08), st.floats(0.1, 1.0), st.floats(0.0005, 0.01))
 @given(st.integers(0, 10**6), *SIZES, st.floats(-0.3, 1.0))
 @settings(max_examples=100, deadline=None)
 def test_a_trimmed_front_turns_past_its_neighbours(seed, thickness, width, gap, taste):
-    made = swing(Chance(np.random.default_rng(seed)), thickness, width, (gap, gap), taste, 92.0)
-    angle = np.linspace(0.0, made.upper, 50)
+    made = swing(thickness, width, (gap, gap), taste)
+    upper = stop(Chance(np.random.default_rng(seed)), 92.0)
+    angle = np.linspace(0.0, upper, 50)
     depths = (-made.setback, thickness - made.setback)
     for x, y in itertools.product((0.0, width - made.trim), depths):
         across = x * np.cos(angle) + y * np.sin(angle)
@@ -59,4 +60,4 @@ def test_a_trimmed_front_turns_past_its_neighbours(seed, thickness, width, gap, 
         beside = (away > -made.setback) & (away < thickness - made.setback)
         assert (across[beside] < width + gap + SLACK + 1e-9).all()
         assert (across[beside] > -gap - SLACK - 1e-9).all()
-    assert np.radians(60) < made.upper <= np.radians(92)
+    assert np.radians(60) < upper <= np.radians(92)
