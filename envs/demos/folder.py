@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -34,11 +34,9 @@ def hold(target: Path, settings: Settings, shards: Sequence[Shard]) -> Iterator[
     if held is None:
         remedy = "wait for it, or name another --to"
         raise ConfigError(f"{target}: another run writes demonstrations here; {remedy}")
-    try:
+    with closing(held):
         _require_room(target, settings, shards)
         yield
-    finally:
-        held.release()
 
 
 def _require_room(target: Path, settings: Settings, shards: Sequence[Shard]) -> None:

@@ -42,16 +42,6 @@ class Category(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     shelves: float | None = None
     liner: str | None = None
 
-    @property
-    def least(self) -> float:
-        """Return the least size [m]."""
-        return self.range[0]
-
-    @property
-    def most(self) -> float:
-        """Return the largest size [m]."""
-        return self.range[1]
-
 
 #: An object of which nothing is known.
 UNKNOWN = Category("object", "extent", 1.0, (0.02, 5.0))
@@ -71,7 +61,7 @@ def category_table() -> Mapping[str, Category]:
             category = msgspec.convert({"name": name, **entry}, Category)
         except msgspec.ValidationError as error:
             raise ConfigError(f"categories.toml, {name}: {error}") from None
-        if not 0.0 < category.least <= category.typical <= category.most:
+        if not 0.0 < category.range[0] <= category.typical <= category.range[1]:
             raise ConfigError(f"categories.toml, {name}: want range[0] <= typical <= range[1]")
         for each in (name, *category.aliases):
             if each in table:

@@ -72,8 +72,9 @@ def scale_by_size(extents: FloatArray, category: str | None) -> Scale:
     size = usual_of(category)
     source = "guess" if size is UNKNOWN else "category"
     what, value = _measured(extents, size)
-    plausible = f"{size.least:g} to {size.most:g} m is plausible for {_article(size.name)}"
-    if size.least <= value <= size.most:
+    least, most = size.range
+    plausible = f"{least:g} to {most:g} m is plausible for {_article(size.name)}"
+    if least <= value <= most:
         said = f"its {what} is {value:.4g}, and {plausible}."
         return Scale(1.0, "as_is", f"The input was taken to be in metres: {said}")
     expected = size.typical if source == "category" else _UNKNOWN_EXTENT_IN_UNITS
@@ -100,7 +101,7 @@ def _best_unit(value: float, size: Category, expected: float) -> tuple[float, st
     off = {
         (factor, name): handicap * max(value * factor / expected, expected / (value * factor))
         for factor, name, handicap in UNITS
-        if size.least <= value * factor <= size.most
+        if size.range[0] <= value * factor <= size.range[1]
     }
     best = min(off, key=lambda unit: off[unit], default=None)
     return best if best is not None and off[best] <= _UNIT_WITHIN else None

@@ -217,11 +217,11 @@ class Job:
             (entry,) = known_of((probe,), self._registry)
             fresh = probe.claim not in self._built
             if entry is not None and not (self._wants_again(entry) and fresh):
-                held.release()
+                held.close()
                 self._meanwhile.append(known_result(str(probe.given), entry))
                 continue
             if self._is_over():
-                held.release()
+                held.close()
                 self.left += len(waiting) - number + len(self._aside)
                 self._aside = []
                 return
@@ -255,7 +255,7 @@ class Job:
     def _ended(self, call: Call, outcome: Outcome[Product], log: Log) -> Iterator[Result]:
         """Register one call's outcome and give up its claim; yield the result."""
         begun = self._begun.pop(call.name)
-        try:
+        with closing(begun.claim):
             if outcome.failure is None and outcome.value is None:
                 late = not self._winding_up
                 self.state = JobState.OUT_OF_TIME if late else JobState.INTERRUPTED
@@ -267,8 +267,6 @@ class Job:
                 result = self._registered(begun.probe, outcome)
                 self._built.add(begun.probe.claim)
                 log.built(result, outcome)
-        finally:
-            begun.claim.release()
         yield result
 
     def _registered(self, probe: Probe, outcome: Outcome[Product]) -> Result:
@@ -297,7 +295,7 @@ class Job:
 
     def _release_all(self) -> None:
         while self._begun:
-            self._begun.popitem()[1].claim.release()
+            self._begun.popitem()[1].claim.close()
 
 
 def _known_inputs(found: Sequence[tuple[Probe, Entry | None]]) -> Iterator[InputNow]:

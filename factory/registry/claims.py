@@ -7,7 +7,7 @@ import os
 import shutil
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 from filelock import FileLock, Timeout
@@ -21,13 +21,13 @@ _NO_LOCKS = (errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOLCK, errno.
 
 
 class Claim:
-    """The right to do one piece of work, until released or until this process ends anyhow."""
+    """The right to do one piece of work, until closed or until this process ends anyhow."""
 
     def __init__(self, path: Path, lock: FileLock) -> None:
         self._path = path
         self._lock = lock
 
-    def release(self) -> None:
+    def close(self) -> None:
         """Let others have it; once."""
         # Whoever has the file open still finds, after locking it, that it has no name any more.
         self._path.unlink(missing_ok=True)
@@ -58,10 +58,8 @@ def alone(folder: Path, name: str) -> Iterator[None]:
     """Hold the claim of a name; waits while somebody else has it."""
     while (held := claim(folder, name)) is None:
         time.sleep(WAIT_S)
-    try:
+    with closing(held):
         yield
-    finally:
-        held.release()
 
 
 def drop_abandoned(folder: Path) -> None:
@@ -69,7 +67,7 @@ def drop_abandoned(folder: Path) -> None:
     for path in folder.iterdir() if folder.is_dir() else ():
         held = claim(folder, path.name)
         if held is not None:
-            held.release()
+            held.close()
 
 
 @contextmanager

@@ -83,4 +83,4 @@ def locked(nights: Path) -> Iterator[Callable[[str], None]]:
         yield announce
     finally:
         holder.unlink(missing_ok=True)
-        held.release()
+        held.close()

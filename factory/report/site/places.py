@@ -50,7 +50,7 @@ class Places:
         wanted = frozenset(finding.parts)
         for values, contact in self._contacts(finding.joint):
             if wanted and wanted == frozenset(contact.links) and _tells(finding, contact):
-                return Fault(values, contact.point_m)
+                return Fault(values, contact.point_m or None)
         joint = self._joints.get(finding.joint or "")
         return None if joint is None else Fault({joint.name: _value(finding, joint)}, None)
 

@@ -150,14 +150,15 @@ class AssetPage:
         if self.scene is None or places is None:
             return {}
         excluded = self.manifest.excluded_pairs if self.manifest else ()
+        start = self.start or self._first_error
         return {
             "name": self.entry.id,
             "view": [round(float(x), 4) for x in Viewpoint(self.scene).axes[2]],
             "excess": PenetrationConfig().excess_m,
             "ignored": [*places.ignored(), *excluded],
-            "places": [_plain(told.fault) for told in self.findings if told.fault is not None],
+            "places": [asdict(told.fault) for told in self.findings if told.fault is not None],
             "sweeps": {name: asdict(told) for name, told in places.sweeps().items()},
-            "start": _plain(self.start or self._first_error),
+            "start": None if start is None else asdict(start),
         }
 
     @property
@@ -221,12 +222,6 @@ def asset_page(root: Path, entry: Entry) -> AssetPage:
         registry=root.absolute().name,
         model=_model(folder),
     )
-
-
-def _plain(fault: Fault | None) -> dict[str, Any] | None:
-    if fault is None:
-        return None
-    return {"values": dict(fault.values), "point": list(fault.point) if fault.point else None}
 
 
 def _model(folder: Path) -> bytes:

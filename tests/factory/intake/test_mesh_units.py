@@ -210,7 +210,7 @@ def test_every_typical_size_is_plausible_and_every_alias_unique():
     sizes = {size.name: size for size in category_table().values()}
     assert len(sizes) >= 50
     for size in sizes.values():
-        assert size.least <= size.typical <= size.most
+        assert size.range[0] <= size.typical <= size.range[1]
 
 
 @given(st.sampled_from(sorted(category_table())), st.floats(1e-6, 1e6), st.floats(0.1, 10.0))
@@ -219,4 +219,4 @@ def test_the_chosen_scale_is_always_plausible(name, height, aspect):
     size = category_table()[name]
     scale = scale_by_size(extents, name)
     measured = scale.factor * (extents.max() if size.measure == "extent" else extents[2])
-    assert size.least * (1 - 1e-9) <= measured <= size.most * (1 + 1e-9)
+    assert size.range[0] * (1 - 1e-9) <= measured <= size.range[1] * (1 + 1e-9)

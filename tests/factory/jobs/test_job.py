@@ -215,7 +215,7 @@ def test_a_job_that_is_over_does_not_wait_for_another(tmp_path):
     theirs = claims.claim(tmp_path / "out" / ".claims", claim)
     (result,) = ours.run()
     assert (Path(result.input).name, ours.state, ours.left) == ("thing_1.stl", "limit_reached", 1)
-    theirs.release()
+    theirs.close()
 
 
 def test_two_files_of_one_name_and_content_are_built_once(tmp_path):

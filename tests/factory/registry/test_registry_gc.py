@@ -47,7 +47,7 @@ def test_a_living_process_keeps_its_folder_and_claim_a_dead_one_does_not(registr
     assert claim(claims, "work") is None
     worker.kill()
     worker.join(30)
-    claim(claims, "work").release()
+    claim(claims, "work").close()
     freed = collect_garbage(registry.root)
     assert (freed.staging.files, freed.staging.bytes) == (1, 1000)
     assert list((registry.root / ".staging").iterdir()) == []
@@ -58,10 +58,10 @@ def test_a_claim_is_had_by_one_until_it_is_released(tmp_path):
     first = claim(tmp_path / "claims", "work")
     assert claim(tmp_path / "claims", "work") is None
     other = claim(tmp_path / "claims", "other")
-    first.release()
+    first.close()
     again = claim(tmp_path / "claims", "work")
-    again.release()
-    other.release()
+    again.close()
+    other.close()
     assert list((tmp_path / "claims").iterdir()) == []
 
 
