@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import torch  # noqa: TID253 - this module is only imported to train
-from torch.nn.utils import parameters_to_vector, vector_to_parameters  # noqa: TID253
 
 Tensor = Any
 
@@ -42,9 +41,10 @@ class ProcessGroup:
             if each.grad is None:
                 each.grad = torch.zeros_like(each)
         gradients = [each.grad for each in parameters]
-        flat = parameters_to_vector(gradients)
-        torch.distributed.all_reduce(flat)
-        vector_to_parameters(flat, gradients)
+        flat = self.add(torch.cat([gradient.flatten() for gradient in gradients]))
+        sums = flat.split([gradient.numel() for gradient in gradients])
+        for gradient, summed in zip(gradients, sums, strict=True):
+            gradient.copy_(summed.view_as(gradient))
 
     def add(self, tensor: Tensor) -> Tensor:
         """Return a tensor's sum over the processes."""
