@@ -17,11 +17,12 @@ from typing import Any
 
 import numpy as np
 import torch  # noqa: TID253 - this module is only imported to train
-from safetensors.torch import load_file, save_file  # noqa: TID253
+from safetensors.torch import load_file  # noqa: TID253
 from torch.nn import functional  # noqa: TID253
 
 from asset_factory.factory.models.detector.canvas import CANVAS, KINDS
 from asset_factory.factory.models.detector.network import Detector
+from asset_factory.factory.models.weights.safetensors import write_safetensors
 from asset_factory.factory.runtime.terminal import say
 
 from ..train.averaging import follow
@@ -167,10 +168,10 @@ def _fitted(
 
 
 def _keep(kept: Any, folder: Path) -> None:
-    """Write the weights so far; all but counts in half precision."""
+    """Write the weights so far in half precision."""
     folder.mkdir(parents=True, exist_ok=True)
-    state = {name: each.half().contiguous() for name, each in kept.state_dict().items()}
-    save_file(state, str(folder / "detector.safetensors"))
+    state = {name: each.half() for name, each in kept.state_dict().items()}
+    write_safetensors(folder / "detector.safetensors", state, {})
 
 
 def _rate(done: float) -> float:
@@ -208,13 +209,9 @@ def _seen_through(packed: Packed) -> LabelledSides:
 def _begin(network: Any, weights: dict[str, Any]) -> None:
     """Take what the backbone learned from pictures; channels beside colours begin at nothing."""
     own = network.backbone.state_dict()
-    for name, value in weights.items():
-        if name == "stem.conv.weight":
-            own[name][:, :3] = value
-            own[name][:, 3:] *= 0.2
-        else:
-            own[name] = value
-    network.backbone.load_state_dict(own)
+    stem = "stem.conv.weight"
+    seen = torch.cat([weights[stem], 0.2 * own[stem][:, 3:]], 1)
+    network.backbone.load_state_dict(own | weights | {stem: seen})
 
 
 def _loss(network: Any, source: Pools, count: int) -> tuple[Any, dict[str, Any]]:

@@ -64,6 +64,9 @@ def _trust(asked: Asked) -> Fit:
 
     from .trust import CHARACTERS, fit_trust, tried, turned_at_random
 
+    if len(asked.split) != len(asked.data):
+        said = f"{len(asked.split)} for {len(asked.data)} folders of --data"
+        raise ConfigError(f"--split: {said}; want one of each in turn")
     trusting_none = Trust(linear(np.zeros(len(SIGNS))), 0.5)
     articulator = load_auto(ParticulateConfig(), AutoConfig(), trusting_none)
     made = generated(range(asked.seed, asked.seed + asked.seeds), characters=CHARACTERS)
@@ -114,13 +117,14 @@ def _parser() -> argparse.ArgumentParser:
     agreement = commands.add_parser("agreement", help="between the detector and others")
     agreement.add_argument("--real", type=Path, nargs="+", required=True, help="labelled meshes")
     agreement.add_argument("--data", type=Path, required=True, help="root of the list's objects")
+    # Its chance follows from the order of the meshes; the card says so.
+    agreement.set_defaults(seed=0)
     named = ((agreement, _agreement), (motions, _motions), (trust, _trust))
     for command, fit in named:
         command.set_defaults(fit=fit)
         command.add_argument("output", type=Path, help="file to write, .safetensors")
-        first = 500 if command is motions else 0
+    for command, first, count in ((motions, 500, 6), (trust, 0, 2)):
         command.add_argument("--seed", type=int, default=first, help="of objects, looks, weights")
-    for command, count in ((motions, 6), (trust, 2)):
         command.add_argument("--seeds", type=int, default=count, help="objects of each category")
         command.add_argument(
             "--data", type=Path, action="append", default=[], help="folder of objects' folders"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +29,6 @@ class State:
         mean: running mean of the weights.
         optimiser: its state.
         best: the highest score of a validation so far, and its step; ``None`` before the first.
-        recipe: the configuration, as TOML.
         data: digest of the data.
         seconds: spent so far.
     """
@@ -39,17 +38,14 @@ class State:
     mean: dict[str, Tensor]
     optimiser: dict[str, Any]
     best: tuple[float, int] | None
-    recipe: str
     data: str
     seconds: float
 
 
 def write_state(path: Path, state: State) -> None:
     """Write a checkpoint such that the file is always the old one or the new one, complete."""
-    best = None if state.best is None else list(state.best)
-    stored = {"format": _FORMAT, **vars(state), "best": best}
     with writing(path, lasting=True) as stream:
-        torch.save(stored, stream)
+        torch.save({"format": _FORMAT, **vars(state)}, stream)
 
 
 def read_state(path: Path) -> State:
@@ -60,12 +56,9 @@ def read_state(path: Path) -> State:
     """
     try:
         stored = torch.load(path, map_location="cpu", weights_only=True)
-        if (found := stored.pop("format")) != _FORMAT:
+        if (found := stored["format"]) != _FORMAT:
             raise ConfigError(f"{path}: a checkpoint of format {found}, want {_FORMAT}")
-        if (best := stored["best"]) is not None:
-            stored["best"] = float(best[0]), int(best[1])
-        numbers = {"step": int(stored["step"]), "seconds": float(stored["seconds"])}
-        return State(**stored | numbers)
+        return State(**{each.name: stored[each.name] for each in fields(State)})
     except FileNotFoundError as error:
         raise ConfigError(f"{path}: no such file; there is no run to go on with") from error
     except ConfigError:

@@ -78,14 +78,14 @@ def source_lines(pools: Iterable[Pool]) -> list[str]:
 
 def source_counts(pools: Iterable[Pool]) -> list[dict[str, Any]]:
     """Return what each source gives: its kind, sample count, and skipped objects by reason."""
-
-    def count(pool: Pool) -> dict[str, Any]:
-        files = pool if isinstance(pool, Files) else None
-        skipped = files.report.counts if files and files.report else {}
-        sampled = len(files.paths) if files else None
-        return {"kind": pool.source.kind, "sampled": sampled, "skipped": skipped}
-
-    return [count(pool) for pool in pools]
+    return [
+        {
+            "kind": pool.source.kind,
+            "sampled": len(pool.paths) if isinstance(pool, Files) else None,
+            "skipped": pool.report.counts if isinstance(pool, Files) and pool.report else {},
+        }
+        for pool in pools
+    ]
 
 
 def _converted(source: DataSource, cache: Path) -> Files:

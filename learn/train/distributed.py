@@ -30,9 +30,8 @@ class ProcessGroup:
         """Return sums over the processes."""
         if self.world == 1:
             return list(numbers)
-        tensor = torch.tensor(numbers, dtype=torch.float64, device=self.device)
-        torch.distributed.all_reduce(tensor)
-        return [float(number) for number in tensor.tolist()]
+        summed = self.add(torch.tensor(numbers, dtype=torch.float64, device=self.device))
+        return [float(number) for number in summed.tolist()]
 
     def add_gradients(self, parameters: Sequence[Tensor]) -> None:
         """Replace every gradient by its sum over the processes; losses share the step's mean."""
@@ -42,8 +41,7 @@ class ProcessGroup:
             if each.grad is None:
                 each.grad = torch.zeros_like(each)
         gradients = [each.grad for each in parameters]
-        flat = torch.cat([gradient.flatten() for gradient in gradients])
-        torch.distributed.all_reduce(flat)
+        flat = self.add(torch.cat([gradient.flatten() for gradient in gradients]))
         sums = flat.split([gradient.numel() for gradient in gradients])
         for gradient, summed in zip(gradients, sums, strict=True):
             gradient.copy_(summed.view_as(gradient))

@@ -108,7 +108,7 @@ class _Run:
             self._curve = Curve(self._output / CURVE, COLUMNS, first)
             scores = [each.name for each in fields(Scores)]
             self._table = Curve(self._output / VALIDATION, scores, first)
-        with watching(steps, first, quiet=not group.first) as watch:
+        with watching(steps, first, config.batch, quiet=not group.first) as watch:
             for line in source_lines((*self._pools, *self._held_out_pools)):
                 watch.say(line)
             if state is not None and state.data != self._data:
@@ -130,7 +130,7 @@ class _Run:
             for step in range(first, config.schedule.steps):
                 began = time.monotonic()
                 batch = loader.batch(step)
-                watch.waited(time.monotonic() - began, config.batch)
+                watch.waited(time.monotonic() - began)
                 values, stop = self._trainer.step(step, batch, bool(asked))
                 done = step + 1
                 pending.append((done, values))
@@ -192,7 +192,7 @@ class _Run:
         trainer = self._trainer
         learned = (trainer.network, trainer.mean_network, trainer.optimiser)
         weights, mean, optimiser = (each.state_dict() for each in learned)
-        return State(step, weights, mean, optimiser, self._best, self._recipe, self._data, seconds)
+        return State(step, weights, mean, optimiser, self._best, self._data, seconds)
 
     def _about(self, step: int) -> dict[str, str]:
         config = self._config

@@ -114,20 +114,18 @@ class Answers:
         mask_logits: before they are put in the parts' order, shape [batch, n, parts].
         parts: of the part heads, in the parts' order, by the names of ``PartOutputs``.
         closest_points: shape [batch, n, 3]; ``None`` of a network that says axes by their moments.
+        early: mask logits of some points after every block but the last, if those teach.
     """
 
     queries: Tensor
     mask_logits: Tensor
     parts: Any
     closest_points: Tensor | None
+    early: list[Tensor]
 
 
-def forward(network: Any, batch: Batch, settings: LossSettings) -> tuple[Answers, list[Tensor]]:
-    """Run the network on a batch, and match its queries with the true parts.
-
-    Returns:
-        Its answers, and mask logits of some points after every block but the last, if those teach.
-    """
+def forward(network: Any, batch: Batch, settings: LossSettings) -> Answers:
+    """Run the network on a batch, and match its queries with the true parts."""
     hidden = network.embed(batch.points, batch.normals, batch.features)
     queries = network.first_queries().expand(len(batch), -1, -1)
     early: list[Tensor] = []
@@ -140,16 +138,11 @@ def forward(network: Any, batch: Batch, settings: LossSettings) -> tuple[Answers
     queries = arranged(queries, found)
     votes = network.shape.axis_form is AxisForm.CLOSEST_POINTS
     closest = network.closest_points(hidden, queries, batch.part_ids) if votes else None
-    return Answers(found, masks, network.part_outputs(queries), closest), early
+    return Answers(found, masks, network.part_outputs(queries), closest, early)
 
 
 def losses(
-    answers: Answers,
-    early: list[Tensor],
-    batch: Batch,
-    targets: LossTargets,
-    counts: Counts,
-    settings: LossSettings,
+    answers: Answers, batch: Batch, targets: LossTargets, counts: Counts, settings: LossSettings
 ) -> dict[str, Tensor]:
     """Return each loss of ``NAMES``, not weighted: this batch's share of the step's mean.
 
@@ -182,26 +175,24 @@ def losses(
         found[way] = mean(way, off)
         found[range_] = mean(range_, (getattr(parts, range_).float() - limits).abs().mean(-1))
     found["closest_points"] = mean("closest_points", _place_error(answers, batch))
-    found["auxiliary"] = zero
-    if early:
-        found["auxiliary"] = _auxiliary(early, answers.queries, batch, counts, settings)
+    found["auxiliary"] = _auxiliary(answers, batch, counts, settings) if answers.early else zero
     return found
 
 
 def total(found: dict[str, Tensor], settings: LossSettings) -> Tensor:
     """Return the weighted sum that is minimised."""
-    return sum(settings.weight(name) * found[name] for name in NAMES if settings.weight(name))
+    weights = {name: getattr(settings, name) for name in NAMES}
+    return sum(weight * found[name] for name, weight in weights.items() if weight)
 
 
 def _cross_entropy(masks: Tensor, part_ids: Tensor) -> Tensor:
     return functional.cross_entropy(masks.flatten(0, 1), part_ids.flatten(), reduction="sum")
 
 
-def _auxiliary(
-    early: list[Tensor], queries: Tensor, batch: Batch, counts: Counts, settings: LossSettings
-) -> Tensor:
+def _auxiliary(answers: Answers, batch: Batch, counts: Counts, settings: LossSettings) -> Tensor:
     part_ids = batch.part_ids[:, :: settings.auxiliary_points]
-    sums = [_cross_entropy(arranged_columns(each, queries).float(), part_ids) for each in early]
+    masks = (arranged_columns(each, answers.queries).float() for each in answers.early)
+    sums = [_cross_entropy(each, part_ids) for each in masks]
     return sum(sums) / (len(sums) * counts.auxiliary)
 
 

@@ -128,10 +128,6 @@ class LossSettings:
     unseen_parts: bool = True
     upright_axes: bool = False
 
-    def weight(self, name: str) -> float:
-        """Return the weight of one of ``NAMES``."""
-        return float(getattr(self, name))
-
 
 @dataclass(frozen=True)
 class ScheduleSettings:

@@ -107,9 +107,9 @@ class Trainer:
         lowered = config.run.precision == "bfloat16" and group.device.startswith("cuda")
         for each in micro:
             with torch.autocast("cuda", torch.bfloat16, enabled=lowered):
-                answers, early = forward(self.network, each, config.loss)
+                answers = forward(self.network, each, config.loss)
             targets = targets_of(each, config.loss)
-            found = losses(answers, early, each, targets, counts, config.loss)
+            found = losses(answers, each, targets, counts, config.loss)
             weighted = total(found, config.loss)
             weighted.backward()
             values += torch.stack([weighted.detach(), *(found[name].detach() for name in NAMES)])

@@ -40,7 +40,7 @@ class Scores:
 
 
 def validate(network: Any, samples: Sequence[Sample], config: TrainConfig, device: str) -> Scores:
-    """Score a network; it is left in the mode it was in."""
+    """Score a network by at least one sample; it is left in the mode it was in."""
     training = network.training
     network.eval()
     settings = config.loss
@@ -54,10 +54,10 @@ def validate(network: Any, samples: Sequence[Sample], config: TrainConfig, devic
         batch = taught(collate(chunk, config.network.max_parts).to(device), settings)
         targets = targets_of(batch, settings)
         with torch.no_grad():
-            answers, early = forward(network, batch, settings)
+            answers = forward(network, batch, settings)
             counts = Counts(*count(batch, targets, settings))
-            found = losses(answers, early, batch, targets, counts, settings)
-        loss += len(batch) * sum(settings.weight(name) * float(found[name]) for name in NAMES)
+            found = losses(answers, batch, targets, counts, settings)
+        loss += len(batch) * sum(getattr(settings, name) * float(found[name]) for name in NAMES)
         labels = arranged_columns(answers.mask_logits, answers.queries).argmax(-1)
         right += int((labels == batch.part_ids).sum())
         points += batch.part_ids.numel()
@@ -72,10 +72,10 @@ def validate(network: Any, samples: Sequence[Sample], config: TrainConfig, devic
             ious += part_ious(said, true)
     network.train(training)
     return Scores(
-        loss=loss / max(1, len(samples)),
-        point_accuracy=right / max(1, points),
-        part_iou=_mean(ious),
-        class_accuracy=_mean(classes),
+        loss=loss / len(samples),
+        point_accuracy=right / points,
+        part_iou=sum(ious) / len(ious),
+        class_accuracy=sum(classes) / len(classes),
         revolute_angle=_median(angles["revolute"]),
         prismatic_angle=_median(angles["prismatic"]),
     )
@@ -103,10 +103,6 @@ def _angles(said: Any, true: Any) -> list[float]:
     length = np.linalg.norm(said, axis=1) * np.linalg.norm(true, axis=1)
     cosine = np.abs(np.einsum("ij,ij->i", said, true)) / np.maximum(length, 1e-9)
     return [float(angle) for angle in np.degrees(np.arccos(np.clip(cosine, 0.0, 1.0)))]
-
-
-def _mean(values: Sequence[float]) -> float:
-    return sum(values) / len(values) if values else 0.0
 
 
 def _median(values: Sequence[float]) -> float:

@@ -67,7 +67,11 @@ def test_the_command_writes_what_the_evidence_reads_and_a_card(tmp_path, monkeyp
     assert "| seed | 500 |" in card
 
 
-def test_the_command_refuses_a_folder_without_objects(tmp_path, capsys):
-    asked = ["motions", str(tmp_path / "none"), "--seeds", "0", "--data", str(tmp_path)]
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [("motions", "holds no URDF"), ("trust", "--split: 0 for 1 folders of --data")],
+)
+def test_the_command_refuses_folders_that_it_cannot_use(tmp_path, capsys, name, says):
+    asked = [name, str(tmp_path / "none"), "--seeds", "0", "--data", str(tmp_path)]
     assert command.main(asked) == 2
-    assert "holds no URDF" in capsys.readouterr().err
+    assert says in capsys.readouterr().err

@@ -52,9 +52,9 @@ def boxes(count):
 def found_losses(network, batch, settings, counts=None, said=None):
     """What a network's answers cost, or others ``said`` in their place."""
     targets = targets_of(batch, settings)
-    answers, early = forward(network, batch, settings)
+    answers = said or forward(network, batch, settings)
     counts = counts or Counts(*count(batch, targets, settings))
-    return losses.losses(said or answers, early, batch, targets, counts, settings)
+    return losses.losses(answers, batch, targets, counts, settings)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -154,9 +154,9 @@ def test_an_opposite_direction_is_as_good_where_the_range_reads_the_same_from_bo
     turning = {"counts": torch.tensor([6]), "motion": torch.ones(1, 6, dtype=torch.long)}
     turning["revolute_range"] = torch.tensor(limits)[None]
     batch = replace(batch, revolute_direction=direction, **turning)
-    answers, _ = forward(network, batch, LossSettings())
+    answers = forward(network, batch, LossSettings())
     said = replace(answers.parts, revolute_direction=-direction)
-    answers = losses.Answers(answers.queries, answers.mask_logits, said, answers.closest_points)
+    answers = replace(answers, parts=said)
     for settings, wrong in ((LossSettings(), 6), (LossSettings(sign_free=True), 2)):
         found = found_losses(network, batch, settings, said=answers)
         # Opposite unit vectors along a coordinate differ by 2 in one coordinate of three.
@@ -192,7 +192,7 @@ def test_a_network_that_says_axes_by_moments_is_taught_those_of_the_annotated_ax
     batch = boxes(6)
     settings = LossSettings()
     assert Counts(*count(batch, targets_of(batch, settings), settings)).closest_points > 0
-    answers, _ = forward(network, batch, settings)
+    answers = forward(network, batch, settings)
     assert answers.closest_points is None
     # The moment of the axis through any of its points, as a part says it.
     moment = torch.zeros_like(answers.parts.revolute_moment)
