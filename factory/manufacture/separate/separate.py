@@ -16,8 +16,8 @@ from ..decompose.merge import merge
 from ..decompose.pieces import SolidPieces
 from ..repair import Pair
 from .along import LEAST_M, Sides, carved_apart_along, cut_apart_along, hull_depth
-from .budget import SHAVED_M, Loss, too_bare
-from .pair import PartPair, Workpieces
+from .budget import Loss, too_bare
+from .pair import SHAVED_M, PartPair, Workpieces
 
 #: A part of whose surface planes would bare more than this is kept whole in a socket that takes so
 #: little of what is seen around it, as deep as what may be cut back or this share of the part's
