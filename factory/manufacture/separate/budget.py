@@ -35,7 +35,7 @@ class SeenSurface:
 
     @classmethod
     def of(cls, mesh: Mesh) -> SeenSurface:
-        """Sample a mesh that has an area."""
+        """Sample a mesh; one without an area has no points."""
         return cls(spread_over(mesh, MOST_CORNERS), mesh.diagonal)
 
     def beyond(self, hulls: Sequence[Hull]) -> FloatArray:

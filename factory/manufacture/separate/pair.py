@@ -63,12 +63,10 @@ class Workpieces:
         return tuple(part_solid(self.articulation, part) for part in parts)
 
     @cached_property
-    def surfaces(self) -> tuple[SeenSurface | None, ...]:
-        """Return each part's visible surface; ``None`` of a carrier."""
-        return tuple(
-            SeenSurface.of(self.articulation.part_mesh(index)) if len(part.faces) else None
-            for index, part in enumerate(self.articulation.parts)
-        )
+    def surfaces(self) -> tuple[SeenSurface, ...]:
+        """Return each part's visible surface; a carrier's has no points."""
+        parts = range(len(self.articulation.parts))
+        return tuple(SeenSurface.of(self.articulation.part_mesh(part)) for part in parts)
 
     def holding(self, joint: Joint) -> list[Hull]:
         """Return the hulls of what holds the part that a joint moves."""
@@ -110,7 +108,7 @@ class PartPair:
         enough, and where no joint holds one part in the other.
         """
         mover = self.bodies.surfaces[self.parts[1 - self.holder]]
-        if mover is None or not self.jointed:
+        if not self.jointed:
             return []
         count = self.bodies.config.poses
         turning = [joint for joint in self.joints if joint.turns]
@@ -203,19 +201,15 @@ class PartPair:
 
     def losses(self, after: Sides) -> list[Loss]:
         """Return what a cut takes of each that can be seen."""
-        surfaces = [self.bodies.surfaces[part] for part in self.parts]
-        return [
-            self._loss(side, surface, after[side])
-            for side, surface in enumerate(surfaces)
-            if surface is not None
-        ]
+        return [self._loss(side, hulls) for side, hulls in enumerate(after)]
 
-    def _loss(self, side: int, surface: SeenSurface, after: Sequence[Hull]) -> Loss:
+    def _loss(self, side: int, after: Sequence[Hull]) -> Loss:
         """Return what one of the two, 0 or 1, loses where its hulls become others."""
         part = self.bodies.articulation.parts[self.parts[side]].name
         if not after:
             return Loss(part, 1.0, 1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
         config = self.bodies.config
+        surface = self.bodies.surfaces[self.parts[side]]
         before = self.before[side]
         whole = sum(hull.volume for hull in before)
         share = 1.0 - sum(hull.volume for hull in after) / whole
@@ -239,16 +233,15 @@ class PartPair:
             part,
             share,
             max(0.0, open_share),
-            *self._bared(side, surface, after),
+            *self._bared(side, after),
             float(depth[free].max(initial=0.0)),
             float(depth[trimmed].max(initial=0.0)),
         )
 
-    def _bared(
-        self, side: int, surface: SeenSurface, after: Sequence[Hull]
-    ) -> tuple[float, float, float]:
+    def _bared(self, side: int, after: Sequence[Hull]) -> tuple[float, float, float]:
         """Return the shares of the surface bared and not hidden, bared, and untouched."""
         config = self.bodies.config
+        surface = self.bodies.surfaces[self.parts[side]]
         # Most lie within a hull that no cut touched, which is known.
         out = surface.beyond(after)[:SPREAD] > ROUNDING_M
         points = surface.points[:SPREAD][out]
@@ -328,8 +321,8 @@ class PartPair:
         A share of what their hinge holds, or of the lesser one.
         """
         parts = [joint.child for joint in self.hinges] or self.parts
-        sizes = [each.diagonal for part in parts if (each := self.bodies.surfaces[part])]
-        return trimmed_limit(self.bodies.config, min(sizes, default=0.0))
+        least = min(self.bodies.surfaces[part].diagonal for part in parts)
+        return trimmed_limit(self.bodies.config, least)
 
     @cached_property
     def _free_m(self) -> float:
