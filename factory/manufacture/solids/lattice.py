@@ -115,11 +115,6 @@ class Lattice:
         inside = beside & (middles[axis] > low) & (middles[axis] < high)
         return np.asarray(np.moveaxis(inside, -1, axis))
 
-    def corners(self, at: npt.NDArray[np.int64], span: Span) -> FloatArray:
-        """Return the places of cells' corners in a span, given by their indices [m], [n, 3]."""
-        first = [part.start for part in span]
-        return np.column_stack([line[at[:, i] + first[i]] for i, line in enumerate(self.lines)])
-
     def centers(self, cells: npt.NDArray[np.int64]) -> FloatArray:
         """Return the centres [m] of cells given by their indices, shape [n, 3]."""
         return np.column_stack([self.middles[axis][cells[:, axis]] for axis in range(3)])
