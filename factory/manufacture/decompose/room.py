@@ -62,7 +62,7 @@ NOWHERE = Room(np.zeros((0, 3)))
 
 
 def rooms_of(articulation: Articulation) -> Callable[[int], Room]:
-    """Return what gives, of one part by its index, the room that others take as they pass it.
+    """Return a function from a part's index to the room that others take of it as they pass.
 
     Each is looked for once.
     """
