@@ -12,6 +12,7 @@ import numpy as np
 
 from ..articulation import Articulation, Joint, JointKind
 from ..mesh import FloatArray
+from .poses import arms_from
 
 #: What is so near to the hinge's edge, of the door's width, is looked at for where it begins.
 EDGE = 0.1
@@ -57,17 +58,15 @@ def _at_edge(
     if joint.kind is not JointKind.REVOLUTE or turn == 0.0 or not len(faces):
         return None
     part = articulation.part_mesh(joint.child)
-    arm = part.bounds.mean(axis=0) - joint.origin
-    arm = arm - joint.axis * float(arm @ joint.axis)
+    (arm,) = arms_from(joint, part.bounds.mean(axis=0, keepdims=True))
     outward = _along_axis(np.cross(joint.axis, arm) * np.sign(turn))
     if outward is None or abs(float(outward @ joint.axis)) > ACROSS:
         return None
     toward = np.cross(outward, joint.axis)
     toward = toward * -np.sign(float(toward @ arm))
-    points = part.vertices[np.unique(part.faces)]
-    reach = points @ toward
+    reach = part.vertices @ toward
     near = reach >= reach.max() - EDGE * float(np.ptp(reach))
-    face = float(extreme(points[near] @ outward))
+    face = float(extreme(part.vertices[near] @ outward))
     off = toward * (float(reach.max()) - float(joint.origin @ toward))
     off = off + outward * (face - float(joint.origin @ outward))
     if float(np.linalg.norm(off)) <= THERE_M:

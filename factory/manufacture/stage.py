@@ -21,10 +21,9 @@ from ..runtime.stages import Stages
 from .decompose.decompose import decompose
 from .decompose.fewer import fewer
 from .decompose.pieces import SolidPieces
-from .decompose.room import Rooms
+from .decompose.room import rooms_of
 from .inertia import carrier_inertial, part_inertial, weighing
 from .plan import Plan, as_planned
-from .repair import Pair
 from .separate import Separation, separate
 from .solids.build import solid_parts
 from .targets.find import find_targets
@@ -82,9 +81,9 @@ def _hulls(
     planned: Articulation, known: Sequence[SolidPieces | None], plan: Plan, stages: Stages
 ) -> tuple[tuple[SolidPieces, ...], list[Finding]]:
     """Decompose every part, joined where the asset has many hulls; and say which were joined."""
-    rooms = Rooms(planned)
-    plain = decompose(planned, stages, known, plan.hollow, rooms)
-    found, errors_m = fewer(plain, _wanted(plan, stages.config), stages, rooms)
+    room_of = rooms_of(planned)
+    plain = decompose(planned, stages, room_of, known, plan.hollow)
+    found, errors_m = fewer(plain, _wanted(plan, stages.config), stages, room_of)
     limit = stages.config.decompose.max_hulls
     for part, piece in zip(planned.parts, found, strict=True):
         if len(piece.hulls) > limit:
@@ -97,12 +96,11 @@ def _hulls(
                 limit=float(limit),
             )
     return found, [
-        Finding(
+        _finding(
             "hulls_joined",
-            Severity.WARNING,
             f"part {planned.parts[part].name!r}: {len(plain[part].hulls)} hulls joined to "
             f"{len(found[part].hulls)} with an error of {1000 * error_m:g} mm",
-            parts=(planned.parts[part].name,),
+            planned.parts[part].name,
         )
         for part, error_m in sorted(errors_m.items())
     ]
@@ -121,8 +119,12 @@ def with_targets(asset: Asset, stages: Stages) -> Asset:
     shapes = contents((asset.articulation.mesh.vertices, asset.articulation.mesh.faces))
     moved = contents((asset.articulation.parts, asset.articulation.joints, asset.bodies))
     key = FINISH.key(stages.config, "targets", *shapes, *moved)
-    found = stages.recall("finish", tuple[Target, ...], key, partial(_targets, asset, stages))
-    return replace(asset, targets=found)
+
+    def make() -> tuple[Target, ...]:
+        with stages.clock.stage("targets"):
+            return find_targets(asset.articulation, [body.hulls for body in asset.bodies])
+
+    return replace(asset, targets=stages.recall("finish", tuple[Target, ...], key, make))
 
 
 @dataclass(frozen=True)
@@ -131,11 +133,6 @@ class _Finished:
 
     bodies: tuple[PartBody, ...]
     findings: tuple[Finding, ...]
-
-
-def _targets(asset: Asset, stages: Stages) -> tuple[Target, ...]:
-    with stages.clock.stage("targets"):
-        return find_targets(asset.articulation, [body.hulls for body in asset.bodies])
 
 
 def _finished(
@@ -167,14 +164,9 @@ def _finished(
 def _own_findings(asset: Asset) -> Iterator[Finding]:
     for part, body in zip(asset.articulation.parts, asset.bodies, strict=True):
         for sentence in body.degraded:
-            yield Finding(
-                "degraded_decomposition",
-                Severity.WARNING,
-                f"part {part.name!r}: {sentence}",
-                parts=(part.name,),
-            )
+            yield _finding("degraded_decomposition", f"part {part.name!r}: {sentence}", part.name)
     for note in asset.articulation.notes:
-        yield Finding("articulation_note", Severity.WARNING, note)
+        yield _finding("articulation_note", note)
 
 
 def _separation_findings(separation: Separation) -> Iterator[Finding]:
@@ -182,13 +174,13 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
         done = "cut apart at rest only" if refusal.at_rest else "left as they are"
         message = f"the hulls of {pair[0]!r} and {pair[1]!r} were {done}: {refusal.reason}"
         code = "meshes_overlap" if refusal.meshes else "not_separated"
-        yield Finding(code, Severity.WARNING, message, parts=pair)
+        yield _finding(code, message, *pair)
     for pair, depth in separation.hidden.items():
         message = (
             f"{pair[0]!r} and {pair[1]!r} overlap by {depth * 1000:.2f} mm at rest; "
             "what is hidden there was cut out of the collision geometry"
         )
-        yield _measured("hidden_overlap", message, pair, depth)
+        yield _finding("hidden_overlap", message, *pair, depth_m=depth)
     for pair, trimmed in separation.trimmed.items():
         told = " and ".join(
             f"{each.deepest_m * 1000:.1f} mm of {each.part!r} ({each.share:.1%} of it, "
@@ -199,12 +191,14 @@ def _separation_findings(separation: Separation) -> Iterator[Finding]:
             f"so that {pair[0]!r} and {pair[1]!r} are clear of one another, their collision "
             f"geometry was cut back where that can be seen: {told}"
         )
-        yield _measured("planed", message, pair, max(each.deepest_m for each in trimmed))
+        deepest_m = max(each.deepest_m for each in trimmed)
+        yield _finding("planed", message, *pair, depth_m=deepest_m)
 
 
-def _measured(code: str, message: str, parts: Pair, depth_m: float) -> Finding:
-    depth_mm = round(depth_m * 1000, 4)
-    return Finding(code, Severity.WARNING, message, parts=parts, value=depth_mm, unit="mm")
+def _finding(code: str, message: str, *parts: str, depth_m: float | None = None) -> Finding:
+    """Return a warning about some parts, with a depth where one was measured."""
+    found = Finding(code, Severity.WARNING, message, parts=parts)
+    return found if depth_m is None else replace(found, value=round(depth_m * 1000, 4), unit="mm")
 
 
 def _inertials(

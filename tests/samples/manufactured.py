@@ -5,6 +5,7 @@ import numpy as np
 from asset_factory.factory.config import BuildConfig, DecomposeConfig
 from asset_factory.factory.intake.intake import Intake, Provenance
 from asset_factory.factory.manufacture.decompose.decompose import decompose
+from asset_factory.factory.manufacture.decompose.room import rooms_of
 from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.manufacture.stage import manufacture
 from asset_factory.factory.runtime.stages import Stages
@@ -20,7 +21,7 @@ def intake_of(mesh, **known):
 def decomposed(articulation, config=None, store=None, **known):
     """The hulls of every part, kept in a store if there is one; ``known`` as for the stage."""
     stages = Stages(BuildConfig(decompose=config or DecomposeConfig()), store)
-    return decompose(articulation, stages, **known)
+    return decompose(articulation, stages, rooms_of(articulation), **known)
 
 
 def manufactured(whole, kept, plan=None, config=None, **known):

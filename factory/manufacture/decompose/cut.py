@@ -122,17 +122,11 @@ def _best_cut(piece: Manifold) -> list[Manifold] | None:
     """Return what the plane that wastes least leaves of a piece; ``None`` if none divides it."""
     # The first cut through a ring leaves as much waste as before, so the least waste wins, not less
     # waste.
-    best = None
-    least = np.inf
-    for normal, offset in _candidate_planes(*triangles_of(piece)):
-        halves = [
-            half for half in _halves_of(piece, normal, offset) if half.volume() > LEAST_VOLUME_M3
-        ]
-        waste = _waste_of(halves)
-        if len(halves) > 1 and waste < least:
-            best = halves
-            least = waste
-    return best
+    cuts = (
+        [half for half in _halves_of(piece, *plane) if half.volume() > LEAST_VOLUME_M3]
+        for plane in _candidate_planes(*triangles_of(piece))
+    )
+    return min((cut for cut in cuts if len(cut) > 1), key=_waste_of, default=None)
 
 
 def _halves_of(piece: Manifold, normal: FloatArray, offset: float) -> list[Manifold]:

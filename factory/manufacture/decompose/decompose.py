@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import partial
 
 from ...articulation import Articulation
@@ -13,7 +13,7 @@ from ...runtime.keys import Stage
 from ...runtime.stages import Stages
 from .part import split_part
 from .pieces import SolidPieces
-from .room import Room, Rooms
+from .room import Room
 
 DECOMPOSE = Stage(
     "decompose",
@@ -26,9 +26,9 @@ DECOMPOSE = Stage(
 def decompose(
     articulation: Articulation,
     stages: Stages,
+    room_of: Callable[[int], Room],
     known: Sequence[SolidPieces | None] = (),
     hollow: Collection[str] = (),
-    rooms: Rooms | None = None,
 ) -> tuple[SolidPieces, ...]:
     """Return the convex hulls for every part, in the parts' order.
 
@@ -36,15 +36,14 @@ def decompose(
         articulation: whose parts are decomposed, in the object frame at rest, each where no other
             one is or passes.
         stages: with the settings and the cache.
+        room_of: what others take of each part's, see :func:`~.room.rooms_of`.
         known: hulls of parts that have them already, ``None`` for the others; empty: of none.
         hollow: names of parts whose open surfaces are walls, never closed or filled.
-        rooms: of that articulation, where somebody else asks them, too.
 
     Raises:
         InputRejected: ``decomposition_failed`` where no body can be made of a part.
         Unjudged: an engine hung, or somebody ended it.
     """
-    rooms = rooms or Rooms(articulation)
     config = stages.config.decompose
     results = []
     for index, part in enumerate(articulation.parts):
@@ -56,7 +55,7 @@ def decompose(
             results.append(SolidPieces((), "none"))
             continue
         mesh = articulation.part_mesh(index)
-        room = rooms.around(index)
+        room = room_of(index)
         how = ("hollow",) if part.name in hollow else ()
         key = DECOMPOSE.key(stages.config, mesh.vertices, mesh.faces, room.points, *how)
         make = partial(_decompose_part, part.name, mesh, config, room, bool(how))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -13,7 +14,7 @@ from .convex import limit_vertices
 from .merge import merge
 from .pieces import SolidPieces
 from .pockets import slot_of
-from .room import NOWHERE, Room, Rooms
+from .room import Room
 
 FEWER = Stage(
     "fewer",
@@ -31,7 +32,7 @@ def fewer(
     pieces: tuple[SolidPieces, ...],
     wanted: HullsConfig,
     stages: Stages,
-    rooms: Rooms | None = None,
+    room_of: Callable[[int], Room],
 ) -> tuple[tuple[SolidPieces, ...], dict[int, float]]:
     """Join the hulls of parts, those of most hulls first, until all together are few enough.
 
@@ -41,7 +42,7 @@ def fewer(
         pieces: hulls per part.
         wanted: how many there may be.
         stages: with the settings and the cache.
-        rooms: what others take of each part's: no joined hull takes more of it.
+        room_of: what others take of each part's: no joined hull takes more of it.
 
     Returns:
         The parts, and the error [m] of each one that was joined, by its index.
@@ -61,7 +62,7 @@ def fewer(
             piece = pieces[part]
             if len(piece.hulls) >= FEW:
                 error_m = times * config.error_m
-                room = rooms.around(part) if rooms else NOWHERE
+                room = room_of(part)
                 key = FEWER.key(stages.config, *contents(piece), error_m, slot_m, room.points)
                 make = partial(_joined, piece, error_m, slot_m, config.max_vertices, room)
                 joined[part] = stages.recall("decompose", SolidPieces, key, make)

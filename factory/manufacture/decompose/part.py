@@ -19,7 +19,7 @@ from .openings import as_shell, closed
 from .outside import uncovered
 from .pieces import NOTHING, SolidPieces
 from .pockets import slot_of
-from .room import NOWHERE, Room
+from .room import Room
 from .sheets import slabs
 from .simplify import lighter
 from .solids import Gated, OpenSurface, contains, gate, union
@@ -36,8 +36,8 @@ def split_part(
     faces: IntArray,
     error_m: float,
     config: DecomposeConfig,
-    room: Room = NOWHERE,
-    hollow: bool = False,
+    room: Room,
+    hollow: bool,
 ) -> SolidPieces | None:
     """Return the convex hulls of the triangles of one part; ``None`` if nothing in it is a body.
 

@@ -9,7 +9,7 @@ from scipy.spatial import HalfspaceIntersection, QhullError
 from ...asset import Hull
 from ...config import DecomposeConfig
 from ...geometry.triangles import doubled_normals
-from .convex import depth_below, hull_of, thickness
+from .convex import depth_below, hull_of
 from .solids import LEAST_VOLUME_M3, manifold_of_hull, triangles_of
 
 #: Pockets below this share of a cube of the error's side are dust.
@@ -65,13 +65,13 @@ def _narrow(pocket: Manifold, hull: Hull, error_m: float, slot_m: float) -> bool
     if around is None:
         return True
     planes = around.planes
-    width = thickness(around.vertices, planes)
+    widths = np.ptp(around.vertices @ planes[:, :3].T, axis=0)
+    width = float(widths.min())
     if width <= min(error_m, slot_m):
         return True
     if width > max(error_m, slot_m):
         return False
-    heights = around.vertices @ planes[:, :3].T
-    across = planes[int(np.ptp(heights, axis=0).argmin()), :3]
+    across = planes[int(widths.argmin()), :3]
     corners = vertices[faces]
     areas = doubled_normals(corners)
     mouth = depth_below(hull, corners.mean(axis=1)) < 1.01 * SKIN_SHARE * error_m

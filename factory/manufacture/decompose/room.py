@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
 
@@ -61,39 +61,32 @@ class Room:
 NOWHERE = Room(np.zeros((0, 3)))
 
 
-class Rooms:
-    """What others take of each part's room, as they pass it.
+def rooms_of(articulation: Articulation) -> Callable[[int], Room]:
+    """Return a function from a part's index to the room that others take of it as they pass.
 
-    Args:
-        articulation: parts and joints.
-
-    Attributes:
-        around: what others take of one part's room, by its index: looked for once.
+    Each is looked for once.
     """
+    points_of = cache(lambda part: spread_over(articulation.part_mesh(part), SPREAD))
 
-    def __init__(self, articulation: Articulation) -> None:
-        self._articulation = articulation
-        self.around = cache(self._around)
-        self._points_of = cache(lambda part: spread_over(articulation.part_mesh(part), SPREAD))
-
-    def _around(self, part: int) -> Room:
-        own = self._articulation.part_mesh(part)
+    @cache
+    def room_of(part: int) -> Room:
+        own = articulation.part_mesh(part)
         if not len(own.faces):
             return NOWHERE
-        seen = own.vertices[np.unique(own.faces)]
-        low = seen.min(axis=0)
-        high = seen.max(axis=0)
+        low, high = own.bounds
         found = [NOWHERE.points]
-        for other in range(len(self._articulation.parts)):
-            points = NOWHERE.points if other == part else self._points_of(other)
+        for other in range(len(articulation.parts)):
+            points = NOWHERE.points if other == part else points_of(other)
             if not len(points):
                 continue
             box = corners([points.min(axis=0), points.max(axis=0)])
-            for pose in relative_poses(self._articulation, part, other, POSES):
+            for pose in relative_poses(articulation, part, other, POSES):
                 reach = moved(box, pose)
                 if (reach.max(axis=0) > low).all() and (reach.min(axis=0) < high).all():
                     found.append(_between(moved(points, pose), low, high))
         return Room(_thinned(np.concatenate(found)))
+
+    return room_of
 
 
 def _between(points: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:

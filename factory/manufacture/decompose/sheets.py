@@ -13,14 +13,12 @@ from ...asset import Hull
 from ...geometry.edges import shared_edges
 from ...geometry.triangles import doubled_normals
 from ...mesh import FloatArray
+from ...runtime.numbers import rounded
 from .convex import hull_of
 from .solids import OpenSurface
 
 #: Share of its outline's convex hull that a flat patch may leave empty, for rounding's sake.
 SPARE_SHARE = 0.002
-
-#: Of a cost, a share of what is allowed.
-COST_DECIMALS = 9
 
 
 @dataclass
@@ -128,7 +126,7 @@ def _cost(first: _Patch, second: _Patch, error_m: float) -> float:
         return np.inf
     outline, length = _outline(points, direction)
     allowed = SPARE_SHARE * outline + 0.25 * error_m * length
-    return round(max(height / error_m, (outline - area) / allowed), COST_DECIMALS)
+    return rounded(max(height / error_m, (outline - area) / allowed))
 
 
 def _outline(points: FloatArray, direction: FloatArray) -> tuple[float, float]:

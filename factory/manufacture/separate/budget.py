@@ -6,24 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-import numpy.typing as npt
 
-from ...articulation import Joint
 from ...asset import Hull
 from ...config import SeparateConfig
 from ...mesh import FloatArray, Mesh
 from ..decompose.convex import depth_below
-from ..decompose.outside import ROUNDING_M, outside
-from ..decompose.solids import volume_within
-from ..decompose.spread import SPREAD, spread_over
-from ..poses import arms_from
+from ..decompose.spread import spread_over
 
 #: Most corners that are looked at.
 MOST_CORNERS = 3000
 #: So many hulls are remembered with how far points of a surface lie beyond them.
 MOST_KNOWN = 500
-#: What is cut off by less is all there: points that are bared by it are not looked at [m].
-SHAVED_M = 1e-4
 
 
 @dataclass(frozen=True)
@@ -42,7 +35,7 @@ class SeenSurface:
 
     @classmethod
     def of(cls, mesh: Mesh) -> SeenSurface:
-        """Sample a mesh that has an area."""
+        """Sample a mesh; one without an area has no points."""
         return cls(spread_over(mesh, MOST_CORNERS), mesh.diagonal)
 
     def beyond(self, hulls: Sequence[Hull]) -> FloatArray:
@@ -91,80 +84,6 @@ class Loss:
     def deepest_m(self) -> float:
         """Return the deepest cut below its visible surface, excused or not [m]."""
         return max(self.bared_m, self.trimmed_m)
-
-
-@dataclass(frozen=True)
-class CutSide:
-    """One of two parts that are cut apart, and where a cut may take what can be seen of it.
-
-    Attributes:
-        part: its name.
-        surface: what can be seen of it.
-        before: its hulls before the cut.
-        other: the other part's hulls before the cut.
-        held: a joint holds one part in the other: its share inside the other is hidden.
-        hinges: joints that turn one against the other.
-        config: how far a cut may go.
-    """
-
-    part: str
-    surface: SeenSurface
-    before: Sequence[Hull]
-    other: Sequence[Hull]
-    held: bool
-    hinges: Sequence[Joint]
-    config: SeparateConfig
-
-    def loss(self, after: Sequence[Hull]) -> Loss:
-        """Return what the part loses where its hulls become others."""
-        if not after:
-            return Loss(self.part, 1.0, 1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
-        whole = sum(hull.volume for hull in self.before)
-        share = 1.0 - sum(hull.volume for hull in after) / whole
-        open_share = share
-        if self.held and share > self.config.planed_volume:
-            was, left = (volume_within(hulls, self.other) for hulls in (self.before, after))
-            open_share -= (was - left) / whole
-        depth = self.surface.beyond(after) - self.surface.beyond(self.before)
-        taken = depth > SHAVED_M
-        points = self.surface.points[taken]
-        depth = depth[taken]
-        within = self._in_the_other(points)
-        hidden = within & self.held
-        trimmed = ~hidden & (within | _beside(points, self.hinges, self.config.hinge_m))
-        free = ~hidden & ~trimmed
-        return Loss(
-            self.part,
-            share,
-            max(0.0, open_share),
-            *self._bared(after),
-            float(depth[free].max(initial=0.0)),
-            float(depth[trimmed].max(initial=0.0)),
-        )
-
-    def _bared(self, after: Sequence[Hull]) -> tuple[float, float, float]:
-        """Return the shares of the surface bared and not hidden, bared, and untouched."""
-        # Most lie within a hull that no cut touched, which is known.
-        out = self.surface.beyond(after)[:SPREAD] > ROUNDING_M
-        points = self.surface.points[:SPREAD][out]
-        now = outside(after, points)
-        far = now > self.config.visible_m
-        points = points[far]
-        now = now[far]
-        more = now - outside(self.before, points)
-        bared = more > self.config.visible_m
-        hidden = self.held & self._in_the_other(points[bared])
-        untouched = now > self.config.gap_m
-        added = (untouched & (more > SHAVED_M)).any()
-        return (
-            float((~hidden).sum()) / SPREAD,
-            float(bared.sum()) / SPREAD,
-            float(untouched.sum()) / SPREAD if added else 0.0,
-        )
-
-    def _in_the_other(self, points: FloatArray) -> npt.NDArray[np.bool_]:
-        """Tell which points lie in the other part, or as near as they may come to it, shape [n]."""
-        return outside(self.other, points) < self.config.clearance_m
 
 
 def overdone(
@@ -219,11 +138,3 @@ def too_bare(losses: Sequence[Loss], config: SeparateConfig) -> str | None:
                 f"geometry; at most {config.most_untouched:.0%} may be"
             )
     return None
-
-
-def _beside(points: FloatArray, hinges: Sequence[Joint], radius_m: float) -> npt.NDArray[np.bool_]:
-    """Return which points lie near a hinge's line, shape [n]."""
-    near = np.zeros(len(points), dtype=bool)
-    for hinge in hinges:
-        near |= np.linalg.norm(arms_from(hinge, points), axis=1) < radius_m
-    return near

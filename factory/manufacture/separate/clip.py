@@ -45,15 +45,12 @@ class HullMeeting:
     Attributes:
         directions: unit vectors from the first hull towards the second, the first hull's frame,
             shape [n, 3].
-        reaches: how far the first reaches beyond the second's start along each [m], shape [n];
-            negative is a gap.
         first_ends, second_starts: their positions along each [m], shape [n].
         lags: how far before its pose the second was along each just before [m], shape [n]; at
             most 0.
     """
 
     directions: FloatArray
-    reaches: FloatArray
     first_ends: FloatArray
     second_starts: FloatArray
     lags: FloatArray
@@ -61,7 +58,7 @@ class HullMeeting:
     @property
     def depth(self) -> float:
         """Return an upper bound of the penetration depth [m]: face normals only, no edge pairs."""
-        return float(self.reaches[0])
+        return float(self.first_ends[0] - self.second_starts[0])
 
 
 def depth_at(a: Hull, b: Hull, pose: FloatArray) -> float:
@@ -95,9 +92,7 @@ def meeting(a: Hull, b: Hull, pose: FloatArray, behind: FloatArray | None = None
     best = order[:6]
     if ends[best[0]] > starts[best[0]]:
         best = _with_others(directions, order, best)
-    return HullMeeting(
-        directions[best], (ends - starts)[best], ends[best], starts[best], lags[best]
-    )
+    return HullMeeting(directions[best], ends[best], starts[best], lags[best])
 
 
 def _with_others(directions: FloatArray, order: IntArray, best: IntArray) -> IntArray:
@@ -127,7 +122,7 @@ def cut_apart(
     deep = met.depth > clearance_m
     count = len(met.directions) if deep else 1
     shares = np.array(SHARES) if deep else np.array([_thicker_gives(a, b, pose, met.directions[0])])
-    needed = met.reaches[:count, None] + clearance_m
+    needed = (met.first_ends - met.second_starts)[:count, None] + clearance_m
     ends = (met.first_ends[:count, None] - shares * needed).ravel()
     shifts = met.directions[:count] @ pose[:3, 3] + met.lags[:count]
     starts = (met.second_starts[:count, None] + (1.0 - shares) * needed - shifts[:, None]).ravel()

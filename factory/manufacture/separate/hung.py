@@ -27,15 +27,15 @@ MET_M = 0.003
 
 
 def well_hung(
-    surface: SeenSurface | None, joint: Joint, holder: Sequence[Hull], config: SeparateConfig
+    surface: SeenSurface, joint: Joint, holder: Sequence[Hull], config: SeparateConfig
 ) -> bool:
     """Tell whether a joint runs straight, and turns its part about an edge, its middle or its seat.
 
-    The surface of a carrier is ``None``; ``holder`` are the hulls that hold the part.
+    A carrier's surface has no points; ``holder`` are the hulls that hold the part.
     """
     if is_askew(joint.axis, CROOKED):
         return False
-    if not joint.turns or surface is None:
+    if not joint.turns or not len(surface.points):
         return True
     ahead, behind = _reach(arms_from(joint, surface.points))
     if at_an_edge(surface, joint, config) or behind >= MIDDLE_SHARE * ahead:
@@ -43,9 +43,9 @@ def well_hung(
     return seat_roundness(surface, joint, holder, config.clearance_m) > MIDDLE_SHARE
 
 
-def at_an_edge(surface: SeenSurface | None, joint: Joint, config: SeparateConfig) -> bool:
+def at_an_edge(surface: SeenSurface, joint: Joint, config: SeparateConfig) -> bool:
     """Tell whether a part reaches to its axis, and no further beyond it than may be cut back."""
-    if surface is None:
+    if not len(surface.points):
         return False
     arms = arms_from(joint, surface.points)
     near = max(float(np.linalg.norm(arms, axis=1).min()), _reach(arms)[1])

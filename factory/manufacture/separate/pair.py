@@ -12,17 +12,21 @@ from manifold3d import Manifold
 from ...articulation import Articulation, Joint
 from ...asset import Hull
 from ...config import SeparateConfig
-from ...mesh import FloatArray
+from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of
+from ..decompose.outside import ROUNDING_M, outside
 from ..decompose.solids import thickness_m, volume_within
+from ..decompose.spread import SPREAD
 from ..hinges import CROOKED, is_askew
-from ..poses import held_by, joints_between, moved, relative_poses
+from ..poses import arms_from, held_by, joints_between, moved, relative_poses
 from .along import Sides, hull_depth
-from .budget import CutSide, Loss, SeenSurface, overdone
+from .budget import Loss, SeenSurface, overdone
 from .clip import SHEET_M
 from .hung import at_an_edge, reach_m, stands_out_m, trimmed_limit, well_hung
 from .overlap import overlap_m, part_solid
 
+#: What is cut off by less is all there: points that are bared by it are not looked at [m].
+SHAVED_M = 1e-4
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06
 #: A slide no longer than this is a button, which is pressed into what it stands on [m].
@@ -59,12 +63,10 @@ class Workpieces:
         return tuple(part_solid(self.articulation, part) for part in parts)
 
     @cached_property
-    def surfaces(self) -> tuple[SeenSurface | None, ...]:
-        """Return each part's visible surface; ``None`` of a carrier."""
-        return tuple(
-            SeenSurface.of(self.articulation.part_mesh(index)) if len(part.faces) else None
-            for index, part in enumerate(self.articulation.parts)
-        )
+    def surfaces(self) -> tuple[SeenSurface, ...]:
+        """Return each part's visible surface; a carrier's has no points."""
+        parts = range(len(self.articulation.parts))
+        return tuple(SeenSurface.of(self.articulation.part_mesh(part)) for part in parts)
 
     def holding(self, joint: Joint) -> list[Hull]:
         """Return the hulls of what holds the part that a joint moves."""
@@ -106,7 +108,7 @@ class PartPair:
         enough, and where no joint holds one part in the other.
         """
         mover = self.bodies.surfaces[self.parts[1 - self.holder]]
-        if mover is None or not self.jointed:
+        if not self.jointed:
             return []
         count = self.bodies.config.poses
         turning = [joint for joint in self.joints if joint.turns]
@@ -199,21 +201,68 @@ class PartPair:
 
     def losses(self, after: Sides) -> list[Loss]:
         """Return what a cut takes of each that can be seen."""
-        found = []
-        for side, part in enumerate(self.parts):
-            surface = self.bodies.surfaces[part]
-            if surface is not None:
-                cut = CutSide(
-                    self.bodies.articulation.parts[part].name,
-                    surface,
-                    self.before[side],
-                    self.before[1 - side],
-                    self.jointed,
-                    self.hinges,
-                    self.bodies.config,
-                )
-                found.append(cut.loss(after[side]))
-        return found
+        return [self._loss(side, hulls) for side, hulls in enumerate(after)]
+
+    def _loss(self, side: int, after: Sequence[Hull]) -> Loss:
+        """Return what one of the two, 0 or 1, loses where its hulls become others."""
+        part = self.bodies.articulation.parts[self.parts[side]].name
+        if not after:
+            return Loss(part, 1.0, 1.0, 1.0, 1.0, 1.0, np.inf, np.inf)
+        config = self.bodies.config
+        surface = self.bodies.surfaces[self.parts[side]]
+        before = self.before[side]
+        whole = sum(hull.volume for hull in before)
+        share = 1.0 - sum(hull.volume for hull in after) / whole
+        open_share = share
+        if self.jointed and share > config.planed_volume:
+            other = self.before[1 - side]
+            was, left = (volume_within(hulls, other) for hulls in (before, after))
+            open_share -= (was - left) / whole
+        depth = surface.beyond(after) - surface.beyond(before)
+        taken = depth > SHAVED_M
+        points = surface.points[taken]
+        depth = depth[taken]
+        within = self._in_the_other(side, points)
+        hidden = within & self.jointed
+        beside = np.zeros(len(points), dtype=bool)
+        for hinge in self.hinges:
+            beside |= np.linalg.norm(arms_from(hinge, points), axis=1) < config.hinge_m
+        trimmed = ~hidden & (within | beside)
+        free = ~hidden & ~trimmed
+        return Loss(
+            part,
+            share,
+            max(0.0, open_share),
+            *self._bared(side, after),
+            float(depth[free].max(initial=0.0)),
+            float(depth[trimmed].max(initial=0.0)),
+        )
+
+    def _bared(self, side: int, after: Sequence[Hull]) -> tuple[float, float, float]:
+        """Return the shares of the surface bared and not hidden, bared, and untouched."""
+        config = self.bodies.config
+        surface = self.bodies.surfaces[self.parts[side]]
+        # Most lie within a hull that no cut touched, which is known.
+        out = surface.beyond(after)[:SPREAD] > ROUNDING_M
+        points = surface.points[:SPREAD][out]
+        now = outside(after, points)
+        far = now > config.visible_m
+        points = points[far]
+        now = now[far]
+        more = now - outside(self.before[side], points)
+        bared = more > config.visible_m
+        hidden = self.jointed & self._in_the_other(side, points[bared])
+        untouched = now > config.gap_m
+        added = (untouched & (more > SHAVED_M)).any()
+        return (
+            float((~hidden).sum()) / SPREAD,
+            float(bared.sum()) / SPREAD,
+            float(untouched.sum()) / SPREAD if added else 0.0,
+        )
+
+    def _in_the_other(self, side: int, points: FloatArray) -> BoolArray:
+        """Tell which points of one lie in the other, or as near as they may come to it, [n]."""
+        return outside(self.before[1 - side], points) < self.bodies.config.clearance_m
 
     def overdone(self, losses: Sequence[Loss]) -> str | None:
         """Return why a cut takes too much, or what can be seen; ``None`` if it does neither."""
@@ -272,8 +321,8 @@ class PartPair:
         A share of what their hinge holds, or of the lesser one.
         """
         parts = [joint.child for joint in self.hinges] or self.parts
-        sizes = [each.diagonal for part in parts if (each := self.bodies.surfaces[part])]
-        return trimmed_limit(self.bodies.config, min(sizes, default=0.0))
+        least = min(self.bodies.surfaces[part].diagonal for part in parts)
+        return trimmed_limit(self.bodies.config, least)
 
     @cached_property
     def _free_m(self) -> float:

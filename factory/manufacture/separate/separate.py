@@ -16,8 +16,8 @@ from ..decompose.merge import merge
 from ..decompose.pieces import SolidPieces
 from ..repair import Pair
 from .along import LEAST_M, Sides, carved_apart_along, cut_apart_along, hull_depth
-from .budget import SHAVED_M, Loss, too_bare
-from .pair import PartPair, Workpieces
+from .budget import Loss, too_bare
+from .pair import SHAVED_M, PartPair, Workpieces
 
 #: A part of whose surface planes would bare more than this is kept whole in a socket that takes so
 #: little of what is seen around it, as deep as what may be cut back or this share of the part's
@@ -146,10 +146,10 @@ class _CutPair:
         """Tell whether only the rim of a socket is cut off what can be seen."""
         config = self.pair.bodies.config
         surfaces = [self.pair.bodies.surfaces[part] for part in self.pair.parts]
-        deep = [SOCKET_DEEP * each.diagonal if each else 0.0 for each in surfaces]
         return self.bare_area <= SOCKET_SHARE and all(
-            lost.area <= SOCKET_RIM and lost.deepest_m <= max(config.planed_m, most)
-            for lost, most in zip(self.losses, deep, strict=True)
+            lost.area <= SOCKET_RIM
+            and lost.deepest_m <= max(config.planed_m, SOCKET_DEEP * surface.diagonal)
+            for lost, surface in zip(self.losses, surfaces, strict=True)
         )
 
 

@@ -8,6 +8,7 @@ from scipy.spatial import cKDTree
 
 from ...mesh import BoolArray, FloatArray
 from ..decompose.convex import hull_of, limit_vertices
+from ..poses import arms_from
 from .box import Box
 from .carve import block_insides, surface_points
 from .knobs import clear_of_bumps, give_way, keep_clear
@@ -74,9 +75,7 @@ def hang_panels(work: Workpiece) -> None:
         standing = _cells(work, 0, points)
         moved, rule = hung(panel, joint, slab, standing, work.lattice)
         if rule != "given":
-            off = moved.origin - joint.origin
-            off = off - joint.axis * float(off @ joint.axis)
-            distance = float(np.linalg.norm(off))
+            distance = float(np.linalg.norm(arms_from(joint, moved.origin[None])))
             if distance > MOVED_M:
                 work.notes.append(
                     f"the hinge of {work.name(part)!r} was moved by {1000 * distance:.0f} mm to "

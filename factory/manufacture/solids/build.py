@@ -21,7 +21,6 @@ from ...runtime.store import digest_bytes
 from ...views.raster import Side
 from ...views.view import elevation
 from ..decompose.pieces import SolidPieces
-from ..poses import held_by
 from .body import hang_panels, make_body, make_rest, share_out
 from .carve import carve_panel, hollow_behind, make_slab, planes_of_panels
 from .clear import cleared
@@ -157,8 +156,7 @@ def _prepared(
     others = [part for part in range(1, len(articulation.parts)) if part not in panels]
     others = [part for part in others if len(articulation.parts[part].faces)]
     bumps, rest = recognize_bumps(articulation, others)
-    hosts = {part: held_by(articulation, part) or 0 for part in bumps}
-    skin = cut_bases(skin, bumps, hosts)
+    skin = cut_bases(skin, bumps, articulation)
     joints = list(articulation.joints)
     planes: list[list[float]] = [[], [], []]
     for axis, at in (*planes_of_panels(panels, joints, config), *planes_of_bumps(bumps, joints)):

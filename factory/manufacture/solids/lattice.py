@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from ...mesh import BoolArray, FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, Mesh
 from ...views.crossings import crossings
 from ...views.raster import Raster, Side
 from .box import Box
@@ -51,11 +51,9 @@ class Lattice:
             wanted = np.unique(np.round(planes[axis], 6))
             shred = SHRED * step
             wanted = wanted[(wanted > even[0] + shred) & (wanted < even[-1] - shred)]
-            if len(wanted):
-                near = np.abs(even[:, None] - wanted[None]).min(axis=1) < CROWDED * step
-                near[[0, -1]] = False
-                even = even[~near]
-            lines.append(np.sort(np.concatenate([even, wanted])))
+            off = np.abs(even[:, None] - wanted[None]).min(axis=1, initial=np.inf)
+            off[[0, -1]] = np.inf
+            lines.append(np.sort(np.concatenate([even[off >= CROWDED * step], wanted])))
         return cls(tuple(lines))
 
     @property
@@ -117,11 +115,6 @@ class Lattice:
         inside = beside & (middles[axis] > low) & (middles[axis] < high)
         return np.asarray(np.moveaxis(inside, -1, axis))
 
-    def corners(self, at: npt.NDArray[np.int64], span: Span) -> FloatArray:
-        """Return the places of cells' corners in a span, given by their indices [m], [n, 3]."""
-        first = [part.start for part in span]
-        return np.column_stack([line[at[:, i] + first[i]] for i, line in enumerate(self.lines)])
-
     def centers(self, cells: npt.NDArray[np.int64]) -> FloatArray:
         """Return the centres [m] of cells given by their indices, shape [n, 3]."""
         return np.column_stack([self.middles[axis][cells[:, axis]] for axis in range(3)])
@@ -167,22 +160,13 @@ def _wound(mesh: Mesh, lattice: Lattice, axis: int, side: Side) -> BoolArray:
     step = min(float(np.median(np.diff(each))) for each in lattice.lines) * FINER
     raster = Raster.around(mesh, side, int(np.clip(longest / step, 64, 400)))
     crossed = crossings(mesh, raster)
-    along = lattice.middles[axis]
+    middles = list(lattice.middles)
+    along = middles[axis]
+    middles[axis] = np.zeros(1)
     place = np.searchsorted(along, crossed.depth + raster.near)
     count = np.zeros((raster.rows * raster.columns, len(along) + 1), dtype=np.int16)
     np.add.at(count, (crossed.pixel, place), np.where(crossed.inward, 1, -1).astype(np.int16))
     inside = (np.cumsum(count, axis=1)[:, :-1] > 0).reshape(raster.rows, raster.columns, -1)
-    right, right_index = _nearest(
-        lattice, side.frame[0], raster.low[0], raster.pixel, raster.columns
-    )
-    up, up_index = _nearest(lattice, side.frame[1], raster.low[1], raster.pixel, raster.rows)
-    chosen = inside[np.ix_(up_index, right_index)]
-    return np.transpose(chosen, np.argsort([up, right, axis]))
-
-
-def _nearest(
-    lattice: Lattice, direction: FloatArray, low: float, pixel: float, count: int
-) -> tuple[int, IntArray]:
-    axis = int(np.abs(direction).argmax())
-    at = lattice.middles[axis] * direction[axis]
-    return axis, np.clip(np.rint((at - low) / pixel).astype(np.int64), 0, count - 1)
+    columns = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1).squeeze(axis)
+    at = raster.nearest(columns.reshape(-1, 3) @ side.frame.T)
+    return np.moveaxis(inside[at].reshape(*columns.shape[:2], -1), -1, axis)

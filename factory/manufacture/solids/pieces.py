@@ -132,7 +132,8 @@ def _corners(matter: Matter, span: Span) -> FloatArray:
     """Return corners of cells that touch the matter and lie within the mesh [m]."""
     deep = matter.deep[tuple(slice(part.start, part.stop + 1) for part in span)]
     touching = any_around(matter.solid[span]) & deep
-    return matter.lattice.corners(np.argwhere(_ends(touching)), span)
+    at = np.argwhere(_ends(touching)) + [part.start for part in span]
+    return np.column_stack([line[at[:, axis]] for axis, line in enumerate(matter.lattice.lines)])
 
 
 def _ends(corners: BoolArray) -> BoolArray:

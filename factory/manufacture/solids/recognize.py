@@ -13,7 +13,7 @@ from ...geometry.triangles import doubled_normals
 from ...mesh import BoolArray, FloatArray
 from ...views.raster import Side, side_facing
 from ...views.view import View
-from ..poses import joints_above
+from ..poses import held_by, joints_above
 from .bump import Bump, find_bump
 from .panel import BESIDE_M, FlatPanel, ended_at, find_panel, opens
 from .seam import CutSkin, cut
@@ -138,13 +138,12 @@ def recognize_bumps(
     articulation: Articulation, parts: list[int]
 ) -> tuple[dict[int, Bump], list[int]]:
     """Return the knobs, buttons and wheels among some parts; and those that are none."""
-    mesh = articulation.mesh
-    edges, both = border(mesh, face_parts(articulation))
+    edges, both = border(articulation.mesh, face_parts(articulation))
     bumps: dict[int, Bump] = {}
     rest: list[int] = []
     for index in parts:
-        points = mesh.vertices[np.unique(mesh.faces[articulation.parts[index].faces])]
-        rim = mesh.vertices[np.unique(edges[(both == index).any(axis=1)])]
+        rim = articulation.mesh.vertices[np.unique(edges[(both == index).any(axis=1)])]
+        points = articulation.part_mesh(index).vertices
         bump = find_bump(points, rim, articulation.joints[index - 1])
         if bump is None:
             rest.append(index)
@@ -153,7 +152,7 @@ def recognize_bumps(
     return bumps, rest
 
 
-def cut_bases(skin: CutSkin, bumps: dict[int, Bump], hosts: dict[int, int]) -> CutSkin:
+def cut_bases(skin: CutSkin, bumps: dict[int, Bump], articulation: Articulation) -> CutSkin:
     """Return the mesh cut where knobs begin; faces below belong to the part that carries them."""
     for index, bump in bumps.items():
         if bump.normal is None:
@@ -162,5 +161,6 @@ def cut_bases(skin: CutSkin, bumps: dict[int, Bump], hosts: dict[int, int]) -> C
         skin = cut(skin, bump.normal, bump.base, own)
         below = (skin.part == index) & (skin.middles @ bump.normal < bump.base)
         if not below.all():
-            skin = replace(skin, part=np.where(below, hosts[index], skin.part))
+            host = held_by(articulation, index) or 0
+            skin = replace(skin, part=np.where(below, host, skin.part))
     return skin

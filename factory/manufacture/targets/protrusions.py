@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy import ndimage
 
 from ...geometry.edges import label_linked
 from ...geometry.rows import distinct_rows
@@ -53,10 +54,9 @@ def protrusions(moving: Moving, outward: FloatArray) -> list[IntArray]:
     level, tolerance = _panel(shape, outward, height)
     standing = height.mean(axis=1) > level + tolerance
     label = component_labels(shape.welded)
-    lowest = np.full(label.max() + 1, np.inf)
-    highest = np.full(label.max() + 1, -np.inf)
-    np.minimum.at(lowest, label, height.min(axis=1))
-    np.maximum.at(highest, label, height.max(axis=1))
+    numbers = np.arange(label.max() + 1)
+    lowest = ndimage.minimum(height.min(axis=1), label, numbers)
+    highest = ndimage.maximum(height.max(axis=1), label, numbers)
     # A component of its own that starts at the panel is a handle down to its foot.
     on_top = (lowest > level - tolerance) & (highest > level + 2.0 * tolerance)
     candidates = np.flatnonzero(standing | on_top[label])

@@ -4,22 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from held_parts import mesh_of
+from held_parts import CONFIG, PAIR, held
 from manifold3d import Manifold
 from plain_solids import sized_hull
 
-from asset_factory.factory.config import SeparateConfig
+from asset_factory.factory.articulation import Joint
 from asset_factory.factory.manufacture.decompose.solids import thickness_m
-from asset_factory.factory.manufacture.separate.budget import (
-    CutSide,
-    Loss,
-    SeenSurface,
-    overdone,
-    too_bare,
-)
+from asset_factory.factory.manufacture.separate.budget import Loss, overdone, too_bare
 from asset_factory.factory.manufacture.separate.clip import SHEET_M, clipped
+from asset_factory.factory.manufacture.separate.pair import PartPair, Workpieces
 
-CONFIG = SeparateConfig()
 LIMITS = {"free_m": 0.006, "trimmed_m": 0.025}
 NOTHING = Loss("flap", *[0.0] * 7)
 
@@ -49,21 +43,21 @@ def test_a_part_may_not_be_bared_over_more_than_its_share():
     assert "bare 6%" in judged(replace(NOTHING, area=0.06), solid=False)
 
 
-def plate():
-    """A plate of 600 x 200 x 2 mm, and how it is seen."""
-    whole = sized_hull((0.6, 0.2, 0.002))
-    return whole, SeenSurface.of(mesh_of([whole]))
+PLATE = sized_hull((0.6, 0.2, 0.002))
+FAR = sized_hull((0.1, 0.1, 0.1), (0, 0, 5))
+TREE = held([PLATE], [FAR], Joint("slide", "prismatic", 0, 1, [0, 0, 1], [0, 0, 0], 0.0, 0.1))
 
 
-def lost_by(surface, before, after):
-    return CutSide("flap", surface, [before], (), False, (), CONFIG).loss([after])
+def lost_by(before, after):
+    """What a plate of 600 x 200 x 2 mm loses of what can be seen."""
+    bodies = Workpieces(TREE, [[before], [FAR]], CONFIG)
+    return PartPair.of(bodies, PAIR).losses(([after], [FAR]))[0]
 
 
 def test_a_plate_cut_to_a_knife_s_edge_is_bared_though_no_plane_cuts_deep():
-    whole, surface = plate()
     # From the upper edge of one end down to the middle of the lower face.
     normal = np.array([0.002, 0.0, 0.3]) / np.hypot(0.002, 0.3)
-    lost = lost_by(surface, whole, clipped(whole, normal, float(normal @ [0.0, 0.0, -0.001])))
+    lost = lost_by(PLATE, clipped(PLATE, normal, float(normal @ [0.0, 0.0, -0.001])))
     assert lost.bared_m == pytest.approx(0.004, abs=1e-4)
     assert lost.area == pytest.approx(0.295 / 0.6, abs=0.03)
     assert lost.untouched == pytest.approx(0.29 / 0.6, abs=0.03)
@@ -71,17 +65,17 @@ def test_a_plate_cut_to_a_knife_s_edge_is_bared_though_no_plane_cuts_deep():
 
 
 def test_cuts_that_take_a_little_each_may_not_bare_much_together():
-    left, surface = plate()
+    left = PLATE
     told = []
     for normal, end in (((1, 0), 0.268), ((-1, 0), 0.268), ((0, 1), 0.086), ((0, -1), 0.086)):
         cut = clipped(left, np.array([*normal, 0.0]), end)
-        lost = lost_by(surface, left, cut)
+        lost = lost_by(left, cut)
         assert lost.area < CONFIG.planed_area
         told.append(too_bare([lost], CONFIG) is not None)
         left = cut
     assert told == [False, False, False, True]
     # What was bare before is no fault of a cut that bares nothing.
-    assert too_bare([lost_by(surface, left, left)], CONFIG) is None
+    assert too_bare([lost_by(left, left)], CONFIG) is None
 
 
 def test_a_thin_board_counts_as_a_sheet_and_a_thick_one_does_not():

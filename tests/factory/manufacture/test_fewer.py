@@ -11,6 +11,7 @@ from asset_factory.factory.config import BuildConfig, DecomposeConfig, HullsConf
 from asset_factory.factory.manufacture.decompose.fewer import fewer
 from asset_factory.factory.manufacture.decompose.outside import uncovered
 from asset_factory.factory.manufacture.decompose.pieces import SolidPieces
+from asset_factory.factory.manufacture.decompose.room import NOWHERE
 from asset_factory.factory.manufacture.plan import Plan
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.factory.runtime.store import Store
@@ -19,7 +20,7 @@ from asset_factory.learn.objects import make_object
 
 def joined(pieces, most, coarsest, store=None):
     hulls = HullsConfig(wanted=most, most=most, coarsest=coarsest)
-    return fewer(pieces, hulls, Stages(BuildConfig(), store))
+    return fewer(pieces, hulls, Stages(BuildConfig(), store), lambda part: NOWHERE)
 
 
 def comb(teeth, gap_m):

@@ -8,6 +8,7 @@ from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.export.bundle import export_bundle
 from asset_factory.factory.intake.intake import Provenance
 from asset_factory.factory.manufacture.decompose.decompose import decompose
+from asset_factory.factory.manufacture.decompose.room import rooms_of
 from asset_factory.factory.manufacture.inertia import part_inertial
 from asset_factory.factory.runtime.stages import Stages
 from asset_factory.learn.objects import make_object
@@ -20,7 +21,8 @@ def made(category: str, seed: int, suffix: str) -> Callable[[Path], Path]:
         articulation = make_object(category, seed)
         config = BuildConfig()
         bodies = []
-        for index, piece in enumerate(decompose(articulation, Stages(config))):
+        pieces = decompose(articulation, Stages(config), rooms_of(articulation))
+        for index, piece in enumerate(pieces):
             mesh = articulation.part_mesh(index)
             inertial = part_inertial(mesh, piece.hulls, config.inertia.density, config.inertia)
             bodies.append(PartBody(piece.hulls, inertial, None, piece.method))
