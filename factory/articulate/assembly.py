@@ -46,28 +46,30 @@ def assembled(
     parts = [Part("base", np.flatnonzero(face_part == 0), kind=PartKind.BODY)]
     joints: list[Joint] = []
     notes: list[str] = []
-    order = _parents_first(held)
+
+    def depth(number: int) -> int:
+        return 0 if number == 0 else 1 + depth(held[number - 1])
+
+    order = sorted(range(1, len(held) + 1), key=depth)
     names = _names([proposals[number - 1] for number in order])
     for number, name in zip(order, names, strict=True):
         proposal = proposals[number - 1]
         if proposal.slide is not None:
             parts.append(Part(f"{name}_carrier", np.zeros(0, np.int64), proposal.existence))
         place[number] = len(parts)
-        parts.append(_part(name, np.flatnonzero(face_part == number), proposal))
+        parts.append(
+            Part(
+                name,
+                np.flatnonzero(face_part == number),
+                proposal.existence,
+                kind=proposal.kind,
+                panel=proposal.panel,
+                source=proposal.source,
+            )
+        )
         joints += _joints(name, proposal, place[held[number - 1]], place[number])
         notes += [f"{name} {note}" for note in proposal.notes]
     return Articulation(mesh, tuple(parts), tuple(joints), articulator, tuple(notes))
-
-
-def _part(name: str, faces: IntArray, proposal: Proposal) -> Part:
-    return Part(
-        name,
-        faces,
-        proposal.existence,
-        kind=proposal.kind,
-        panel=proposal.panel,
-        source=proposal.source,
-    )
 
 
 def _joints(name: str, proposal: Proposal, holder: int, part: int) -> Iterator[Joint]:
@@ -87,19 +89,6 @@ def _joints(name: str, proposal: Proposal, holder: int, part: int) -> Iterator[J
             confidence=proposal.probability,
         )
         parent = child
-
-
-def _parents_first(hosts: Sequence[int]) -> list[int]:
-    """Return the numbers of the parts, from 1, each after what it hangs on."""
-    order: list[int] = []
-    waiting = list(range(1, len(hosts) + 1))
-    while waiting:
-        ready = [
-            number for number in waiting if hosts[number - 1] == 0 or hosts[number - 1] in order
-        ]
-        order += ready
-        waiting = [number for number in waiting if number not in ready]
-    return order
 
 
 def _names(proposals: Sequence[Proposal]) -> list[str]:

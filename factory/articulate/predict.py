@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..articulation import Articulation, Joint, Part
+from ..articulation import Joint, Part
 from ..config import BuildConfig
 from ..errors import InputRejected
 from ..intake.source import Source
@@ -19,6 +19,8 @@ from .standing import standing_hypotheses
 
 def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
     """Return the moving parts of one input, as JSON data: metres, radians, object frame (z up).
+
+    Lengths and angles are rounded to a nanometre.
 
     Args:
         source: a mesh, URDF or MJCF file.
@@ -35,21 +37,16 @@ def predict(source: Path, config: BuildConfig) -> dict[str, Any]:
         told_of = ("code", "message", "value", "unit", "limit")
         reason = {name: getattr(rejection.finding, name) for name in told_of}
         return {"input": source.name, "rejected": reason}
-    told = outline(likeliest)
-    return {"input": source.name, **told, "notes": [*intake.provenance.notes, *told["notes"]]}
-
-
-def outline(articulation: Articulation) -> dict[str, Any]:
-    """Return an articulation as JSON data, rounded to a nanometre."""
-    names = [part.name for part in articulation.parts]
+    names = [part.name for part in likeliest.parts]
     return {
-        "articulator": articulation.articulator,
+        "input": source.name,
+        "articulator": likeliest.articulator,
         "weights": [
-            {"file": w.file, "digest": w.digest, "license": w.license} for w in articulation.weights
+            {"file": w.file, "digest": w.digest, "license": w.license} for w in likeliest.weights
         ],
-        "parts": [_part(part, articulation.mesh) for part in articulation.parts],
-        "joints": [_joint(joint, names) for joint in articulation.joints],
-        "notes": list(articulation.notes),
+        "parts": [_part(part, likeliest.mesh) for part in likeliest.parts],
+        "joints": [_joint(joint, names) for joint in likeliest.joints],
+        "notes": [*intake.provenance.notes, *likeliest.notes],
     }
 
 

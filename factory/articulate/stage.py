@@ -54,14 +54,6 @@ WAY_FORWARD = (
 )
 
 
-def articulate(intake: Intake, config: BuildConfig) -> Articulation:
-    """Return the likeliest kinematic tree of a loaded input, asked anew.
-
-    Arguments and errors as for :func:`hypotheses_of`.
-    """
-    return hypotheses_of(intake, config)[0]
-
-
 def hypotheses_of(intake: Intake, config: BuildConfig) -> tuple[Articulation, ...]:
     """Return the kinematic trees that a loaded input may have, the likeliest first; asked anew.
 

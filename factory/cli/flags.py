@@ -155,7 +155,8 @@ def input_config(flags: InputFlags, *, here: bool = True) -> BuildConfig:
     require_usable(particulate, needed=flags.articulator == "particulate")
     vlm = replace(config.vlm, url=flags.vlm_url or config.vlm.url)
     vlm = replace(vlm, model=flags.vlm_model or vlm.model)
-    require_endpoint(vlm, needed=flags.articulator == "vlm")
+    if flags.articulator == "vlm":
+        require_endpoint(vlm)
     return replace(
         config, articulator=flags.articulator, intake=intake, particulate=particulate, vlm=vlm
     )

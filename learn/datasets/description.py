@@ -7,7 +7,7 @@ import sqlite3
 from collections.abc import Sequence
 from pathlib import Path
 
-from asset_factory.factory.articulate.stage import articulate
+from asset_factory.factory.articulate.stage import hypotheses_of
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import ConfigError, RegistryError
@@ -27,7 +27,8 @@ PARTNET_MAIN = "mobility.urdf"
 
 def read_description(item: SourceItem, settings: SourceSettings) -> Articulation:
     """Return one object, fixed parts joined to parents, lower = closed. Raises InputRejected."""
-    return articulate(load(item.main, settings.intake), BuildConfig(articulator="annotated"))
+    (found,) = hypotheses_of(load(item.main, settings.intake), BuildConfig(articulator="annotated"))
+    return found
 
 
 def find_descriptions(root: Path) -> tuple[SourceItem, ...]:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from asset_factory.factory.articulate.stage import articulate
+from asset_factory.factory.articulate.stage import hypotheses_of
 from asset_factory.factory.articulation import Articulation
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.errors import InputRejected
@@ -38,7 +38,7 @@ def read_prediction_item(item: SourceItem, settings: SourceSettings) -> Articula
             wanted = f"want {item.main.stem}.pred.npz"
             raise InputRejected("no_annotation", f"{item.main.name}: has no labels; {wanted}")
         intake = replace(intake, annotation_path=labels)
-    return articulate(intake, BuildConfig(articulator="annotated"))
+    return hypotheses_of(intake, BuildConfig(articulator="annotated"))[0]
 
 
 def labels_beside(mesh: Path, files: Sequence[Path]) -> Path | None:

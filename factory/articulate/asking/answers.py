@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 from pathlib import Path
 
-from msgspec import ValidationError, convert, to_builtins
+from msgspec import DecodeError, to_builtins
+from msgspec.json import decode
 
 from ...config import VlmConfig
 from ...runtime.store import write_json
@@ -30,8 +30,8 @@ def kept_answer(path: Path) -> Reply | None:
     try:
         if path.stat().st_size > MOST_BYTES:
             return None
-        return convert(json.loads(path.read_bytes()), Reply)
-    except (OSError, ValueError, RecursionError, ValidationError):
+        return decode(path.read_bytes(), type=Reply)
+    except (OSError, DecodeError, RecursionError):
         return None
 
 

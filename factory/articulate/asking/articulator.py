@@ -88,7 +88,7 @@ def articulator_for(intake: Intake, config: BuildConfig) -> Articulator:
     annotated = annotated_articulator(intake)
     if annotated is not None:
         return annotated
-    require_endpoint(config.vlm, needed=True)
+    require_endpoint(config.vlm)
     return VlmArticulator(intake.provenance.input, config.vlm)
 
 

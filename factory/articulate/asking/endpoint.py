@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import time
 from collections.abc import Sequence
@@ -10,7 +9,8 @@ from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
-from msgspec import Struct, ValidationError, convert
+from msgspec import DecodeError, Struct
+from msgspec.json import decode
 
 from asset_factory.sim_checks import Finding
 from asset_factory.sim_checks.report import OUT_OF_TIME, Severity
@@ -64,10 +64,8 @@ class Reply(Struct, frozen=True):
     written: int
 
 
-def require_endpoint(config: VlmConfig, *, needed: bool) -> None:
-    """Raise ConfigError where a model is to be asked and nobody says which, or where."""
-    if not needed:
-        return
+def require_endpoint(config: VlmConfig) -> None:
+    """Raise ConfigError where nobody says which model is to be asked, or where."""
     parts = urlsplit(config.url)
     if parts.scheme not in ("http", "https") or not parts.hostname:
         raise ConfigError(f"--vlm-url must be http(s)://host/v1, not {config.url!r}")
@@ -154,8 +152,8 @@ def _post(
 def _reply(answer: bytes) -> Reply:
     """Return what a completion says; nothing where it is none, or longer than allowed."""
     try:
-        completion = convert(json.loads(answer), _Completion)
-    except (ValueError, RecursionError, ValidationError):
+        completion = decode(answer, type=_Completion)
+    except (DecodeError, RecursionError):
         return Reply("", 0, 0)
     usage = completion.usage or _Usage()
     text = completion.choices[0].message.content if completion.choices else None

@@ -20,6 +20,7 @@ from ..articulator import Articulator
 from ..assembly import assembled
 from ..geometric import GeometricArticulator
 from ..origin import MeshOrigin
+from ..particulate import load_articulator
 from ..proposal import Proposal
 from ..rigid import rigid_articulation
 from ..seams.knobs import knobs_of
@@ -103,7 +104,7 @@ class AutoArticulator:
         left = [proposal for proposal in rated if proposal.rated < least]
         notes: tuple[str, ...] = ()
         if left:
-            best = max(proposal.rated for proposal in left)
+            best = left[0].rated
             what = "1 part that may move was"
             if len(left) > 1:
                 what = f"{len(left)} parts that may move were"
@@ -157,8 +158,6 @@ def _guess(config: BuildConfig) -> Articulator:
 
         guess = load_auto(config.particulate, config.auto)
         return DetectedArticulator(guess, config.auto.least_confidence)
-    from ..particulate import load_articulator
-
     return load_articulator(config.particulate)
 
 
@@ -170,8 +169,6 @@ def load_auto(
     Raises:
         ConfigError: its weights cannot be read, or a setting cannot be.
     """
-    from ..particulate import load_articulator
-
     if not 1 <= config.views <= MOST_VIEWS:
         raise ConfigError(f"views must be 1 to {MOST_VIEWS}, not {config.views}")
     settings = replace(particulate, points=config.points, context_points=config.context_points)

@@ -32,11 +32,6 @@ class Sharing:
     chosen: tuple[int, ...]
     hosts: tuple[int, ...]
 
-    @property
-    def parents(self) -> IntArray:
-        """Return the part that each part hangs on, what stays first with -1, shape [part_count]."""
-        return np.array([-1, *self.hosts], dtype=np.int64)
-
 
 def share_out(parts: Sequence[BoolArray], areas: FloatArray) -> Sharing:
     """Return the faces shared out, first come first served; what stays keeps at least one face.

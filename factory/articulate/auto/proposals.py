@@ -100,7 +100,7 @@ def copies_of(mesh: Mesh, proposals: Sequence[Proposal]) -> list[list[int]]:
 
 def _judged(mesh: Mesh, areas: FloatArray, learned: tuple[LearnedPart, ...]) -> list[_Judged]:
     sharing = share_out([part.faces for part in learned], areas)
-    partition = Partition(mesh, sharing.face_part, sharing.parents)
+    partition = Partition(mesh, sharing.face_part, np.array([-1, *sharing.hosts]))
     return [
         _Judged(
             part=replace(learned[index], faces=sharing.face_part == number),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import structs
@@ -16,6 +15,7 @@ from ...geometry.welding import welded
 from ...intake.stated import Hinge, Stated, StatedAlternative, StatedKind, StatedPart
 from ...mesh import Mesh
 from ...models.detector.canvas import Sort, look_at
+from ...models.detector.detect import Detection, detect, detector_weights
 from ...part import PartKind, Proposer
 from ...views.raster import Side
 from ..articulator import Articulator, HypothesisMaker
@@ -33,9 +33,6 @@ from .open_panels import open_panels, reopened, with_closed
 from .panels import panels_of
 from .rating import CARRIED, CellParts, by_rules, support_of_box
 from .screens import open_screen
-
-if TYPE_CHECKING:
-    from ...models.detector.detect import Detection
 
 #: Lids of a side with a lower score are not looked at.
 LEAST_SCORE = 0.5
@@ -89,8 +86,6 @@ class DetectedArticulator(HypothesisMaker):
 
     def _articulations(self, mesh: Mesh) -> tuple[Articulation, ...]:
         """Return the articulations that a mesh may have whose sides look along the axes."""
-        from ...models.detector.detect import detect
-
         detection = detect(mesh)
         sure_kind = detection.kind if detection.kinds.max() >= SURE_KIND else None
         if sure_kind == LAPTOP and (made := _with_screen(mesh, float(detection.kinds.max()))):
@@ -123,9 +118,10 @@ class DetectedArticulator(HypothesisMaker):
         cells = CellParts.of(guess, faces)
         beside = [part for part in sure if not any(cells.has_moving(f) for f in part.found)]
         guess = welded(guess, _pulls(cells, beside))
-        made = [*self._with(guess, beside), *([guess] if moves else [])]
+        shown = seen if guess.mesh is mesh else SeenMesh.of(guess.mesh)
+        made = [*self._with(guess, beside, shown), *([guess] if moves else [])]
         if not made or 0 < len(guess.movable_joints) < len(sure):
-            made += self._with(rigid_articulation(mesh, self.name, ()), sure)
+            made += self._with(rigid_articulation(mesh, self.name, ()), sure, seen)
         made = [without_backs(each, detection.kind) for each in made]
         moving = [with_closed_hinges(with_whole_drawers(e)) for e in made if e.movable_joints]
         told = moving or [self._still(mesh, guess, detection)]
@@ -139,8 +135,6 @@ class DetectedArticulator(HypothesisMaker):
         self, made: Articulation, kind: str | None, notes: tuple[str, ...] = ()
     ) -> Articulation:
         """Return an articulation with who made it, what it looks like and notes."""
-        from ...models.detector.detect import detector_weights
-
         return replace(
             made,
             articulator=self.name,
@@ -215,9 +209,10 @@ class DetectedArticulator(HypothesisMaker):
                 fixed.append(joint.name)
         return welded(_with_chances(guess, chances), fixed), alone or bool(chances)
 
-    def _with(self, guess: Articulation, parts: Sequence[DetectedPart]) -> tuple[Articulation, ...]:
+    def _with(
+        self, guess: Articulation, parts: Sequence[DetectedPart], seen: SeenMesh
+    ) -> tuple[Articulation, ...]:
         """Return a guess with parts beside it; the least sure is left out where they do not fit."""
-        seen = SeenMesh.of(guess.mesh)
         for count in range(len(parts), 0, -1):
             chosen = parts[:count]
             stated = StatedArticulator(
@@ -281,10 +276,11 @@ def _with_chances(guess: Articulation, chances: Mapping[int, float]) -> Articula
 def _misplaced(cells: CellParts, sure: Sequence[DetectedPart]) -> list[str]:
     """Return the joints that are elsewhere than all sides of a lid in their place agree on."""
     guess = cells.articulation
+    # One whose sides do not agree has another hinge to try.
     lids = [
-        (part, Side(hinge))
+        (part, Side(part.stated.hinge))
         for part in sure
-        if part.stated.kind is StatedKind.LID and part.agreed and (hinge := part.stated.hinge)
+        if part.stated.kind is StatedKind.LID and part.stated.hinge and not part.stated.alternatives
     ]
     return [
         joint.name

@@ -46,11 +46,6 @@ class DetectedPart:
     found: tuple[Found, ...]
     probability: float = 1.0
 
-    @property
-    def agreed(self) -> bool:
-        """Tell whether its sides agree on its hinge: else it has another to try."""
-        return not self.stated.alternatives
-
 
 def seen_parts(found: Sequence[Found], extents: FloatArray) -> tuple[DetectedPart, ...]:
     """Return the parts that are seen, each once.

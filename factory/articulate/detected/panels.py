@@ -65,8 +65,7 @@ def _panel_in(box: FloatArray, side: Side, dense: Dense) -> Found | None:
     sorts = expit(dense.sort[view][:, cells]).mean(axis=1)
     ways = softmax(dense.way[view][:, cells], axis=0).mean(axis=1)
     sort = SORTS[int(sorts[:OPENING].argmax())]
-    opened = float(np.clip(dense.opened[view][cells], 0.0, 1.0).mean())
-    found = Found(side, box, sort, 0.0, sorts, ways, opened)
+    found = Found(side, box, sort, 0.0, ways)
     if sort not in PANELS or (support := support_of_box(found, dense)) < LEAST_SUPPORT:
         return None
     return replace(found, score=support)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import expit
@@ -13,10 +12,8 @@ from ...geometry.posing import face_parts
 from ...mesh import BoolArray, FloatArray, IntArray
 from ...models.detector.canvas import CANVAS, OPENING, SIDES, STRIDE, Sort
 from ...models.detector.decode import Dense, Found
+from ...models.detector.detect import Detection
 from ...part import Part, PartKind, Proposer
-
-if TYPE_CHECKING:
-    from ...models.detector.detect import Detection
 
 #: These kinds of part come and go with others that move.
 CARRIED = frozenset({PartKind.KNOB, PartKind.BUTTON, PartKind.RACK, PartKind.TURNTABLE})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...intake.stated import Hinge, StatedKind, StatedPart
-from ...mesh import FloatArray, Mesh
+from ...mesh import Mesh
 from ...views.raster import side_facing
 from ..evidence.surfels import WHOLE, spread
 from ..seams.fronts import OPPOSITE
@@ -42,16 +42,13 @@ def open_screen(mesh: Mesh) -> StatedPart | None:
     _, spans, axes = np.linalg.svd(screen - middle, full_matrices=False)
     if spans[2] > THICKEST * spans[1] or abs(axes[2, 2]) > LYING:
         return None
-    foot, up = _rising(middle, axes[2], float(low[2] + first / LEVELS * (high[2] - low[2])))
+    # Up along the plate, and where it begins straight below its middle.
+    up = np.array([0.0, 0.0, 1.0]) - axes[2, 2] * axes[2]
+    up /= np.linalg.norm(up)
+    height = float(low[2] + first / LEVELS * (high[2] - low[2]))
+    foot = middle - (middle[2] - height) / up[2] * up
     side = side_facing((foot - points[level < first].mean(axis=0)) * [1.0, 1.0, 0.0])
     opened = float(np.degrees(np.arccos(up @ side.frame[2])))
     # From across, the base's top is a step in depth before the screen.
     box = (0.0, first / LEVELS, 1.0, 1.0)
     return StatedPart(StatedKind.LID, OPPOSITE[side], box, Hinge(side), drawn=opened)
-
-
-def _rising(middle: FloatArray, normal: FloatArray, height: float) -> tuple[FloatArray, FloatArray]:
-    """Return the point of a plane at a height [m] straight below its middle, and its way up."""
-    up = np.array([0.0, 0.0, 1.0]) - normal[2] * normal
-    up /= np.linalg.norm(up)
-    return middle - (middle[2] - height) / up[2] * up, up

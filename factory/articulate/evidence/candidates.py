@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from enum import IntEnum
 
 import numpy as np
@@ -62,13 +62,7 @@ class Candidates:
 
     def at(self, rows: IntArray | Sequence[int]) -> Candidates:
         """Return some of them, in that order."""
-        return Candidates(
-            self.slides[rows],
-            self.axis[rows],
-            self.origin[rows],
-            self.source[rows],
-            self.radius[rows],
-        )
+        return Candidates(*(getattr(self, each.name)[rows] for each in fields(self)))
 
 
 Line = tuple[FloatArray, FloatArray, LineSource, float]

@@ -136,15 +136,12 @@ def _turning(body: Body, look: Look, some: Candidates, gone: Travel) -> dict[str
     values["upright_tall"] = values["upright"] * _clip(np.log(height / max(width, 1e-9)))
     whole = body.partition.mesh.diagonal
     values["small_round"] = float(np.exp(-size / (SMALL * whole))) * values["is_round"]
-    values["free"] = _free_at_first(look, some)
+    # Of the way that the part's middle first goes, along the nearest of the frames' axes.
+    nearest = np.argmax(some_heading(some, look.center) @ look.sides.T, axis=1)
+    values["free"] = look.free[nearest]
     edge = (some.source == LineSource.EDGE).astype(np.float64)
     values["corner"] = edge * (values["one_sided"] > 0.97)
     return values
-
-
-def _free_at_first(look: Look, some: Candidates) -> FloatArray:
-    """Return how free the way from the part's middle is, along the nearest of the frames' axes."""
-    return np.asarray(look.free[np.argmax(some_heading(some, look.center) @ look.sides.T, axis=1)])
 
 
 def _along_rest(body: Body, some: Candidates, along: FloatArray) -> FloatArray:

@@ -34,8 +34,12 @@ class Travel:
 def travel(body: Body, some: Candidates) -> Travel:
     """Try out candidates of one kind."""
     slides = bool(some.slides[0])
-    values = _lengths(body, some)[:, None] * SLIDES if slides else np.tile(TURNS, (len(some), 1))
     points = body.probes.points
+    values = np.tile(TURNS, (len(some), 1))
+    if slides:
+        # Of the part's length that way, or of a fifth of its diagonal.
+        length = np.maximum(np.ptp(points @ some.axis.T, axis=0), 0.2 * body.diagonal)
+        values = length[:, None] * SLIDES
     hits, held = np.zeros((2, len(some), 4))
     outside = np.zeros(len(some))
     for step in range(4):
@@ -77,12 +81,6 @@ def displaced(
     foot = some.origin[:, None] + along[..., None] * some.axis[:, None]
     moved = foot + cos * across + sin * turned
     return moved, headings, radius * np.abs(values)[:, None]
-
-
-def _lengths(body: Body, some: Candidates) -> FloatArray:
-    """Return how far a slide may go [m]: the part's length that way, or a fifth of its diagonal."""
-    extent = np.ptp(body.probes.points @ some.axis.T, axis=0)
-    return np.asarray(np.maximum(extent, 0.2 * body.diagonal))
 
 
 def _outside(body: Body, points: FloatArray) -> FloatArray:

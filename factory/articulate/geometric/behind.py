@@ -43,7 +43,10 @@ def look_behind(scene: Scene, panel: FrontSlab, panels: tuple[FrontSlab, ...]) -
     """Find everything that :class:`FrontFace` says, for one panel among all."""
     if panel.is_box:
         depth = float(scene.extents[panel.slabs[0], FRONT])
-        return FrontFace(panel, panel.pieces, True, depth, _walls_around(scene, panel), False)
+        middle = scene.middle[panel.slabs[0]]
+        back = scene.distances(middle, [(FRONT, 1)], panel.pieces)
+        walls = int(np.isfinite([*_around(scene, middle, panel.pieces), *back]).sum())
+        return FrontFace(panel, panel.pieces, True, depth, walls, False)
     box = np.zeros(0, dtype=np.int64)
     if not panel.has_side_handle:
         box = _drawer_box(scene, panel, panels)
@@ -127,13 +130,6 @@ ACROSS = (0.21, 0.47, 0.78)
 UPWARDS = (0.13, 0.29, 0.46, 0.63, 0.86)
 INSIDE = ((0.5, 0.5), (0.45, 0.36), (0.55, 0.66))
 """Uneven, so that evenly spaced shelves do not meet all rays."""
-
-
-def _walls_around(scene: Scene, panel: FrontSlab) -> int:
-    """Count the sides where something stands around a one-piece drawer."""
-    middle = scene.middle[panel.slabs[0]]
-    back = scene.distances(middle, [(FRONT, 1)], panel.pieces)
-    return int(np.isfinite([*_around(scene, middle, panel.pieces), *back]).sum())
 
 
 def _around(scene: Scene, start: FloatArray, ignored: IntArray) -> FloatArray:

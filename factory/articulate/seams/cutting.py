@@ -82,14 +82,11 @@ def _cut_around(cut: CutMesh, region: Region) -> CutMesh:
     return cut
 
 
-def centred_in(mesh: Mesh, region: Region) -> BoolArray:
-    """Return which triangles have their middle in a region, cut or not, shape [face_count]."""
-    middles = mesh.vertices[mesh.faces].mean(axis=1)
-    return np.asarray((middles @ region.normals.T <= region.offsets).all(axis=1))
-
-
 def inside(mesh: Mesh, region: Region) -> BoolArray:
-    """Return which triangles lie in a region they were cut around, shape [face_count]."""
+    """Return which triangles have their middle in a region, shape [face_count].
+
+    Those that were cut around it lie in it as a whole.
+    """
     within = np.ones(len(mesh.faces), dtype=np.bool_)
     for normal, offset in zip(region.normals, region.offsets, strict=True):
         height = mesh.vertices @ normal - offset

@@ -49,14 +49,14 @@ def knobs_on(relief: Relief, face: Face) -> tuple[OpeningPart, ...]:
         relief: the side.
         face: it without knobs and handles.
     """
-    found = [handle for handle in face.handles if handle.control and _is_knob(handle)]
+    found = [
+        handle
+        for handle in face.handles
+        if handle.control and handle.fill >= FULL and handle.height >= PROUD * handle.size.min()
+    ]
     if not FEWEST <= len(found) <= MOST:
         return ()
     return tuple(_mover(relief, face, knob) for knob in found)
-
-
-def _is_knob(handle: Protrusion) -> bool:
-    return bool(handle.fill >= FULL and handle.height >= PROUD * handle.size.min())
 
 
 def _mover(relief: Relief, face: Face, knob: Protrusion) -> OpeningPart:

@@ -55,13 +55,9 @@ class Relief:
 
         Without slivers that stick out: the ground that an object stands on, a handle, an antenna.
         """
-        ends = [_extent(self.seen.sum(axis=across)) for across in (1, 0)]
+        counts = [self.seen.sum(axis=across) for across in (1, 0)]
+        ends = [np.flatnonzero(each > SLIVER * each.max())[[0, -1]] for each in counts]
         return np.stack(ends, axis=1)
-
-
-def _extent(counts: IntArray) -> IntArray:
-    """Return first and last row that is more than a sliver, shape [2]."""
-    return np.flatnonzero(counts > SLIVER * counts.max())[[0, -1]]
 
 
 def relief_of(view: View) -> Relief:

@@ -23,9 +23,9 @@ from ..assembly import assembled
 from ..proposal import Motion, Proposal
 from ..rigid import rigid_articulation
 from ..seams.cutting import CutMesh, Region, cut_along, inside
-from .boxed import NOT_FOUND, USUAL, label_of
+from .boxed import NOT_FOUND, USUAL, StatedBox, label_of
 from .expecting import count_expected, keep_expected, proposals_on, require_some
-from .placing import Placed, place_parts, stated_unit
+from .placing import place_parts, stated_unit
 from .seen import SeenMesh
 from .wholes import StatedWay
 
@@ -86,12 +86,12 @@ class StatedArticulator(HypothesisMaker):
             return self.hypotheses(guess.mesh)
         return self._beside(guess, self._placed_on(guess.mesh))
 
-    def _placed_on(self, mesh: Mesh) -> list[Placed]:
+    def _placed_on(self, mesh: Mesh) -> list[StatedBox]:
         """Return the stated parts that have a place, found on a mesh."""
         seen = self.seen or SeenMesh.of(mesh, self.stated.front)
         return place_parts(seen, self.stated.parts)
 
-    def _beside(self, guess: Articulation, placed: Sequence[Placed]) -> tuple[Articulation, ...]:
+    def _beside(self, guess: Articulation, placed: Sequence[StatedBox]) -> tuple[Articulation, ...]:
         """Return the placed parts beside those of a guess, cut from the guess's mesh."""
         made = []
         hosts = [joint.parent for joint in guess.joints]
@@ -122,7 +122,7 @@ class StatedArticulator(HypothesisMaker):
     def _articulation(
         self,
         cut: CutMesh,
-        placed: Sequence[Placed],
+        placed: Sequence[StatedBox],
         ways: Sequence[StatedWay],
         guessed: Sequence[Proposal] = (),
         guessed_hosts: Sequence[int] = (),
@@ -212,7 +212,7 @@ def _to_cut(ways: Sequence[StatedWay]) -> Iterator[Region]:
     return (way.mover.region for way in ways if not len(way.faces))
 
 
-def _choices(placed: Sequence[Placed]) -> Iterator[tuple[StatedWay, ...]]:
+def _choices(placed: Sequence[StatedBox]) -> Iterator[tuple[StatedWay, ...]]:
     """Yield one way for each part, those with the fewest unlikely ways first."""
     ways = [range(len(each.ways)) for each in placed]
     # Two ways for each of many parts are too many to sort; the unlikely ones are not tried anyway.
@@ -239,7 +239,7 @@ def _closed(made: Articulation, drawn: Collection[str]) -> Articulation:
     return posed(made, values) if values else made
 
 
-def _hosts(placed: Sequence[Placed], ways: Sequence[StatedWay]) -> list[int]:
+def _hosts(placed: Sequence[StatedBox], ways: Sequence[StatedWay]) -> list[int]:
     """Return the part that carries each, 0 for the body: as stated, else the panel under it."""
     numbers = {each.stated.name: number for number, each in enumerate(placed, start=1)}
     hosts = []
@@ -264,7 +264,7 @@ def _hosts(placed: Sequence[Placed], ways: Sequence[StatedWay]) -> list[int]:
 
 
 def _owners(
-    cut: CutMesh, placed: Sequence[Placed], ways: Sequence[StatedWay], hosts: Sequence[int]
+    cut: CutMesh, placed: Sequence[StatedBox], ways: Sequence[StatedWay], hosts: Sequence[int]
 ) -> IntArray:
     """Return the part of each face, 0 for the body; carried parts claim their faces first.
 

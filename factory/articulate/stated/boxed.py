@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from ...errors import InputRejected
 from ...intake.stated import Hinge, StatedPart, StatedView
@@ -13,6 +13,9 @@ from ...part import OpensBy, PartKind
 from ..seams.fronts import Front
 from ..seams.handles import Protrusion
 from ..seams.rectangles import Rectangle
+
+if TYPE_CHECKING:
+    from .wholes import StatedWay
 
 T = TypeVar("T")
 NOT_FOUND = "stated_part_not_found"
@@ -46,6 +49,7 @@ class StatedBox:
         front: the side of the turned mesh that shows it.
         rectangle: its outline there.
         handle: that it is pulled by, the most prominent one; ``None`` without.
+        ways: in which it may open, the likeliest first; none until it is placed on the mesh.
     """
 
     stated: StatedPart
@@ -54,6 +58,7 @@ class StatedBox:
     front: Front
     rectangle: Rectangle
     handle: Protrusion | None
+    ways: tuple[StatedWay, ...] = ()
 
     @property
     def kind(self) -> PartKind:

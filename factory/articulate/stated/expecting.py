@@ -14,9 +14,8 @@ from ...geometry.welding import welded
 from ...intake.stated import StatedPart
 from ...part import PartKind, Proposer
 from ..proposal import Motion, Proposal
-from ..seams.cutting import CutMesh, centred_in
-from .boxed import NOT_FOUND
-from .placing import Placed
+from ..seams.cutting import CutMesh, inside
+from .boxed import NOT_FOUND, StatedBox
 
 
 def proposals_on(cut: CutMesh, guess: Articulation) -> list[Proposal]:
@@ -66,7 +65,7 @@ def require_some(found: Sequence[Articulation], wanted: Counter[PartKind]) -> li
 
 
 def keep_expected(
-    guess: Articulation, placed: Sequence[Placed], wanted: Counter[PartKind]
+    guess: Articulation, placed: Sequence[StatedBox], wanted: Counter[PartKind]
 ) -> Articulation:
     """Return a guess in which only wanted parts move, most of each not where a placed part is.
 
@@ -79,7 +78,7 @@ def keep_expected(
     """
     taken = np.zeros(len(guess.mesh.faces), dtype=np.bool_)
     for each in placed:
-        taken |= centred_in(guess.mesh, each.ways[0].mover.region)
+        taken |= inside(guess.mesh, each.ways[0].mover.region)
     areas = face_areas(guess.mesh)
     fixed = []
     for joint in guess.joints:

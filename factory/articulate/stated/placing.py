@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from .lids import hinged_inside, lid_openings
 from .seen import SeenMesh
 from .snapping import LEAST_OFF, OFF, StatedFrame, snap
 from .tilting import tilted
-from .wholes import StatedWay, find_outline, way_of
+from .wholes import find_outline, way_of
 
 #: Boxes of two panels of one side may share so much of the smaller one.
 MOST_SHARED = 0.25
@@ -33,29 +33,16 @@ MOST_SHARED = 0.25
 _EDGES_ABOVE = {**EDGES, Hinge.BACK: OpensBy.TOP, Hinge.FRONT: OpensBy.BOTTOM}
 
 
-@dataclass(frozen=True, eq=False)
-class Placed:
-    """A stated part that was found.
+def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[StatedBox]:
+    """Return every stated part that has a box, with at least one way in which it may open.
 
-    Attributes:
-        stated: as somebody said it.
-        label: how messages call it.
-        ways: in which it may open, the likeliest first; at least one.
-    """
-
-    stated: StatedPart
-    label: str
-    ways: tuple[StatedWay, ...]
-
-
-def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
-    """Return every stated part that has a box, found on a mesh, where its front was stated to be.
+    They are found on a mesh, where its front was stated to be.
 
     Raises:
         InputRejected: ``stated_part_not_found``: a box shows nothing, or two take the same place.
     """
     mesh = seen.mesh
-    found: dict[int, Placed] = {}
+    found: dict[int, StatedBox] = {}
     for above, turn in ((False, np.eye(3)), (True, FROM_ABOVE)):
         views = {
             place: part.view
@@ -78,8 +65,7 @@ def place_parts(seen: SeenMesh, parts: Sequence[StatedPart]) -> list[Placed]:
                         replace(way, cut=_as_stated(mover.turned(turn.T), cut, mesh))
                         for way, mover in zip(ways, movers, strict=True)
                     ]
-                back = tuple(way.turned(seen.back) for way in ways)
-                found[cut.place] = Placed(cut.stated, cut.label, back)
+                found[cut.place] = replace(cut, ways=tuple(way.turned(seen.back) for way in ways))
     return [found[place] for place in sorted(found)]
 
 

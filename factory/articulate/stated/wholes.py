@@ -12,7 +12,7 @@ from ...mesh import FloatArray, IntArray
 from ...part import OpensBy, Panel, PartKind
 from ...views.raster import Side, side_facing
 from ...views.view import Views
-from ..seams.cutting import Region, centred_in
+from ..seams.cutting import Region, inside
 from ..seams.pieces import DEEPEST, OWN, WHOLE, PieceOutlines, own_pieces
 from ..seams.placing import OpeningPart
 from .boxed import StatedBox
@@ -123,7 +123,7 @@ def find_outline(
 
 def _share_within(views: Views, region: Region) -> FloatArray:
     """Return the share of each piece's surface in a region, shape [piece_count]."""
-    within = centred_in(views.mesh, region)
+    within = inside(views.mesh, region)
     areas = face_areas(views.mesh)
     whole = np.bincount(views.owner, weights=areas)
     inner = np.bincount(views.owner, weights=areas * within, minlength=len(whole))

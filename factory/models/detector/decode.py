@@ -10,7 +10,7 @@ from scipy.special import expit, softmax
 
 from ...mesh import FloatArray, IntArray
 from ...views.raster import Side
-from .canvas import SIDES, SORTS, STRIDE, WAYS, PanelWay, Sort
+from .canvas import SIDES, SORTS, STRIDE, Sort
 
 #: Boxes that share more than this of their union are one.
 SAME = 0.45
@@ -54,23 +54,14 @@ class Found:
         box: left, lower, right, upper edge [pixels of the canvas], shape [4].
         sort: the likeliest.
         score: that there is such a part there, 0 to 1.
-        sorts: probability of each sort, shape [sort_count].
         ways: probability of each way to open, shape [way_count].
-        opened: share of its range by which it stands open.
     """
 
     side: Side
     box: FloatArray
     sort: Sort
     score: float
-    sorts: FloatArray
     ways: FloatArray
-    opened: float
-
-    @property
-    def way(self) -> PanelWay:
-        """Return the likeliest way to open."""
-        return WAYS[int(self.ways.argmax())]
 
 
 def found_parts(dense: Dense, least: float) -> tuple[Found, ...]:
@@ -97,9 +88,7 @@ def _on_side(dense: Dense, view: int, least: float) -> list[Found]:
                 boxes[best],
                 SORTS[int(share[:, row, column].argmax())],
                 float(score[row, column]),
-                share[:, row, column],
                 softmax(dense.way[view, :, row, column]),
-                float(np.clip(dense.opened[view, row, column], 0.0, 1.0)),
             )
         )
     return found

@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 from typing import Any
 
 from ...errors import ConfigError
@@ -74,8 +75,9 @@ def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShap
     Raises:
         ConfigError: a tensor that every such network has is missing, or of an impossible shape.
     """
-    hidden = _size(tensors, "pos_embed.mlp.2.weight", 0)
-    head_width = _size(tensors, "blocks.0.attn1.norm_q.weight", 0)
+    sizes = partial(dimensions_of, tensors, "Part Articulation Transformer")
+    hidden = sizes("pos_embed.mlp.2.weight", 2)[0]
+    (head_width,) = sizes("blocks.0.attn1.norm_q.weight", 1)
     if not head_width or not hidden or hidden % head_width:
         why = f"{head_width} numbers do not divide the width {hidden}"
         raise ConfigError(f"blocks.0.attn1.norm_q.weight: {why}")
@@ -86,18 +88,31 @@ def read_shape(tensors: Mapping[str, Shape], max_parts: int = 16) -> NetworkShap
         # Their count, not the highest: a name costs nothing and could claim a billion.
         blocks=len(numbers),
         heads=hidden // head_width,
-        features=_size(tensors, "feat_proj.weight", 1) if has_features else 0,
+        features=sizes("feat_proj.weight", 2)[1] if has_features else 0,
         normals="normal_embed.mlp.0.weight" in tensors,
-        raw_coords=_size(tensors, "pos_embed.mlp.0.weight", 1) % 2 == 1,
+        raw_coords=sizes("pos_embed.mlp.0.weight", 2)[1] % 2 == 1,
         axis_form=AxisForm.CLOSEST_POINTS
         if "point_motion_decoder.0.weight" in tensors
         else AxisForm.PLUCKER,
         hypotheses=max(1, sum(1 for name in tensors if _HYPOTHESIS.fullmatch(name))),
         max_parts=max_parts,
-        mlp_ratio=_size(tensors, "blocks.0.mlp_x.net.2.weight", 1) // hidden,
+        mlp_ratio=sizes("blocks.0.mlp_x.net.2.weight", 2)[1] // hidden,
     )
     check_tensors(tensors, expected_tensors(shape), "Part Articulation Transformer")
     return shape
+
+
+def dimensions_of(tensors: Mapping[str, Shape], what: str, name: str, count: int) -> Shape:
+    """Return the shape of a tensor of ``count`` dimensions, which a network called ``what`` has.
+
+    Raises:
+        ConfigError: it is missing, or has another number of dimensions.
+    """
+    if name not in tensors:
+        raise ConfigError(f"{name}: missing; this is no {what} ({len(tensors)} tensors found)")
+    if len(tensors[name]) != count:
+        raise ConfigError(f"{name}: shape {list(tensors[name])}, want {count} dimensions")
+    return tensors[name]
 
 
 def check_tensors(tensors: Mapping[str, Shape], expected: Mapping[str, Shape], what: str) -> None:
@@ -123,12 +138,12 @@ def expected_tensors(shape: NetworkShape) -> dict[str, Shape]:
     deep = shape.mlp
     tensors: dict[str, Shape] = {}
     if shape.features:
-        tensors |= _linear("feat_proj", shape.features, wide)
+        tensors |= layer("feat_proj", (wide, shape.features))
     for name in ["pos_embed", "normal_embed"] if shape.normals else ["pos_embed"]:
-        tensors |= _linear(f"{name}.mlp.0", shape.embedding, wide)
-        tensors |= _linear(f"{name}.mlp.2", wide, wide)
-    tensors |= _linear("part_id_embed.mlp.0", 2 * FREQUENCIES, wide)
-    tensors |= _linear("part_id_embed.mlp.2", wide, wide)
+        tensors |= layer(f"{name}.mlp.0", (wide, shape.embedding))
+        tensors |= layer(f"{name}.mlp.2", (wide, wide))
+    tensors |= layer("part_id_embed.mlp.0", (wide, 2 * FREQUENCIES))
+    tensors |= layer("part_id_embed.mlp.2", (wide, wide))
     for number in range(shape.blocks):
         tensors |= _block_tensors(f"blocks.{number}", shape)
     masks = [f"point_mask_decoder.{number}" for number in range(shape.hypotheses)]
@@ -154,33 +169,25 @@ def _block_tensors(name: str, shape: NetworkShape) -> dict[str, Shape]:
     deep = shape.mlp
     tensors: dict[str, Shape] = {}
     for norm in ("norm1", "norm2", "norm3", "final_norm_x", "final_norm_q"):
-        tensors |= {f"{name}.{norm}.weight": (wide,), f"{name}.{norm}.bias": (wide,)}
+        tensors |= layer(f"{name}.{norm}", (wide,))
     for attention in ("attn1", "attn2", "attn3"):
         at = f"{name}.{attention}"
         tensors |= {f"{at}.norm_{side}.weight": (wide // shape.heads,) for side in "qk"}
         tensors |= {f"{at}.to_{side}.weight": (wide, wide) for side in "qkv"}
-        tensors |= _linear(f"{at}.to_out.0", wide, wide)
+        tensors |= layer(f"{at}.to_out.0", (wide, wide))
     for perceptron in ("mlp_x", "mlp_q"):
         at = f"{name}.{perceptron}.net"
-        tensors |= _linear(f"{at}.0.proj", wide, 2 * deep) | _linear(f"{at}.2", deep, wide)
+        tensors |= layer(f"{at}.0.proj", (2 * deep, wide)) | layer(f"{at}.2", (wide, deep))
     return tensors
 
 
-def _linear(name: str, inputs: int, outputs: int) -> dict[str, Shape]:
-    return {f"{name}.weight": (outputs, inputs), f"{name}.bias": (outputs,)}
+def layer(name: str, weight: Shape) -> dict[str, Shape]:
+    """Name to shape of the tensors of a layer with a bias."""
+    return {f"{name}.weight": weight, f"{name}.bias": weight[:1]}
 
 
 def _head(name: str, inputs: int, middle: int, outputs: int) -> dict[str, Shape]:
-    return _linear(f"{name}.0", inputs, middle) | _linear(f"{name}.2", middle, outputs)
-
-
-def _size(tensors: Mapping[str, Shape], name: str, dimension: int) -> int:
-    if name not in tensors:
-        why = f"this is no Part Articulation Transformer ({len(tensors)} tensors found)"
-        raise ConfigError(f"{name}: missing; {why}")
-    if len(tensors[name]) <= dimension:
-        raise ConfigError(f"{name}: shape {list(tensors[name])} has too few dimensions")
-    return tensors[name][dimension]
+    return layer(f"{name}.0", (middle, inputs)) | layer(f"{name}.2", (outputs, middle))
 
 
 class Precision(StrEnum):

@@ -6,9 +6,10 @@ import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from ...errors import ConfigError
-from ..network.shape import Shape, check_tensors
+from ..network.shape import Shape, check_tensors, dimensions_of, layer
 
 POINT_CHANNELS = 8
 NORM_GROUPS = 32
@@ -60,31 +61,34 @@ def read_partfield_shape(tensors: Mapping[str, Shape], heads: int = 8) -> PartFi
     Raises:
         ConfigError: a tensor is missing, unknown, or of an impossible shape.
     """
-    tokens, width = _dimensions(tensors, "triplane_transformer.pos_embed", 3)[1:]
-    coarse = math.isqrt(tokens // 3)
+    sizes = partial(dimensions_of, tensors, "PartField")
     place = "triplane_transformer.pos_embed"
+    tokens, width = sizes(place, 3)[1:]
+    coarse = math.isqrt(tokens // 3)
     if tokens != 3 * coarse**2:
         raise ConfigError(f"{place}: {tokens} tokens are not three square planes")
     if width % heads:
         raise ConfigError(f"{place}: width {width} does not divide into {heads} heads")
     levels: list[int] = []
     while (name := f"pvcnn.unet_encoder.down_convs.{len(levels)}.block.conv1.weight") in tensors:
-        levels.append(_dimensions(tensors, name, 4)[0])
+        levels.append(sizes(name, 4)[0])
     layers = 0
     while f"triplane_transformer.transformer.layers.{layers}.norm1.weight" in tensors:
         layers += 1
     shape = PartFieldShape(
-        channels=_dimensions(tensors, "pvcnn.pc_encoder.encoder.0.voxel_layers.0.weight", 5)[0],
+        channels=sizes("pvcnn.pc_encoder.encoder.0.voxel_layers.0.weight", 5)[0],
         unet=tuple(levels),
         resolution=4 * coarse,
         width=width,
         layers=layers,
         heads=heads,
-        plane_channels=_dimensions(tensors, "triplane_transformer.upsampler.weight", 4)[1],
+        plane_channels=sizes("triplane_transformer.upsampler.weight", 4)[1],
     )
     if not levels or not layers or shape.features <= 0 or shape.resolution % 2 ** (len(levels) - 1):
         raise ConfigError(f"this is no PartField: it would be {shape}")
-    uneven = [wide for wide in _normed_widths(shape) if not wide or wide % min(NORM_GROUPS, wide)]
+    joined = (fine + coarse for fine, coarse in itertools.pairwise(shape.unet))
+    normed = (shape.channels, *shape.unet, *joined)
+    uneven = [wide for wide in normed if not wide or wide % min(NORM_GROUPS, wide)]
     if uneven:
         why = f"{uneven[0]} channels do not divide into {NORM_GROUPS} groups"
         raise ConfigError(f"pvcnn.unet_encoder: {why}")
@@ -99,30 +103,25 @@ def expected_tensors(shape: PartFieldShape) -> dict[str, Shape]:
     channels = shape.channels
     planes = shape.plane_channels
     voxels = "pvcnn.pc_encoder.encoder.0"
-    tensors = _layer(f"{voxels}.voxel_layers.0", (channels, POINT_CHANNELS, 3, 3, 3))
-    tensors |= _layer(f"{voxels}.voxel_layers.3", (channels, channels, 3, 3, 3))
-    tensors |= _layer(f"{voxels}.point_features.layers.0", (channels, POINT_CHANNELS, 1))
+    tensors = layer(f"{voxels}.voxel_layers.0", (channels, POINT_CHANNELS, 3, 3, 3))
+    tensors |= layer(f"{voxels}.voxel_layers.3", (channels, channels, 3, 3, 3))
+    tensors |= layer(f"{voxels}.point_features.layers.0", (channels, POINT_CHANNELS, 1))
     tensors |= _unet_tensors("pvcnn.unet_encoder", shape)
     at = "triplane_transformer"
     tensors[f"{at}.pos_embed"] = (1, 3 * shape.coarse**2, wide)
     for number in range(shape.layers):
-        layer = f"{at}.transformer.layers.{number}"
-        tensors |= _layer(f"{layer}.norm1", (wide,)) | _layer(f"{layer}.norm2", (wide,))
-        tensors[f"{layer}.self_attn.in_proj_weight"] = (3 * wide, wide)
-        tensors[f"{layer}.self_attn.out_proj.weight"] = (wide, wide)
-        tensors |= _layer(f"{layer}.mlp.0", (4 * wide, wide))
-        tensors |= _layer(f"{layer}.mlp.3", (wide, 4 * wide))
-    tensors |= _layer(f"{at}.transformer.norm", (wide,))
-    tensors |= _layer(f"{at}.downsampler.0", (wide, channels, 3, 3))
-    tensors |= _layer(f"{at}.downsampler.3", (wide, wide, 3, 3))
+        own = f"{at}.transformer.layers.{number}"
+        tensors |= layer(f"{own}.norm1", (wide,)) | layer(f"{own}.norm2", (wide,))
+        tensors[f"{own}.self_attn.in_proj_weight"] = (3 * wide, wide)
+        tensors[f"{own}.self_attn.out_proj.weight"] = (wide, wide)
+        tensors |= layer(f"{own}.mlp.0", (4 * wide, wide))
+        tensors |= layer(f"{own}.mlp.3", (wide, 4 * wide))
+    tensors |= layer(f"{at}.transformer.norm", (wide,))
+    tensors |= layer(f"{at}.downsampler.0", (wide, channels, 3, 3))
+    tensors |= layer(f"{at}.downsampler.3", (wide, wide, 3, 3))
     tensors |= {f"{at}.upsampler.weight": (wide, planes, 4, 4), f"{at}.upsampler.bias": (planes,)}
-    tensors |= _layer(f"{at}.mlp.0", (planes, channels))
-    return tensors | _layer(f"{at}.mlp.2", (planes, planes))
-
-
-def _normed_widths(shape: PartFieldShape) -> tuple[int, ...]:
-    joined = (fine + coarse for fine, coarse in itertools.pairwise(shape.unet))
-    return (shape.channels, *shape.unet, *joined)
+    tensors |= layer(f"{at}.mlp.0", (planes, channels))
+    return tensors | layer(f"{at}.mlp.2", (planes, planes))
 
 
 def _unet_tensors(at: str, shape: PartFieldShape) -> dict[str, Shape]:
@@ -132,30 +131,18 @@ def _unet_tensors(at: str, shape: PartFieldShape) -> dict[str, Shape]:
         tensors |= _res_tensors(f"{at}.down_convs.{level}.block", inner, outer)
     for step, outer in enumerate(reversed(levels[:-1])):
         joined = levels[-1 - step] + outer
-        tensors |= _layer(f"{at}.up_convs.{step}.norm1", (joined,))
+        tensors |= layer(f"{at}.up_convs.{step}.norm1", (joined,))
         tensors |= _res_tensors(f"{at}.up_convs.{step}.block", joined, outer)
-    tensors |= _layer(f"{at}.norm_out", (levels[0],))
-    return tensors | _layer(f"{at}.conv_final", (shape.channels, levels[0], 1, 1))
+    tensors |= layer(f"{at}.norm_out", (levels[0],))
+    return tensors | layer(f"{at}.conv_final", (shape.channels, levels[0], 1, 1))
 
 
 def _res_tensors(at: str, inputs: int, outputs: int) -> dict[str, Shape]:
-    tensors = _layer(f"{at}.norm1", (inputs,)) | _layer(f"{at}.conv1", (outputs, inputs, 3, 3))
-    tensors |= _layer(f"{at}.norm_mid", (outputs,)) | _layer(f"{at}.norm2", (outputs,))
+    tensors = layer(f"{at}.norm1", (inputs,)) | layer(f"{at}.conv1", (outputs, inputs, 3, 3))
+    tensors |= layer(f"{at}.norm_mid", (outputs,)) | layer(f"{at}.norm2", (outputs,))
     for plane in range(3):
-        tensors |= _layer(f"{at}.conv_3daware.plane_convs.{plane}", (outputs, 3 * outputs, 1, 1))
-    tensors |= _layer(f"{at}.conv2", (outputs, outputs, 3, 3))
+        tensors |= layer(f"{at}.conv_3daware.plane_convs.{plane}", (outputs, 3 * outputs, 1, 1))
+    tensors |= layer(f"{at}.conv2", (outputs, outputs, 3, 3))
     if inputs != outputs:
-        tensors |= _layer(f"{at}.nin_shortcut", (outputs, inputs, 1, 1))
+        tensors |= layer(f"{at}.nin_shortcut", (outputs, inputs, 1, 1))
     return tensors
-
-
-def _layer(name: str, weight: Shape) -> dict[str, Shape]:
-    return {f"{name}.weight": weight, f"{name}.bias": weight[:1]}
-
-
-def _dimensions(tensors: Mapping[str, Shape], name: str, count: int) -> Shape:
-    if name not in tensors:
-        raise ConfigError(f"{name}: missing; this is no PartField ({len(tensors)} tensors found)")
-    if len(tensors[name]) != count:
-        raise ConfigError(f"{name}: shape {list(tensors[name])}, want {count} dimensions")
-    return tensors[name]

@@ -7,6 +7,7 @@ from enum import StrEnum
 
 import numpy as np
 import numpy.typing as npt
+from scipy.special import log_softmax
 
 from ...config import ParticulateConfig
 from ...mesh import FloatArray, IntArray, read_only
@@ -248,10 +249,8 @@ def assigned(mask_logits: npt.ArrayLike, least_confidence: float = 0.0) -> Assig
 
 
 def _confidence(logits: FloatArray, parts: IntArray, present: IntArray) -> FloatArray:
-    among = logits[:, present]
-    highest = among.max(axis=1)
-    own = logits[np.arange(len(parts)), parts]
-    logarithm = own - highest - np.log(np.exp(among - highest[:, None]).sum(axis=1))
+    among = log_softmax(logits[:, present], axis=1)
+    logarithm = among[np.arange(len(parts)), np.searchsorted(present, parts)]
     count = np.bincount(parts, minlength=logits.shape[1])
     total = np.bincount(parts, weights=logarithm, minlength=logits.shape[1])
     return np.asarray(np.where(count > 0, np.exp(total / np.maximum(count, 1)), 0.0))

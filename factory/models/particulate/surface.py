@@ -9,6 +9,7 @@ import numpy as np
 
 from ...geometry.edges import label_linked, shared_edges
 from ...geometry.rows import distinct_rows, weld_points
+from ...geometry.triangles import doubled_normals
 from ...mesh import BoolArray, FloatArray, IntArray
 
 WELD_SHARE = 1e-8
@@ -96,8 +97,7 @@ class Surface:
     @cached_property
     def crosses(self) -> FloatArray:
         """Cross product of two sides of each face: normal, twice its area long, [face_count, 3]."""
-        a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
-        return np.asarray(np.cross(b - a, c - a))
+        return doubled_normals(self.vertices[self.faces])
 
     @cached_property
     def areas(self) -> FloatArray:

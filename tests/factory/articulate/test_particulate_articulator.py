@@ -11,7 +11,7 @@ from plain_solids import moved
 from asset_factory.factory.articulate.catalog import choose
 from asset_factory.factory.articulate.particulate import ParticulateArticulator
 from asset_factory.factory.articulate.settings import require_usable
-from asset_factory.factory.articulate.stage import articulate
+from asset_factory.factory.articulate.stage import hypotheses_of
 from asset_factory.factory.articulation import JointKind, Weights
 from asset_factory.factory.config import BuildConfig, ParticulateConfig
 from asset_factory.factory.errors import ConfigError
@@ -175,7 +175,8 @@ def test_the_shipped_network_answers_unless_another_is_named():
     assert choose(intake, BuildConfig(articulator="auto")).name == "auto"
     shipped = choose(intake, BuildConfig(articulator="particulate")).weights
     assert shipped[0].file == "small.safetensors"
-    assert articulate(intake, BuildConfig(articulator="geometric")).articulator == "geometric"
+    ruled = hypotheses_of(intake, BuildConfig(articulator="geometric"))[0]
+    assert ruled.articulator == "geometric"
     with pytest.raises(ConfigError, match=r"nowhere\.pt: no such file"):
         choose(intake, BuildConfig(particulate=ParticulateConfig(checkpoint="nowhere.pt")))
 

@@ -10,7 +10,7 @@ from refusing import refusal
 
 from asset_factory.factory.articulate import stage
 from asset_factory.factory.articulate.rigid import rigid_articulation
-from asset_factory.factory.articulate.stage import articulate, hypotheses
+from asset_factory.factory.articulate.stage import hypotheses, hypotheses_of
 from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.intake.load import load
 from asset_factory.factory.runtime.stages import Stages
@@ -56,7 +56,7 @@ TETRAHEDRON = f"{TRIANGLE}v 1 1 0\nf 1 2 4\nf 2 3 4\nf 1 3 4\n"
 def rejected(tmp_path, text):
     path = tmp_path / "shape.obj"
     path.write_text(text)
-    found = refusal(articulate, load(path, IntakeConfig()), BuildConfig(articulator="geometric"))
+    found = refusal(hypotheses_of, load(path, IntakeConfig()), BuildConfig(articulator="geometric"))
     assert found.code == "no_movable_joint"
     return found.message
 

@@ -7,7 +7,7 @@ import pytest
 from refusing import refusal
 from usda import BASE, CABINET, DOOR, HINGE, body, joint, mesh, stage, write
 
-from asset_factory.factory.articulate.stage import articulate
+from asset_factory.factory.articulate.stage import hypotheses_of
 from asset_factory.factory.config import BuildConfig, IntakeConfig
 from asset_factory.factory.geometry.posing import posed
 from asset_factory.factory.intake.importers import usd
@@ -35,7 +35,7 @@ def test_its_parts_joints_and_sidecar_come_with_it_in_metres_and_z_up(tmp_path):
     assert (told.category, told.license, told.density) == ("fridge", "MIT", 300.0)
     assert (told.scale_source, told.scale) == ("sidecar", pytest.approx(2.0))
     assert intake.mesh.extents[2] == pytest.approx(1.24)
-    made = articulate(intake, CONFIG)
+    (made,) = hypotheses_of(intake, CONFIG)
     assert [part.name for part in made.parts] == ["base", "door"]
     (hinge,) = made.movable_joints
     np.testing.assert_allclose([hinge.lower, hinge.upper], [0.0, np.pi / 2.0], atol=1e-6)
@@ -44,7 +44,7 @@ def test_its_parts_joints_and_sidecar_come_with_it_in_metres_and_z_up(tmp_path):
 
 
 def read(folder, text):
-    return articulate(load(write(folder, text), CONFIG.intake), CONFIG)
+    return hypotheses_of(load(write(folder, text), CONFIG.intake), CONFIG)[0]
 
 
 def test_lengths_on_a_scaled_body_are_scaled_and_its_door_opens_to_the_front(tmp_path):

@@ -12,7 +12,7 @@ from laid import laid
 from mesh_cube import write_glb, write_gltf, write_obj
 from refusing import refusal
 
-from asset_factory.factory.articulate.stage import articulate
+from asset_factory.factory.articulate.stage import hypotheses_of
 from asset_factory.factory.build import build_asset, make_asset
 from asset_factory.factory.config import BuildConfig
 from asset_factory.factory.intake import reads as reads_module
@@ -218,7 +218,7 @@ def test_an_annotation_counts_as_it_was_when_it_was_loaded(tmp_path):
     path = predicted(placed(tmp_path))
     intake = Source(path, CONFIG).load()
     path.with_name("pred.npz").write_bytes(b"somebody is writing it")
-    found = refusal(articulate, intake, BuildConfig(articulator="annotated"))
+    found = refusal(hypotheses_of, intake, BuildConfig(articulator="annotated"))
     assert "a field is missing: motion_hierarchy" in found.message
 
 

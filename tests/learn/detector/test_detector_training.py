@@ -192,7 +192,7 @@ def test_what_is_told_where_nothing_is_known_is_not_held_against_it():
     left = np.eye(6)[WAYS.index(PanelWay.LEFT)]
 
     def found(box, sort):
-        return Found(Side.FRONT, np.array(box, float), sort, 0.9, np.zeros(6), left, 0.0)
+        return Found(Side.FRONT, np.array(box, float), sort, 0.9, left)
 
     door = [FRONT, 10, 10, 50, 90, 1, SORTS.index(Sort.DOOR), WAYS.index(PanelWay.LEFT), 0, 0]
     unknown = [FRONT, 100, 10, 160, 90, 2, SORTS.index(Sort.OTHER), 0, 0, 1]

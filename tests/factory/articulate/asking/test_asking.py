@@ -176,9 +176,8 @@ def test_a_refusal_names_no_key(ask):
     ],
 )
 def test_an_endpoint_that_cannot_be_is_said_before_anything_is_asked(url, model, said):
-    require_endpoint(VlmConfig(url, model), needed=False)
     with pytest.raises(ConfigError, match=said):
-        require_endpoint(VlmConfig(url, model), needed=True)
+        require_endpoint(VlmConfig(url, model))
 
 
 def test_a_seam_is_dark_at_its_share_of_the_side():

@@ -13,7 +13,6 @@ from asset_factory.factory.intake.stated import Hinge, StatedKind
 from asset_factory.factory.models.detector.canvas import (
     CANVAS,
     LONGEST,
-    SORTS,
     WAYS,
     PanelWay,
     Sort,
@@ -32,7 +31,7 @@ def seen(side, box, sort, way, score=0.9, sure=0.95, extents=TALL):
     corners = (low + np.array(box).reshape(2, 2) * [wide, high]).ravel()
     ways = np.full(len(WAYS), (1.0 - sure) / (len(WAYS) - 1))
     ways[WAYS.index(way)] = sure
-    return Found(side, corners, sort, score, np.full(len(SORTS), 0.1), ways, 0.0)
+    return Found(side, corners, sort, score, ways)
 
 
 def stated_parts(found, extents):
