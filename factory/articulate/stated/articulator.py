@@ -23,11 +23,10 @@ from ..assembly import assembled
 from ..proposal import Motion, Proposal
 from ..rigid import rigid_articulation
 from ..seams.cutting import CutMesh, Region, cut_along, inside
-from .boxed import NOT_FOUND, USUAL, StatedBox, label_of
+from .boxed import NOT_FOUND, USUAL, StatedBox, StatedWay, label_of
 from .expecting import count_expected, keep_expected, proposals_on, require_some
 from .placing import place_parts, stated_unit
 from .seen import SeenMesh
-from .wholes import StatedWay
 
 NAME = "stated"
 #: Whole hypotheses that are worth trying.

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeVar
+from dataclasses import dataclass, field, replace
+from typing import TypeVar
+
+import numpy as np
 
 from ...errors import InputRejected
 from ...intake.stated import Hinge, StatedPart, StatedView
-from ...mesh import FloatArray
+from ...mesh import FloatArray, IntArray
 from ...part import OpensBy, PartKind
 from ..seams.fronts import Front
 from ..seams.handles import Protrusion
+from ..seams.placing import OpeningPart
 from ..seams.rectangles import Rectangle
-
-if TYPE_CHECKING:
-    from .wholes import StatedWay
 
 T = TypeVar("T")
 NOT_FOUND = "stated_part_not_found"
@@ -36,6 +36,26 @@ USUAL: Mapping[PartKind, tuple[OpensBy, ...]] = {
 }
 #: How a panel opens that is hinged at an edge of its side's picture.
 EDGES = {edge: OpensBy(edge) for edge in (Hinge.LEFT, Hinge.RIGHT, Hinge.TOP, Hinge.BOTTOM)}
+
+
+@dataclass(frozen=True, eq=False)
+class StatedWay:
+    """One way in which a stated part may open.
+
+    Attributes:
+        mover: the part.
+        faces: of the pieces that it is made of; none where it is cut out of the mesh in its region.
+        cut: the part as it would be cut out, where it is made of pieces.
+    """
+
+    mover: OpeningPart
+    faces: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    cut: OpeningPart | None = None
+
+    def turned(self, rotation: FloatArray) -> StatedWay:
+        """Return the same of an object turned about the origin by ``rotation``, shape [3, 3]."""
+        cut = None if self.cut is None else self.cut.turned(rotation)
+        return replace(self, mover=self.mover.turned(rotation), cut=cut)
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ...articulation import JointKind
 from ...geometry.triangles import face_areas
-from ...mesh import FloatArray, IntArray
+from ...mesh import FloatArray
 from ...part import OpensBy, Panel, PartKind
 from ...views.raster import Side, side_facing
 from ...views.view import Views
 from ..seams.cutting import Region, inside
 from ..seams.pieces import DEEPEST, OWN, WHOLE, PieceOutlines, own_pieces
 from ..seams.placing import OpeningPart
-from .boxed import StatedBox
+from .boxed import StatedBox, StatedWay
 from .seen import SeenMesh
 from .snapping import OFF
 
@@ -24,26 +24,6 @@ ABOVE = 0.7
 #: What is turned shows so much of its box, as the pieces that it is made of: a star in a square.
 TURNED = 0.25
 LEAST_SHOWN = 0.01
-
-
-@dataclass(frozen=True, eq=False)
-class StatedWay:
-    """One way in which a stated part may open.
-
-    Attributes:
-        mover: the part.
-        faces: of the pieces that it is made of; none where it is cut out of the mesh in its region.
-        cut: the part as it would be cut out, where it is made of pieces.
-    """
-
-    mover: OpeningPart
-    faces: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    cut: OpeningPart | None = None
-
-    def turned(self, rotation: FloatArray) -> StatedWay:
-        """Return the same of an object turned about the origin by ``rotation``, shape [3, 3]."""
-        cut = None if self.cut is None else self.cut.turned(rotation)
-        return replace(self, mover=self.mover.turned(rotation), cut=cut)
 
 
 def way_of(seen: SeenMesh, mover: OpeningPart, part: StatedBox) -> StatedWay:
