@@ -32,7 +32,7 @@ def check_attachment(description: Description, config: LintConfig) -> CheckResul
     surfaces = _Surfaces(description, tree)
     findings = []
     for joint in tree.moving:
-        gaps, size = surfaces.gaps(joint, config.finger_m, every=joint.kind != "prismatic")
+        gaps, size = surfaces.gaps(joint, config.finger_m)
         away = config.finger_m + config.near_share * size
         never = bool(gaps.min() > away)
         if not never and (joint.kind == "prismatic" or gaps.max() <= away):
@@ -55,20 +55,18 @@ class _Surfaces:
         self._poses = self.tree.link_poses(self.tree.closed)
         self._links = {link.name: link for link in description.links}
         self._part_of = self.tree.part_of()
-        self._joint_above = {joint.child: joint for joint in self.tree.order}
+        moving = self.tree.moving
+        self._above = {self._part_of[j.child]: self._part_of[j.parent] for j in moving}
         self._ready = cache(self._made_ready)
 
-    def gaps(self, joint: JointLine, enough: float, *, every: bool) -> tuple[FloatArray, float]:
+    def gaps(self, joint: JointLine, enough: float) -> tuple[FloatArray, float]:
         """Return gaps at poses along a joint's way [m], shape [pose_count], and its part's size.
 
         0 where there is nothing to measure. What can be touched is asked first: visible meshes may
-        be large.
-
-        Args:
-            joint: the joint.
-            enough: gaps this small are not measured again [m].
-            every: whether each pose counts, or the first that is near enough will do.
+        be large. Gaps up to ``enough`` [m] are not measured again; of a slide's poses, the first
+        that is so near will do.
         """
+        every = joint.kind != "prismatic"
         part = self._carrier(joint)
         limits = sweep_range(joint)
         gaps = np.full(POSES, np.inf)
@@ -98,17 +96,13 @@ class _Surfaces:
 
     def _carrier(self, joint: JointLine) -> int | None:
         """Return the part that a joint hangs on: its parent's, or the next above with shapes."""
-        link = joint.parent
-        while True:
-            part = self._part_of[link]
-            names = self.tree.parts[part]
-            if any(self._links[name].collisions or self._links[name].visuals for name in names):
-                return part
-            above = [self._joint_above[name] for name in names if name in self._joint_above]
-            outer = [each.parent for each in above if self._part_of[each.parent] != part]
-            if not outer:
-                return None
-            link = outer[0]
+        part: int | None = self._part_of[joint.parent]
+        while part is not None:
+            links = [self._links[name] for name in self.tree.parts[part]]
+            if any(link.collisions or link.visuals for link in links):
+                break
+            part = self._above.get(part)
+        return part
 
     def _made_ready(self, part: int, *, visible: bool) -> tuple[FloatArray, Skin] | None:
         """Return a part's corners and its triangles held ready; ``None`` where it has none."""

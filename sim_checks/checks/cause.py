@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
 
 from ..config import PenetrationConfig
@@ -68,36 +67,34 @@ def shown_cause(
     return Cause.PARTS_OVERLAP if at_rest else None
 
 
-@dataclass(frozen=True)
-class Way:
-    """How a joint gets to a contact.
+def way_cause(
+    clear: float,
+    excess: float,
+    otherwise: float | None,
+    at_rest: float,
+    *,
+    seen: bool,
+    config: PenetrationConfig,
+) -> Cause | None:
+    """Return what a joint's way to a contact says of it, or nothing.
 
-    Attributes:
+    Args:
         clear: share of its range that it makes before the pair fails.
         excess: worst depth beyond rest along the joint [m].
         otherwise: the least worst depth beyond rest among the other motions tried [m]: turned
             around, or hung at the opposite edge; ``None`` if none was tried.
         at_rest: depth of the pair's hulls where the way starts [m].
+        seen: the visible surfaces are known; fat hulls would block a joint just so.
+        config: what counts as too deep.
     """
-
-    clear: float
-    excess: float
-    otherwise: float | None
-    at_rest: float
-
-    def cause(self, seen: bool, config: PenetrationConfig) -> Cause | None:
-        """Return what it says of the contact, whose surfaces were ``seen`` or not, or nothing."""
-        if self.clear >= MOST_OF_THE_RANGE:
-            return Cause.LIMIT_TOO_LONG
-        if not seen:
-            # Fat hulls would block a joint just so.
-            return None
-        better = max(config.excess_m, MUCH_BETTER * self.excess)
-        if self.otherwise is not None and self.otherwise <= better:
-            return Cause.WRONG_AXIS
-        if self.clear >= FROM_THE_START:
-            return None
-        if self.at_rest > config.rest_m:
-            # Parts that overlap before anything moves say nothing of the joint.
-            return Cause.PARTS_OVERLAP
+    if clear >= MOST_OF_THE_RANGE:
+        return Cause.LIMIT_TOO_LONG
+    if not seen:
+        return None
+    better = max(config.excess_m, MUCH_BETTER * excess)
+    if otherwise is not None and otherwise <= better:
         return Cause.WRONG_AXIS
+    if clear >= FROM_THE_START:
+        return None
+    # Parts that overlap before anything moves say nothing of the joint.
+    return Cause.PARTS_OVERLAP if at_rest > config.rest_m else Cause.WRONG_AXIS

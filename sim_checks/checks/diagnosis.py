@@ -20,7 +20,7 @@ from ..geometry.loose import Sides, strayed
 from ..geometry.path import JointAxis
 from ..geometry.placing import box_around, grow_box, joined
 from ..geometry.surfaces import PosedSurface, SurfaceMeeting, VisibleSurface
-from .cause import MOST_OF_THE_RANGE, Way, shown_cause
+from .cause import MOST_OF_THE_RANGE, Cause, shown_cause, way_cause
 from .joint_sweep import JointCourse, clear_until
 from .pairs import RestingSolids
 from .penetration_study import Contact, JointSweep, PairKind, PairSweep, PenetrationStudy
@@ -61,7 +61,7 @@ class Diagnosis:
         contact: AnyContact,
         allowed: float,
         at_rest: bool = False,
-        way: Callable[[], Way] | None = None,
+        way: Callable[[bool], Cause | None] | None = None,
     ) -> AnyContact:
         if contact.depth <= allowed:
             return contact
@@ -70,7 +70,7 @@ class Diagnosis:
         cause = shown_cause(contact.depth, allowed, visual, leaked=leaked, at_rest=at_rest)
         if cause is None and way is not None:
             # Other ways are looked for only where the surfaces alone do not tell.
-            cause = way().cause(visual is not None, self.rest.config)
+            cause = way(visual is not None)
         return replace(contact, visual=visual, cause=cause)
 
     def _along(self, sweep: JointSweep) -> JointSweep:
@@ -98,17 +98,19 @@ class Diagnosis:
         course: JointCourse,
         otherwise: Callable[[], float | None],
     ) -> PairSweep:
-        def way() -> Way:
+        config = self.rest.config
+
+        def way(seen: bool) -> Cause | None:
             alone = replace(course, only=frozenset({pair.parts}))
             clear = (clear_until(alone, pair) - sweep.lower) / (sweep.upper - sweep.lower)
             # Where the joint opens for most of its way, no other is looked for.
             other = otherwise() if clear < MOST_OF_THE_RANGE else None
-            return Way(clear, sweep.excess, other, pair.at_rest)
+            return way_cause(clear, sweep.excess, other, pair.at_rest, seen=seen, config=config)
 
         # How a joint goes says something of what blocks it, not of its knuckles or of pairs that
         # may touch. Where another joint would have to make way first, it says nothing of this one.
         plain = pair.kind is PairKind.PLAIN and not sweep.waits_for
-        allowed = self.rest.config.excess_m + pair.at_rest
+        allowed = config.excess_m + pair.at_rest
         return self._judged(pair, allowed, way=way if plain else None)
 
     def _least_otherwise(self, course: JointCourse) -> float | None:

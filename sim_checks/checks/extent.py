@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from ..config import WorkConfig
 from ..description import Description
-from ..geometry.kinematics import find_tree
+from ..geometry.kinematics import MOVING_KINDS, find_tree
 from ..report import Finding
 from .result import error
 
@@ -23,9 +23,8 @@ def oversized(description: Description, config: WorkConfig) -> Finding | None:
         return None
     # Depths below each joint: a chain moves half the square of its links.
     above = {tree.root: 0}
-    moving = {joint.name for joint in tree.moving}
     for joint in tree.order:
-        above[joint.child] = above[joint.parent] + (joint.name in moving)
+        above[joint.child] = above[joint.parent] + (joint.kind in MOVING_KINDS)
     moved = sum(above.values())
     if moved > config.moved_links:
         words = f"its joints move {moved} links, counted once for each joint that moves them"

@@ -143,19 +143,17 @@ class _Encounter:
 
     def pairs(self) -> Iterator[PairSweep]:
         """Yield the worst places, one or more for each pair of parts and kind."""
+        config = self.course.rest.config
         for (_, kind), candidates in sorted(self._candidates().items(), key=itemgetter(0)):
+            # Whether a knuckle stays one is seen where it is worst.
+            decides = self.course.decides and kind is PairKind.PLAIN
+            tolerance = Tolerance(floor=config.clearance_m, limit=config.excess_m, decides=decides)
             # Knuckles are few and each has to be one by itself.
             batches = [[item] for item in candidates] if kind is PairKind.HINGE else [candidates]
             for batch in batches:
-                worst = self.sweep.worst(batch, self._tolerance(kind))
+                worst = self.sweep.worst(batch, tolerance)
                 if worst is not None:
                     yield self._pair(kind, worst)
-
-    def _tolerance(self, kind: PairKind) -> Tolerance:
-        config = self.course.rest.config
-        # Whether a knuckle stays one is seen where it is worst.
-        decides = self.course.decides and kind is PairKind.PLAIN
-        return Tolerance(floor=config.clearance_m, limit=config.excess_m, decides=decides)
 
     def _candidates(self) -> Candidates:
         rest = self.course.rest

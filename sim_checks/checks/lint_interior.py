@@ -46,11 +46,6 @@ class _Grid:
     size: float
     shape: tuple[int, int, int]
 
-    @property
-    def volume(self) -> float:
-        """Return the volume of one voxel [m3]."""
-        return self.size**3
-
 
 def interior_findings(
     link: Link, hulls: Sequence[CollisionHull], down: FloatArray, config: LintConfig
@@ -87,13 +82,13 @@ def interior_findings(
         return [], numbers
     near = ndimage.binary_dilation(surface, np.ones((3, 3, 3), dtype=bool))
     cavity = _reached(~surface) & _rasterised(whole, grid) & ~near
-    if cavity.sum() * grid.volume < config.cavity_share * whole.volume:
+    if cavity.sum() * grid.size**3 < config.cavity_share * whole.volume:
         return [], numbers
     filled = np.zeros(grid.shape, dtype=bool)
     for hull in hulls:
         filled |= _rasterised(hull, grid)
     numbers["interior_kept"] = _kept(cavity, filled)
-    least = config.pocket_share * whole.volume / grid.volume
+    least = config.pocket_share * whole.volume / grid.size**3
     pocket = cavity & _walled(surface, down)
     if pocket.sum() >= least:
         # Where the middle of a hand can be.
@@ -196,10 +191,7 @@ def _outline(shapes: Sequence[DescribedShape], grid: _Grid) -> CollisionHull | N
 
 def _reached(room: BoolArray) -> BoolArray:
     """Return the voxels of some room that are reached from outside without leaving it."""
-    labels, _ = ndimage.label(room)
-    border = np.ones(room.shape, dtype=bool)
-    border[1:-1, 1:-1, 1:-1] = False
-    return room & np.isin(labels, np.unique(labels[border & room]))
+    return ndimage.binary_propagation(np.zeros_like(room), mask=room, border_value=1)
 
 
 def _walled(surface: BoolArray, down: FloatArray) -> BoolArray:

@@ -156,20 +156,18 @@ def _copied(named: NamedFile, copies: Copies) -> Path:
 
 
 class Copies:
-    """Copies of files in one folder, each once, in its place, with what they name themselves."""
+    """Copies of files in one folder, each once, in its place, with what they name themselves.
+
+    Attributes:
+        originals: the files that were read, in the order of first use.
+    """
 
     def __init__(self, folder: Path, roots: Roots) -> None:
         folder.mkdir(parents=True)
         self.folder = folder
         self.roots = roots
-        self._read: dict[Path, None] = {}
-        self._copied: dict[Path, Path] = {}
+        self.originals: dict[Path, None] = {}
         self._left = MOST_BYTES
-
-    @property
-    def originals(self) -> tuple[Path, ...]:
-        """Return the files that were read, in the order of first use."""
-        return tuple(self._read)
 
     def place(self, file: Path) -> Path:
         """Return where the copy of a file, by its resolved path, lies."""
@@ -180,17 +178,17 @@ class Copies:
         waiting = [file]
         while waiting:
             original = waiting.pop()
-            if original in self._copied:
+            if original in self.originals:
                 continue
             data = self.read(original)
-            place = self._copied[original] = self.place(original)
+            place = self.place(original)
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(data)
             for name in named_in_mesh(original, data):
                 beside = [original.parent / name, original.parent / unquote(name)]
                 within = filter(self.roots.allows, beside)
                 waiting += [place.resolve() for place in within if os.path.isfile(place)]
-        return self._copied[file]
+        return self.place(file)
 
     def read(self, file: Path) -> bytes:
         """Return the content of a file, within what all may hold together.
@@ -198,9 +196,9 @@ class Copies:
         Raises:
             DescriptionError: ``too_large``, or ``unreadable_mesh``.
         """
-        self._read[file] = None
+        self.originals[file] = None
         try:
-            if len(self._read) > MOST_FILES:
+            if len(self.originals) > MOST_FILES:
                 raise OSError(errno.EFBIG, f"is one of over {MOST_FILES} files")
             data = read_regular(file, min(MAX_MESH_BYTES, self._left))
         except OSError as error:
@@ -211,7 +209,7 @@ class Copies:
 
     def write(self, document: ET.Element, original: Path, place: Path) -> None:
         """Write a document, changed, in its place."""
-        self._read[original] = None
+        self.originals[original] = None
         text: bytes = ET.tostring(document, encoding="utf-8")
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(text)

@@ -94,12 +94,17 @@ class UrdfElements:
         return number(limit, "lower", where, 0.0), number(limit, "upper", where, 0.0)
 
     def origin(self, element: ET.Element, where: str) -> FloatArray:
-        """Return the pose in an element's ``<origin>``, shape [4, 4]."""
+        """Return the pose in an element's ``<origin>``, shape [4, 4].
+
+        It turns about the fixed axes x, y and z.
+        """
+        from scipy.spatial.transform import Rotation
+
         item = element.find("origin")
         if item is None:
             return np.eye(4)
-        turn = rotation_from_rpy(self.vector(item, "rpy", where, "0 0 0"))
-        return rigid(turn, self.vector(item, "xyz", where, "0 0 0"))
+        turn = Rotation.from_euler("xyz", self.vector(item, "rpy", where, "0 0 0"))
+        return rigid(turn.as_matrix(), self.vector(item, "xyz", where, "0 0 0"))
 
     def geometry(self, shape: ET.Element, where: str) -> UrdfGeometry | None:
         """Return the geometry of a ``<visual>`` or ``<collision>``; ``None`` where it has none.
@@ -204,10 +209,3 @@ def number(element: ET.Element, key: str, where: str, default: float | None = No
         return float(text)
     except ValueError as error:
         raise DescriptionError("invalid_number", f"{where}: {key}={text!r} is no number") from error
-
-
-def rotation_from_rpy(rpy: FloatArray) -> FloatArray:
-    """Return the rotation by roll, pitch and yaw about the fixed axes x, y and z [rad]."""
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_euler("xyz", rpy).as_matrix()

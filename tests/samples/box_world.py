@@ -113,9 +113,9 @@ def built(*moving: tuple[Link, JointLine], base: Link = BASE) -> Description:
 def cabinet(defect: str = "none") -> Description:
     """A 0.6 x 0.4 x 0.8 m cabinet of 18 mm boards, gaps of 2 mm: overlay door above, drawer below.
 
-    The front looks along -y. Defects: ``wide`` drawer 5 mm into both sides, ``long`` drawer 13 mm
-    into the back, ``axis_flip`` door opening inwards, ``hinge_inside`` hinge 20 mm inside the
-    door's edge, ``sib`` fronts overlapping by 8 mm.
+    The front looks along -y. Defects: ``wide`` drawer 5 mm into both sides, ``axis_flip`` door
+    opening inwards, ``hinge_inside`` hinge 20 mm inside the door's edge, ``sib`` fronts overlapping
+    by 8 mm.
     """
     t = 0.018
     gap = 0.002
@@ -128,7 +128,7 @@ def cabinet(defect: str = "none") -> Description:
         ((0.0, 0.191, 0.4), (0.564, t, 0.764)),
     ]
     half = 0.282 - gap + (0.007 if defect == "wide" else 0.0)
-    back = 0.182 - gap + (0.015 if defect == "long" else 0.0)
+    back = 0.182 - gap
     front = -0.2 - gap
     drawer = [
         ((-half + t / 2, (front + back) / 2, 0.2), (t, back - front, 0.3)),

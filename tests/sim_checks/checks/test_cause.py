@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from small_cabinet import rows
 
-from asset_factory.sim_checks.checks.cause import Cause, Way, shown_cause
+from asset_factory.sim_checks.checks.cause import Cause, shown_cause, way_cause
 from asset_factory.sim_checks.config import PenetrationConfig
 
 CONFIG = PenetrationConfig()
@@ -128,13 +128,15 @@ def test_a_sound_cabinet_needs_no_explanation():
     assert {item["cause"] for item in contacts} == {None}
 
 
-WAY = Way(clear=0.2, excess=0.03, otherwise=0.03, at_rest=0.0)
+WAY = {"clear": 0.2, "excess": 0.03, "otherwise": 0.03, "at_rest": 0.0}
 
 
 def cause(way=WAY, depth=0.03, allowed=0.001, visual=-0.03, leaked=False, at_rest=False):
     """What the surfaces say; where they say nothing, what the way does."""
     told = shown_cause(depth, allowed, visual, leaked=leaked, at_rest=at_rest)
-    return told if told or way is None else way.cause(visual is not None, CONFIG)
+    if told or way is None:
+        return told
+    return way_cause(**way, seen=visual is not None, config=CONFIG)
 
 
 @pytest.mark.parametrize(
@@ -148,14 +150,14 @@ def cause(way=WAY, depth=0.03, allowed=0.001, visual=-0.03, leaked=False, at_res
         ({"way": None, "at_rest": True}, Cause.PARTS_OVERLAP),
         ({"way": None, "at_rest": True, "visual": None}, None),
         ({"way": None}, None),
-        ({"way": replace(WAY, clear=0.6)}, Cause.LIMIT_TOO_LONG),
-        ({"way": replace(WAY, clear=0.6, otherwise=0.0)}, Cause.LIMIT_TOO_LONG),
-        ({"way": replace(WAY, otherwise=0.0005)}, Cause.WRONG_AXIS),
-        ({"way": replace(WAY, otherwise=0.007)}, Cause.WRONG_AXIS),
-        ({"way": replace(WAY, otherwise=0.009)}, None),
-        ({"way": replace(WAY, clear=0.01)}, Cause.WRONG_AXIS),
-        ({"way": replace(WAY, clear=0.01, at_rest=0.01)}, Cause.PARTS_OVERLAP),
-        ({"visual": None, "way": replace(WAY, otherwise=0.0)}, None),
+        ({"way": WAY | {"clear": 0.6}}, Cause.LIMIT_TOO_LONG),
+        ({"way": WAY | {"clear": 0.6, "otherwise": 0.0}}, Cause.LIMIT_TOO_LONG),
+        ({"way": WAY | {"otherwise": 0.0005}}, Cause.WRONG_AXIS),
+        ({"way": WAY | {"otherwise": 0.007}}, Cause.WRONG_AXIS),
+        ({"way": WAY | {"otherwise": 0.009}}, None),
+        ({"way": WAY | {"clear": 0.01}}, Cause.WRONG_AXIS),
+        ({"way": WAY | {"clear": 0.01, "at_rest": 0.01}}, Cause.PARTS_OVERLAP),
+        ({"visual": None, "way": WAY | {"otherwise": 0.0}}, None),
     ],
 )
 def test_what_the_numbers_say(numbers, expected):

@@ -88,8 +88,10 @@ def test_a_drawer_s_narrowest_gap_is_its_clearance_or_its_depth_and_never_counts
         assert result.findings == ()
         assert slide["clearance_mm"] == pytest.approx(1000 * min(gaps), abs=SURE, rel=0.02)
     else:
-        assert hard(result) == ["rest_penetration"]
-        assert result.findings[0].value == pytest.approx(-1000 * min(gaps), rel=1e-3)
+        (found,) = result.findings
+        assert (found.code, found.severity) == ("rest_penetration", "error")
+        assert (found.joint, set(found.parts)) == (None, {"bay", "block"})
+        assert (found.value, found.unit) == (pytest.approx(-1000 * min(gaps), rel=1e-3), "mm")
         assert slide["excess_mm"] <= SURE
 
 
@@ -121,8 +123,10 @@ def test_a_door_s_corner_cuts_the_jamb_where_the_circle_says(gap, sign):
     worst = radius - width - gap
     found = rows(result)["hinge"]
     assert worst > CONFIG.excess_m
-    assert hard(result) == ["sweep_penetration"]
-    assert result.findings[0].value == pytest.approx(1000 * worst, rel=0.02)
+    (told,) = result.findings
+    assert (told.code, told.severity) == ("sweep_penetration", "error")
+    assert (told.joint, set(told.parts)) == ("hinge", {"wall", "door"})
+    assert (told.value, told.unit) == (pytest.approx(1000 * worst, rel=0.02), "mm")
     # Near its top a circle is flat: a depth known to 2 % is a place known to this angle.
     flat = np.sqrt(2.0 * max(2e-5, 0.02 * worst) / radius)
     assert found["pairs"][0]["at"] == pytest.approx(start, abs=flat)

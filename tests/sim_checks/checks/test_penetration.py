@@ -12,21 +12,6 @@ from asset_factory.sim_checks.checks.penetration import combination_values
 UNIT = (1.0, 1.0, 1.0)
 
 
-@pytest.mark.parametrize(
-    ("defect", "code", "name", "parts", "depth"),
-    [
-        ("wide", "rest_penetration", None, {"carcass", "drawer"}, 5.0),
-        ("long", "rest_penetration", None, {"carcass", "drawer"}, 13.0),
-        ("sib", "rest_penetration", None, {"drawer", "door"}, 8.0),
-        ("hinge_inside", "sweep_penetration", "hinge", {"carcass", "door"}, 18.0),
-    ],
-)
-def test_each_defect_is_caught_by_its_own_code(defect, code, name, parts, depth):
-    found = next(item for item in penetrating(cabinet(defect)).findings if item.code == code)
-    assert (found.severity, found.joint, found.unit) == ("error", name, "mm")
-    assert (set(found.parts), found.value) == (parts, pytest.approx(depth, rel=0.02))
-
-
 def test_two_joints_are_looked_at_with_both_open():
     assert combination_values({"a": (0.0, 1.0), "b": (-1.0, 2.0)}, 0) == [{"a": 1.0, "b": 2.0}]
 
