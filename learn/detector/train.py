@@ -75,11 +75,11 @@ def train(options: Any) -> None:
     torch.backends.cuda.matmul.allow_tf32 = True
     torch.backends.cudnn.allow_tf32 = True
     torch.manual_seed(options.seed)
-    some = round(ONE_PIECE_WORKERS * options.workers)
+    some = max(1, round(ONE_PIECE_WORKERS * options.workers))
     made = Pool(options.pool, device)
     one_piece = Pool(options.pool // 4, device)
     forming = Makers(one_piece, some, options.seed, one_piece=True)
-    makers = (Makers(made, options.workers - some, options.seed), forming)
+    makers = (Makers(made, max(1, options.workers - some), options.seed), forming)
     learned, held_out = _packed(options.pack, device)
     say(f"{[each.made for each in learned]} to learn from, {[each.made for each in held_out]} not")
     network = _begun(options).to(device, memory_format=torch.channels_last)
