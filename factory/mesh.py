@@ -46,6 +46,12 @@ def cross(first: FloatArray, second: FloatArray) -> FloatArray:
     return products
 
 
+def unit_rows(vectors: FloatArray) -> FloatArray:
+    """Return vectors of length 1 that point as these do, shape [..., 3]; 0 stays 0."""
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.asarray(vectors / np.where(length > 0.0, length, 1.0))
+
+
 @dataclass(frozen=True)
 class Texture:
     """An image, as it was encoded in the input.
@@ -191,9 +197,7 @@ class Mesh:
         order = np.array([0, 2, 1] if np.linalg.det(linear) < 0 else [0, 1, 2])
         normals = self.corner_normals
         if normals is not None:
-            turned = normals @ np.linalg.inv(linear)
-            length = np.linalg.norm(turned, axis=-1, keepdims=True)
-            normals = (turned / np.where(length > 0, length, 1.0))[:, order]
+            normals = unit_rows(normals @ np.linalg.inv(linear))[:, order]
         return Mesh(
             vertices=vertices,
             faces=self.faces[:, order],

@@ -69,7 +69,7 @@ def moving_together(draft: Draft) -> Draft:
 
 
 def _is_common(joints: Sequence[Joint], whole: Mimic) -> bool:
-    limits: Limits | None = common_limits(joints, whole.leader)
+    limits: Limits | None = common_limits(joints).get(whole.leader)
     if limits is None or limits[1] - limits[0] <= NO_RANGE:
         return False
     leader = next(joint for joint in joints if joint.name == whole.leader)

@@ -1,4 +1,4 @@
-"""What all formats agree on: links with their frames, inertias and joints, and drives' limits."""
+"""What all formats agree on: links with their frames, inertias and joints."""
 
 from __future__ import annotations
 
@@ -20,19 +20,6 @@ from .visuals import VISUAL_FOLDER, TextureFolder, VisualPiece, write_visuals
 COLLISION_FOLDER = Path("meshes/collision")
 #: MuJoCo wants ``A + B >= C`` without tolerance; a flat plate sits exactly on that border.
 TRIANGLE_SLACK = 1e-6
-#: Drives stronger than these serve no furniture [N m], [N].
-EFFORT = {True: 200.0, False: 500.0}
-#: [rad/s], [m/s].
-VELOCITY = {True: 10.0, False: 5.0}
-#: Entries of an inertia tensor as URDF and SDFormat name them.
-INERTIA_CELLS = {
-    "ixx": (0, 0),
-    "ixy": (0, 1),
-    "ixz": (0, 2),
-    "iyy": (1, 1),
-    "iyz": (1, 2),
-    "izz": (2, 2),
-}
 
 
 @dataclass(frozen=True)

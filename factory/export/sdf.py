@@ -9,11 +9,12 @@ from __future__ import annotations
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
-from ..articulation import Joint, JointKind
+from ..articulation import Joint
 from ..geometry.colors import srgb_of
 from ..runtime.numbers import magnitude
-from .links import EFFORT, INERTIA_CELLS, VELOCITY, Layout, LinkLayout
-from .text import DECIMALS_UNIT, number, vector, xml_text
+from .links import Layout, LinkLayout
+from .text import DECIMALS_UNIT, vector, xml_text
+from .urdf import inertia_words, joint_words
 from .visuals import VisualPiece
 
 #: Declared because Drake's own elements are used.
@@ -28,8 +29,7 @@ def sdf_text(layout: Layout) -> str:
     model = SubElement(root, "model", name=name, canonical_link=layout.links[0].name)
     # It holds the asset in place, as a URDF's root link is held by who loads it.
     world = SubElement(model, "joint", name="world_joint", type="fixed")
-    SubElement(world, "parent").text = "world"
-    SubElement(world, "child").text = layout.links[0].name
+    _write(world, parent="world", child=layout.links[0].name)
     model.extend(_link(layout, link) for link in layout.links)
     joints = (_joint(layout, link, link.joint) for link in layout.links if link.joint is not None)
     model.extend(joints)
@@ -47,11 +47,9 @@ def _link(layout: Layout, link: LinkLayout) -> ElementTree.Element:
         pose = SubElement(element, "pose", relative_to=layout.links[link.joint.parent].name)
         pose.text = f"{vector(link.offset)} 0 0 0"
     inertial = SubElement(element, "inertial")
-    SubElement(inertial, "pose").text = f"{vector(link.inertial.center)} 0 0 0"
-    SubElement(inertial, "mass").text = repr(magnitude(link.inertial.mass))
-    inertia = SubElement(inertial, "inertia")
-    for name, cell in INERTIA_CELLS.items():
-        SubElement(inertia, name).text = repr(magnitude(link.inertial.tensor[cell]))
+    mass = repr(magnitude(link.inertial.mass))
+    _write(inertial, pose=f"{vector(link.inertial.center)} 0 0 0", mass=mass)
+    _write(SubElement(inertial, "inertia"), **inertia_words(link.inertial.tensor))
     for piece in link.visuals:
         visual = SubElement(element, "visual", name=piece.name)
         _mesh(visual, piece.file.as_posix())
@@ -64,7 +62,7 @@ def _link(layout: Layout, link: LinkLayout) -> ElementTree.Element:
 
 def _mesh(parent: ElementTree.Element, file: str) -> ElementTree.Element:
     mesh = SubElement(SubElement(parent, "geometry"), "mesh")
-    SubElement(mesh, "uri").text = file
+    _write(mesh, uri=file)
     return mesh
 
 
@@ -73,39 +71,32 @@ def _material(piece: VisualPiece) -> ElementTree.Element:
     material = Element("material")
     red, green, blue = srgb_of(piece.material.color[:3])
     shown = vector([red, green, blue, piece.material.color[3]], DECIMALS_UNIT)
-    for kind in ("ambient", "diffuse"):
-        SubElement(material, kind).text = shown
+    _write(material, ambient=shown, diffuse=shown)
     if piece.texture is not None:
         metal = SubElement(SubElement(material, "pbr"), "metal")
-        SubElement(metal, "albedo_map").text = piece.texture.as_posix()
-        SubElement(metal, "roughness").text = "0.7"
-        SubElement(metal, "metalness").text = "0"
+        _write(metal, albedo_map=piece.texture.as_posix(), roughness="0.7", metalness="0")
     return material
 
 
 def _joint(layout: Layout, link: LinkLayout, joint: Joint) -> ElementTree.Element:
     element = Element("joint", name=joint.name, type=str(joint.kind))
-    SubElement(element, "parent").text = layout.links[joint.parent].name
-    SubElement(element, "child").text = link.name
+    _write(element, parent=layout.links[joint.parent].name, child=link.name)
     if not joint.movable:
         return element
     axis = SubElement(element, "axis")
-    SubElement(axis, "xyz").text = vector(joint.axis)
-    limit = SubElement(axis, "limit")
-    if joint.kind is not JointKind.CONTINUOUS:
-        SubElement(limit, "lower").text = number(joint.lower)
-        SubElement(limit, "upper").text = number(joint.upper)
-    SubElement(limit, "effort").text = number(EFFORT[joint.turns])
-    SubElement(limit, "velocity").text = number(VELOCITY[joint.turns])
-    dynamics = SubElement(axis, "dynamics")
-    SubElement(dynamics, "damping").text = repr(magnitude(link.resistance.damping))
-    SubElement(dynamics, "friction").text = repr(magnitude(link.resistance.friction))
+    _write(axis, xyz=vector(joint.axis))
+    words = joint_words(joint, link.resistance)
+    for name in ("limit", "dynamics"):
+        _write(SubElement(axis, name), **words[name])
     if joint.mimic is not None:
-        ratio = repr(magnitude(joint.mimic.multiplier))
-        mimic = SubElement(axis, "mimic", joint=joint.mimic.leader)
-        for word, value in (("multiplier", ratio), ("offset", "0"), ("reference", "0")):
-            SubElement(mimic, word).text = value
         # Drake has a word of its own.
-        told = {"joint": joint.mimic.leader, "multiplier": ratio, "offset": "0"}
-        SubElement(element, "drake:mimic", told)
+        SubElement(element, "drake:mimic", words["mimic"])
+        mimic = SubElement(axis, "mimic", joint=words["mimic"].pop("joint"))
+        _write(mimic, **words["mimic"], reference="0")
     return element
+
+
+def _write(element: ElementTree.Element, /, **texts: str) -> None:
+    """Write elements of these names into another, each with a text."""
+    for name, text in texts.items():
+        SubElement(element, name).text = text

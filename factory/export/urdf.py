@@ -12,13 +12,21 @@ takes it for a plain actor, not an articulation.
 
 from __future__ import annotations
 
+from itertools import combinations_with_replacement
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 from ..articulation import Joint, JointKind
+from ..mesh import FloatArray
 from ..runtime.numbers import magnitude
-from .links import EFFORT, INERTIA_CELLS, VELOCITY, Layout, LinkLayout
+from .links import Layout, LinkLayout
+from .resistance import Resistance
 from .text import number, vector, xml_text
+
+#: Drives stronger than these serve no furniture [N m], [N].
+EFFORT = {True: 200.0, False: 500.0}
+#: [rad/s], [m/s].
+VELOCITY = {True: 10.0, False: 5.0}
 
 
 def urdf_text(layout: Layout) -> str:
@@ -34,9 +42,7 @@ def _link(link: LinkLayout) -> ElementTree.Element:
     inertial = SubElement(element, "inertial")
     SubElement(inertial, "origin", xyz=vector(link.inertial.center))
     SubElement(inertial, "mass", value=repr(magnitude(link.inertial.mass)))
-    tensor = link.inertial.tensor
-    cells = {name: repr(magnitude(tensor[cell])) for name, cell in INERTIA_CELLS.items()}
-    SubElement(inertial, "inertia", cells)
+    SubElement(inertial, "inertia", inertia_words(link.inertial.tensor))
     for piece in link.visuals:
         _mesh(SubElement(element, "visual", name=piece.name), piece.file.as_posix())
     for file in link.collisions:
@@ -56,14 +62,26 @@ def _joint(layout: Layout, link: LinkLayout, joint: Joint) -> ElementTree.Elemen
     if not joint.movable:
         return element
     SubElement(element, "axis", xyz=vector(joint.axis))
+    for name, words in joint_words(joint, link.resistance).items():
+        SubElement(element, name, words)
+    return element
+
+
+def inertia_words(tensor: FloatArray) -> dict[str, str]:
+    """Return the entries of an inertia tensor [kg m2] by names that SDFormat has too."""
+    cells = combinations_with_replacement((0, 1, 2), 2)
+    return {f"i{'xyz'[i]}{'xyz'[j]}": repr(magnitude(tensor[i, j])) for i, j in cells}
+
+
+def joint_words(joint: Joint, resistance: Resistance) -> dict[str, dict[str, str]]:
+    """Return what elements say of a joint that moves, in words that SDFormat has too."""
     limit = {"effort": number(EFFORT[joint.turns]), "velocity": number(VELOCITY[joint.turns])}
     if joint.kind is not JointKind.CONTINUOUS:
         limit = {"lower": number(joint.lower), "upper": number(joint.upper), **limit}
-    SubElement(element, "limit", limit)
-    damping = repr(magnitude(link.resistance.damping))
-    friction = repr(magnitude(link.resistance.friction))
-    SubElement(element, "dynamics", damping=damping, friction=friction)
+    damping = repr(magnitude(resistance.damping))
+    friction = repr(magnitude(resistance.friction))
+    words = {"limit": limit, "dynamics": {"damping": damping, "friction": friction}}
     if joint.mimic is not None:
         ratio = repr(magnitude(joint.mimic.multiplier))
-        SubElement(element, "mimic", joint=joint.mimic.leader, multiplier=ratio, offset="0")
-    return element
+        words["mimic"] = {"joint": joint.mimic.leader, "multiplier": ratio, "offset": "0"}
+    return words

@@ -10,7 +10,7 @@ import numpy as np
 from asset_factory.sim_checks.description import Mimic
 from asset_factory.sim_checks.geometry.coupling import (
     Limits,
-    common_range,
+    common_ranges,
     sound_chains,
     whole_chain,
 )
@@ -37,19 +37,13 @@ def with_common_ranges(joints: Sequence[Joint]) -> tuple[Joint, ...]:
     """
     joints = with_leaders(joints)
     mimics = sound_mimics(joints)
-    ranges = {
-        name: common_limits(joints, name)
-        for name in {whole_chain(f, mimics).leader for f in mimics}
-    }
+    ranges = common_limits(joints)
     return tuple(_within(joint, mimics, ranges) for joint in joints)
 
 
-def common_limits(joints: Sequence[Joint], leader: str) -> Limits | None:
-    """Return how far a free joint goes, its followers within their limits; ``None``: nowhere."""
-    mimics = sound_mimics(joints)
-    led = [(whole_chain(j.name, mimics), limits_of(j)) for j in joints if j.name in mimics]
-    own = next(limits_of(joint) for joint in joints if joint.name == leader)
-    return common_range(own, [(mimic, limits) for mimic, limits in led if mimic.leader == leader])
+def common_limits(joints: Sequence[Joint]) -> dict[str, Limits]:
+    """Return how far free joints go, their followers within their limits; none that go nowhere."""
+    return common_ranges({joint.name: limits_of(joint) for joint in joints}, sound_mimics(joints))
 
 
 def limits_of(joint: Joint) -> Limits:
@@ -58,9 +52,7 @@ def limits_of(joint: Joint) -> Limits:
     return (-np.inf, np.inf) if endless else (joint.lower, joint.upper)
 
 
-def _within(
-    joint: Joint, mimics: Mapping[str, Mimic], ranges: Mapping[str, Limits | None]
-) -> Joint:
+def _within(joint: Joint, mimics: Mapping[str, Mimic], ranges: Mapping[str, Limits]) -> Joint:
     whole = whole_chain(joint.name, mimics) if joint.name in mimics else Mimic(joint.name)
     limits = ranges.get(whole.leader)
     if limits is None or not np.isfinite(limits).all():

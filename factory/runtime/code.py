@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
+from glob import iglob
 from importlib.util import find_spec, resolve_name
 
 from .store import digest_bytes
@@ -139,13 +140,9 @@ def _sources(package: str) -> dict[str, str]:
         return {}
     root = os.path.dirname(spec.origin)
     found = {}
-    # A checkout has links in place of folders.
-    for folder, _, files in os.walk(root, followlinks=True):
-        inner = os.path.relpath(folder, root).split(os.sep)
-        parts = [package, *(part for part in inner if part != os.curdir)]
-        for file in files:
-            stem, suffix = os.path.splitext(file)
-            if suffix == ".py":
-                name = ".".join(parts if file == _PACKAGE else [*parts, stem])
-                found[name] = os.path.join(folder, file)
+    # A checkout has links in place of folders, which this follows.
+    for file in iglob("**/*.py", root_dir=root, recursive=True):
+        parts = file.removesuffix(".py").split(os.sep)
+        name = ".".join([package, *parts]).removesuffix(".__init__")
+        found[name] = os.path.join(root, file)
     return found

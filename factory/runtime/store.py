@@ -19,7 +19,8 @@ from typing import Any, BinaryIO
 
 import numpy as np
 import numpy.typing as npt
-from filelock import lock_descriptor
+
+from asset_factory.sim_checks.processes.scratch import hold
 
 #: In place of the digest of what is no regular file.
 NOT_A_FILE = "not a file"
@@ -127,13 +128,8 @@ def _begun(folder: Path) -> tuple[int, str]:
     """Make a file, locked while its process lives, so that cleaning sees it is being written."""
     while True:
         handle, name = tempfile.mkstemp(dir=folder, prefix=WRITING_PREFIX)
-        # Not all file systems have locks.
-        with suppress(OSError):
-            lock_descriptor(handle)
-        # Somebody who came between making and locking has taken it for abandoned.
-        if os.path.exists(name):
+        if hold(Path(name), handle):
             return handle, name
-        os.close(handle)
 
 
 def write_json(path: Path, data: object, *, lasting: bool = False) -> None:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ..geometry.colors import srgb_of
 from ..geometry.triangles import doubled_normals
-from ..mesh import BoolArray, FloatArray, IntArray, Material, Mesh, Texture
+from ..mesh import BoolArray, FloatArray, IntArray, Material, Mesh, Texture, unit_rows
 from .crossings import nearest_crossings
 from .raster import PIXELS, Raster, Side
 
@@ -60,9 +60,7 @@ class View:
     def normal(self) -> FloatArray:
         """Return unit normals in the side's frame, shape [rows, columns, 3]; 0: nothing."""
         normals = doubled_normals(self.mesh.vertices[self.mesh.faces]) @ self.raster.side.frame.T
-        length = np.linalg.norm(normals, axis=1, keepdims=True)
-        normals = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0.0)
-        return np.where(self.seen[..., None], normals[self.face], 0.0)
+        return np.where(self.seen[..., None], unit_rows(normals)[self.face], 0.0)
 
     @cached_property
     def color(self) -> FloatArray:

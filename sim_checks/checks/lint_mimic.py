@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ..description import ABSURD, Description, JointLine, Mimic, sensible
-from ..geometry.coupling import Limits, common_range, led_by, whole_chain
-from ..geometry.kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range
+from ..geometry.coupling import whole_chain
+from ..geometry.kinematics import MOVING_KINDS, own_limits, sound_mimics, sweep_range, swept_ranges
 from .result import Findings, about, error, graded, rounded
 
 #: Limits written with few digits may miss what the leader asks by this share of the follower's
@@ -16,7 +16,7 @@ def mimic_findings(description: Description) -> Findings:
     """Yield errors without a leader or a way to go, warnings where a follower stops its leader."""
     moving = {joint.name: joint for joint in description.joints if joint.kind in MOVING_KINDS}
     sound = sound_mimics(description)
-    led = led_by(sound)
+    ranges = swept_ranges(moving.values(), sound)
     for joint in description.joints:
         mimic = joint.mimic
         if mimic is None:
@@ -28,8 +28,8 @@ def mimic_findings(description: Description) -> Findings:
             yield error("mimic_not_finite", message, **about(joint))
         elif joint.name in sound:
             whole = whole_chain(joint.name, sound)
-            others = [(each, own_limits(moving[n])) for n, each in led[whole.leader].items()]
-            yield from _limit_findings(joint, moving[whole.leader], whole, others)
+            stuck = whole.leader not in ranges
+            yield from _limit_findings(joint, moving[whole.leader], whole, stuck)
         elif joint.kind in MOVING_KINDS:
             message = f"{follows}, {_fault(joint, mimic, moving)}"
             yield error("mimic_unknown", message, **about(joint))
@@ -43,9 +43,7 @@ def _fault(joint: JointLine, mimic: Mimic, moving: dict[str, JointLine]) -> str:
     return "whose own leaders lead nowhere or in a circle; want a chain that ends at a free joint"
 
 
-def _limit_findings(
-    joint: JointLine, leader: JointLine, mimic: Mimic, others: list[tuple[Mimic, Limits | None]]
-) -> Findings:
+def _limit_findings(joint: JointLine, leader: JointLine, mimic: Mimic, stuck: bool) -> Findings:
     led = sweep_range(leader)
     own = own_limits(joint)
     if led is None or own is None:
@@ -55,7 +53,6 @@ def _limit_findings(
     beyond = max(own[0] - asked[0], asked[1] - own[1])
     if beyond > ROUNDING * (own[1] - own[0]):
         unit = joint.unit
-        stuck = common_range(led, others) is None
         message = (
             f"joint {joint.name!r} may move from {own[0]:g} to {own[1]:g} {unit}, "
             f"but the range of {leader.name!r}, which it follows, "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from ..description import Mimic, sensible
 
@@ -52,22 +52,23 @@ def whole_chain(name: str, sound: Mapping[str, Mimic], leader: str | None = None
     return whole
 
 
-def led_by(sound: Mapping[str, Mimic]) -> dict[str, dict[str, Mimic]]:
-    """Return leader -> follower -> their whole chain as one; leaders are free joints."""
-    led: dict[str, dict[str, Mimic]] = {}
+def common_ranges(
+    limits: Mapping[str, Limits | None], sound: Mapping[str, Mimic]
+) -> dict[str, Limits]:
+    """Return the limits of free joints, cut so that all who follow them keep theirs.
+
+    A joint of which nothing is left is left out, as is a free one without limits.
+
+    Args:
+        limits: of each joint, if it has any.
+        sound: follower -> mimic, without circles.
+    """
+    common = {name: own for name, own in limits.items() if own is not None and name not in sound}
     for name in sound:
         whole = whole_chain(name, sound)
-        led.setdefault(whole.leader, {})[name] = whole
-    return led
-
-
-def common_range(limits: Limits, followers: Iterable[tuple[Mimic, Limits | None]]) -> Limits | None:
-    """Return a leader's limits, cut so that all followers keep theirs; ``None`` if nothing is left.
-
-    Followers are given by how they follow the leader, with their own limits, if they have any.
-    """
-    for mimic, own in followers:
-        if own is not None and mimic.multiplier != 0.0:
-            ends = sorted((end - mimic.offset) / mimic.multiplier for end in own)
-            limits = max(limits[0], ends[0]), min(limits[1], ends[1])
-    return limits if limits[0] < limits[1] else None
+        own = limits.get(name)
+        if own is not None and whole.multiplier != 0.0 and whole.leader in common:
+            ends = sorted((end - whole.offset) / whole.multiplier for end in own)
+            lower, upper = common[whole.leader]
+            common[whole.leader] = max(lower, ends[0]), min(upper, ends[1])
+    return {name: (lower, upper) for name, (lower, upper) in common.items() if lower < upper}

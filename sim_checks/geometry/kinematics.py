@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from ..description import Description, FloatArray, JointLine, Mimic, sensible
-from .coupling import Limits, common_range, leaders, led_by, sound_chains
+from .coupling import Limits, common_ranges, leaders, sound_chains
 from .placing import rigid
 
 MOVING_KINDS = ("revolute", "continuous", "prismatic")
@@ -58,16 +58,7 @@ class Tree:
         It is shortened to where followers stay within their own limits, and left out where nothing
         is left.
         """
-        own = {joint.name: own_limits(joint) for joint in self.moving}
-        led = led_by(self.mimics)
-        found = {}
-        for joint in self.free:
-            limits = sweep_range(joint)
-            wholes = ((whole, own[name]) for name, whole in led.get(joint.name, {}).items())
-            common = None if limits is None else common_range(limits, wholes)
-            if common is not None:
-                found[joint.name] = common
-        return found
+        return swept_ranges(self.moving, self.mimics)
 
     @cached_property
     def closed(self) -> Mapping[str, float]:
@@ -246,6 +237,12 @@ def own_limits(joint: JointLine) -> Limits | None:
         return None
     limits = joint.lower, joint.upper
     return limits if sensible(limits) and limits[0] < limits[1] else None
+
+
+def swept_ranges(moving: Iterable[JointLine], mimics: Mapping[str, Mimic]) -> dict[str, Limits]:
+    """Return what :attr:`Tree.ranges` does, of joints that move and how some follow others."""
+    own = ((j.name, own_limits(j) if j.name in mimics else sweep_range(j)) for j in moving)
+    return common_ranges(dict(own), mimics)
 
 
 def sweep_range(joint: JointLine) -> Limits | None:

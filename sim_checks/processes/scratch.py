@@ -24,19 +24,23 @@ def held_folder(parent: Path, prefix: str = "") -> tuple[Path, int]:
     """Make a folder and its lock: a file descriptor to close when nobody works in it any more."""
     while True:
         folder = Path(tempfile.mkdtemp(dir=parent, prefix=prefix))
-        try:
+        with suppress(FileNotFoundError):
             descriptor = os.open(folder, os.O_RDONLY)
-        except FileNotFoundError:
-            continue
-        try:
-            lock_descriptor(descriptor)
-        except OSError:
-            # No locks on this file system: nobody takes such folders away.
-            return folder, descriptor
-        # Somebody who came between making and locking has taken it for abandoned.
-        if folder.exists():
-            return folder, descriptor
-        os.close(descriptor)
+            if hold(folder, descriptor):
+                return folder, descriptor
+
+
+def hold(path: Path, descriptor: int) -> bool:
+    """Lock what was just made; close it and return False where somebody took it for abandoned.
+
+    That is who came between making and locking. Where there are no locks, nobody takes anything.
+    """
+    with suppress(OSError):
+        lock_descriptor(descriptor)
+    if path.exists():
+        return True
+    os.close(descriptor)
+    return False
 
 
 def abandoned(path: Path) -> int | None:

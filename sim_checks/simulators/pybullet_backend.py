@@ -144,8 +144,8 @@ class PybulletWorld(World):
 
     def energy(self) -> float:
         """Return the kinetic energy, and potential energy of gravity if it is on [J]."""
-        position, velocity = self._states()
-        kinetic = self._dynamics.kinetic(position, velocity)
+        velocity = self.velocities()
+        kinetic = 0.5 * float(velocity @ self.mass_matrix() @ velocity)
         if not self._falls:
             return kinetic
         # The base, which is the first, stands.

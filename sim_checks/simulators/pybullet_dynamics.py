@@ -7,6 +7,7 @@ heavy, turned ones (a fridge's door) differ there, and it answers nothing at all
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import partial
 from inspect import isbuiltin
 from typing import Any
@@ -32,7 +33,7 @@ class BulletClient:
 
 
 class Dynamics:
-    """Inertias, balancing forces and kinetic energy of one multibody.
+    """Inertias and balancing forces of one multibody.
 
     All vectors are in the order of its joints, each given with the links beyond it, which it moves.
     """
@@ -54,8 +55,13 @@ class Dynamics:
 
     def mass_matrix(self, position: FloatArray) -> FloatArray:
         """Return the mass matrix [kg m2], [kg m] or [kg], shape [joint_count, joint_count]."""
-        matrix = self._matrix(position)
-        return matrix if matrix is not None else self._composed()
+        if not self._refuses:
+            with suppress(SystemError, self._bullet.error):
+                matrix = np.array(self._bullet.calculateMassMatrix(self._body, position.tolist()))
+                if matrix.shape == (len(self._joints),) * 2:
+                    return matrix
+            self._refuses = True
+        return self._composed()
 
     def balance(self, position: FloatArray, velocity: FloatArray, gravity: float) -> FloatArray:
         """Return forces against gravity along z [m/s2] and velocity effects, [joint_count].
@@ -65,11 +71,10 @@ class Dynamics:
         """
         if not self._refuses:
             motion = (position.tolist(), velocity.tolist(), [0.0] * len(self._joints))
-            try:
+            with suppress(SystemError, self._bullet.error):
                 forces = self._bullet.calculateInverseDynamics(self._body, *motion)
                 return np.array(forces, np.float64)
-            except (SystemError, self._bullet.error):
-                self._refuses = True
+            self._refuses = True
         axes, points, centers, _ = self._geometry()
         forces = np.zeros(len(self._joints))
         for i, group in enumerate(self._beyond):
@@ -77,20 +82,6 @@ class Dynamics:
                 lift = axes[i] if self._slides[i] else np.cross(axes[i], centers[link] - points[i])
                 forces[i] -= gravity * self._mass[link] * lift[2]
         return forces
-
-    def kinetic(self, position: FloatArray, velocity: FloatArray) -> float:
-        """Return the kinetic energy [J]."""
-        return 0.5 * float(velocity @ self.mass_matrix(position) @ velocity)
-
-    def _matrix(self, position: FloatArray) -> FloatArray | None:
-        if self._refuses:
-            return None
-        try:
-            matrix = np.array(self._bullet.calculateMassMatrix(self._body, position.tolist()))
-        except (SystemError, self._bullet.error):
-            matrix = np.zeros(0)
-        self._refuses = matrix.shape != (len(self._joints),) * 2
-        return None if self._refuses else matrix
 
     def _composed(self) -> FloatArray:
         """Return the mass matrix, link by link from what each joint does to it."""

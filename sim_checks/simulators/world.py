@@ -11,7 +11,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..description import FloatArray, Mimic
-from ..geometry.coupling import Limits, common_range, led_by, sound_chains
+from ..geometry.coupling import Limits, common_ranges, sound_chains, whole_chain
 
 #: A joint without limits is swept through one turn; its sliding cousin has no sweep of its own.
 FULL_TURN = 2.0 * math.pi
@@ -242,17 +242,16 @@ class World(Protocol):
         instead, two doors of which one follows the other backwards would begin with one of them
         open.
         """
-        ends = {joint.name: _ends(joint) for joint in self.joints}
-        limited = [joint for joint in self.joints if joint.lower < joint.upper]
-        limits = {joint.name: (joint.lower, joint.upper) for joint in limited}
         sound = sound_chains({joint.name: joint.mimic for joint in self.joints})
-        for leader, wholes in led_by(sound).items():
-            lower, upper = ends[leader]
-            followers = ((whole, limits.get(name)) for name, whole in wholes.items())
-            ends[leader] = common_range((lower, upper), followers) or (lower, lower)
-            for name, whole in wholes.items():
-                lower, upper = (whole.multiplier * end + whole.offset for end in ends[leader])
-                ends[name] = lower, upper
+        free = {joint.name: _ends(joint) for joint in self.joints if joint.name not in sound}
+        limited = (joint for joint in self.joints if joint.lower < joint.upper)
+        limits = {joint.name: (joint.lower, joint.upper) for joint in limited} | free
+        common = common_ranges(limits, sound)
+        ends = {name: common.get(name, (lower, lower)) for name, (lower, _) in free.items()}
+        for name in sound:
+            whole = whole_chain(name, sound)
+            lower, upper = (whole.multiplier * end + whole.offset for end in ends[whole.leader])
+            ends[name] = lower, upper
         both = np.array([ends[joint.name] for joint in self.joints], np.float64).reshape(-1, 2)
         return Ranges(both[:, 0], both[:, 1])
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...geometry.cutting import divide
 from ...geometry.triangles import FOLLOWING, ends_of
-from ...mesh import BoolArray, FloatArray, IntArray, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Mesh, unit_rows
 
 #: Vertices nearer to a plane than this share of the diagonal lie on it.
 ON_PLANE = 1e-5
@@ -133,12 +133,13 @@ def _split(cut: CutMesh, height: FloatArray, faces: IntArray, tolerance: float) 
             return None
         return np.concatenate([values[kept], pieces.spread(values[own])])
 
+    normals = spread(mesh.corner_normals)
     refined = replace(
         mesh,
         vertices=np.concatenate([mesh.vertices, points]),
         faces=np.concatenate([mesh.faces[kept], six[pieces.whole[:, None], pieces.corner]]),
         corner_uv=spread(mesh.corner_uv),
-        corner_normals=_unit(spread(mesh.corner_normals)),
+        corner_normals=None if normals is None else unit_rows(normals),
         face_material=mesh.face_material[source],
     )
     return CutMesh(refined, cut.source[source])
@@ -151,10 +152,3 @@ def _edges(faces: IntArray) -> IntArray:
 
 def _keys(edges: IntArray, count: int) -> IntArray:
     return np.asarray(edges.min(axis=-1) * count + edges.max(axis=-1))
-
-
-def _unit(normals: FloatArray | None) -> FloatArray | None:
-    if normals is None:
-        return None
-    length = np.linalg.norm(normals, axis=-1, keepdims=True)
-    return np.asarray(normals / np.where(length > 0.0, length, 1.0))

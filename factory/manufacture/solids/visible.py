@@ -10,7 +10,7 @@ from ...articulation import Articulation
 from ...geometry.colors import linear_of
 from ...geometry.rows import distinct_rows
 from ...geometry.triangles import areas_of
-from ...mesh import BoolArray, FloatArray, IntArray, Material, Mesh
+from ...mesh import BoolArray, FloatArray, IntArray, Material, Mesh, unit_rows
 from ..decompose.outside import outside
 from .boards import SHELF_M, WALL_M
 from .panel import FlatPanel
@@ -175,10 +175,8 @@ def _welded(
 ) -> Mesh:
     points = np.round(corners.reshape(-1, 3), 7)
     first, index = distinct_rows(points)
-    if normals is not None:
-        length = np.linalg.norm(normals, axis=2, keepdims=True)
-        normals = normals / np.where(length > 0.0, length, 1.0)
-    return Mesh(points[first], index.reshape(-1, 3), uv, normals, material, materials)
+    unit = None if normals is None else unit_rows(normals)
+    return Mesh(points[first], index.reshape(-1, 3), uv, unit, material, materials)
 
 
 def _material(work: Workpiece, part: int, lined: bool, materials: list[Material]) -> int:
