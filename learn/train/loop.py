@@ -250,7 +250,7 @@ def _prepare(
         if held is None:
             wanted = "wait for it, or name another folder"
             raise ConfigError(f"{output}: another process is training there; {wanted}")
-        stack.callback(held.release)
+        stack.callback(held.close)
         for left in output.glob(".writing-*"):
             left.unlink()
     group.wait()

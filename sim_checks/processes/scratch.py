@@ -31,7 +31,7 @@ def held_folder(parent: Path, prefix: str = "") -> tuple[Path, int]:
 
 
 def hold(path: Path, descriptor: int) -> bool:
-    """Lock what was just made; close it and return False where somebody took it for abandoned.
+    """Lock a file or folder just made; return False, and close it, where somebody took it.
 
     That is who came between making and locking. Where there are no locks, nobody takes anything.
     """

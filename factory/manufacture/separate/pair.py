@@ -25,7 +25,7 @@ from .clip import SHEET_M
 from .hung import at_an_edge, reach_m, stands_out_m, trimmed_limit, well_hung
 from .overlap import overlap_m, part_solid
 
-#: What is cut off by less is all there: points that are bared by it are not looked at [m].
+#: Less cut off counts as nothing: points that it bares are not looked at [m].
 SHAVED_M = 1e-4
 #: Hulls that get so much deeper along a joint are in each other's way, however fat they are [m].
 HOPELESS_M = 0.06
