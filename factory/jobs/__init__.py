@@ -28,27 +28,15 @@ def executor_for(
         name: ``local``, or ``ray``.
         workers: ``None``: as many as this machine, or the cluster, has room for.
         address: of a Ray cluster, see :class:`~.ray.executor.RayExecutor`.
-        exchange: fsspec's URL through which bundles come back; inputs and checkpoints are sent to
-            nodes then. It is empty if the registry's folder and the inputs lie where all nodes see
-            them, which also lets them share a cache.
+        exchange: see :func:`~.ray.builds.ray_executor`.
     """
     if name == "local" or address == "local":
         workers = workers_for(workers, BUILD_BYTES)
-    if name == "local":
-        return LocalExecutor(workers or 1, config.retries)
-    # Ray, and the geometry libraries, load only to build on a cluster.
-    from ..articulate.catalog import entry_of
-    from .job import modules_for
-    from .ray.executor import RayExecutor
+    if name == "ray":
+        from .ray.builds import ray_executor
 
-    return RayExecutor(
-        workers=workers,
-        address=address,
-        retries=config.retries,
-        modules=modules_for(config),
-        exchange=exchange,
-        network=config.particulate if entry_of(config.articulator).asks_network else None,
-    )
+        return ray_executor(config, workers=workers, address=address, exchange=exchange)
+    return LocalExecutor(workers or 1, config.retries)
 
 
 def run_builds(

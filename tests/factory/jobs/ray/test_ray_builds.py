@@ -7,8 +7,9 @@ from input_files import write_inputs
 from registry_samples import require_same
 
 from asset_factory.factory.config import BuildConfig
-from asset_factory.factory.jobs import LocalExecutor, executor_for
+from asset_factory.factory.jobs import LocalExecutor
 from asset_factory.factory.jobs.job import Job
+from asset_factory.factory.jobs.ray.builds import ray_executor
 
 pytestmark = [
     pytest.mark.full,
@@ -37,7 +38,7 @@ def test_a_registry_built_on_ray_is_the_one_built_locally(inputs, local, tmp_pat
     between = tmp_path / "between"
     between.mkdir()
     url = "" if through == "folder" else between.as_uri()
-    executor = executor_for(CONFIG, "ray", 1, "local", url)
+    executor = ray_executor(CONFIG, workers=1, exchange=url)
     output = tmp_path / "out"
     results = list(Job(inputs, output, CONFIG, executor).run())
     assert sorted(Path(result.input).name for result in results) == [path.name for path in inputs]
