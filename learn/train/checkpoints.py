@@ -58,7 +58,10 @@ def read_state(path: Path) -> State:
         stored = torch.load(path, map_location="cpu", weights_only=True)
         if (found := stored["format"]) != _FORMAT:
             raise ConfigError(f"{path}: a checkpoint of format {found}, want {_FORMAT}")
-        return State(**{each.name: stored[each.name] for each in fields(State)})
+        if (best := stored["best"]) is not None:
+            stored["best"] = float(best[0]), int(best[1])
+        numbers = {"step": int(stored["step"]), "seconds": float(stored["seconds"])}
+        return State(**{each.name: stored[each.name] for each in fields(State)} | numbers)
     except FileNotFoundError as error:
         raise ConfigError(f"{path}: no such file; there is no run to go on with") from error
     except ConfigError:

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from unittest.mock import Mock
 
 import numpy as np
@@ -25,7 +26,7 @@ from asset_factory.factory.models.weights.checkpoint import open_checkpoint
 from asset_factory.learn.commands.train import Train, train
 from asset_factory.learn.train import loop
 from asset_factory.learn.train import trainer as training
-from asset_factory.learn.train.checkpoints import fill, read_state, read_weights
+from asset_factory.learn.train.checkpoints import State, fill, read_state, read_weights, write_state
 from asset_factory.learn.train.curves import read_curve
 from asset_factory.learn.train.matching import match
 from asset_factory.learn.train.recipes import load_train_config, parse_train_config
@@ -161,6 +162,14 @@ def test_without_an_output_the_recipe_is_printed_to_edit(capsys):
 
 def test_damaged_checkpoints_are_refused(tmp_path):
     (tmp_path / "last.pt").write_bytes(b"PK nothing")
+    with pytest.raises(ConfigError, match="not a checkpoint"):
+        read_state(tmp_path / "last.pt")
+
+
+@pytest.mark.parametrize("odd", [{"step": "none"}, {"seconds": None}, {"best": (0.5, "none")}])
+def test_checkpoints_whose_numbers_are_none_are_refused(tmp_path, odd):
+    state = State(3, {}, {}, {}, None, "data", 1.0)
+    write_state(tmp_path / "last.pt", replace(state, **odd))
     with pytest.raises(ConfigError, match="not a checkpoint"):
         read_state(tmp_path / "last.pt")
 
